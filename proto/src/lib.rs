@@ -49,7 +49,9 @@ pub use espalier_reading::NotAllowed;
 pub use frame::{ChunkChange, Column, Frame, FrameError, Rows, Values};
 pub use ghost::GhostFrame;
 pub use mesh::{Mesh, MeshError};
-pub use obstacle::{Obstacle, PlacedObstacle, PlacedShape, Pose, Shape, SimpleShape};
+pub use obstacle::{
+    MeshSize, Obstacle, PlacedObstacle, PlacedShape, Pose, Shape, SimpleShape, UploadedObstacle,
+};
 pub use place::{BoxSize, Direction, DrawingPlane, PlanePoint, Position, UnitRotation};
 pub use problem::{Problem, ProblemCode};
 pub use programme::{ParameterName, Programme, Slug, Stage};

@@ -148,3 +148,37 @@ pub struct PlacedObstacle {
     /// Where it stands.
     pub pose: Pose,
 }
+
+/// How large a mesh is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct MeshSize {
+    /// Different places of corners.
+    pub vertices: u32,
+    /// Triangles.
+    pub triangles: u32,
+}
+
+/// An obstacle that a file has become (`OB6`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct UploadedObstacle {
+    /// Names it; never used again for another one of the same session.
+    pub id: u32,
+    /// What it is.
+    pub shape: PlacedShape,
+    /// Where it stands.
+    pub pose: Pose,
+    /// How much the file has, where the obstacle has less.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub simplified_from: Option<MeshSize>,
+}
+
+impl UploadedObstacle {
+    /// An obstacle, and what it was simplified from.
+    pub fn new(placed: PlacedObstacle, simplified_from: Option<MeshSize>) -> Self {
+        let PlacedObstacle { id, shape, pose } = placed;
+        Self { id, shape, pose, simplified_from }
+    }
+}

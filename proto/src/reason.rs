@@ -38,6 +38,8 @@ reasons! {
         FileCutOff,
         /// No tree can be made of a file; `cause` says why. The code is that of the cause.
         NotATreeFile,
+        /// A file is neither glTF nor OBJ; `cause` says what it is.
+        NotModel,
         /// A file is not glTF.
         NotGltf,
         /// A file is glTF of another version, `cause`.
@@ -48,6 +50,8 @@ reasons! {
         GltfNeeds,
         /// A glTF file contradicts itself.
         GltfDamaged,
+        /// A line of an OBJ file is none; `cause` says why.
+        ObjDamaged,
         /// A thumbnail is not a picture.
         ThumbnailKind,
     }
@@ -64,7 +68,7 @@ reasons! {
         NoSurface,
         /// No triangle of a mesh has an area.
         EmptyMesh,
-        /// A mesh has more triangles or vertices than a mesh may have.
+        /// A mesh has more triangles or vertices than a mesh may have, or a file more triangles than are read.
         LargeMesh,
         /// A name or note is too short or too long.
         TextLength,

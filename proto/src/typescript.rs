@@ -43,7 +43,7 @@ pub fn declarations() -> String {
     constant("MAX_OBSTACLES", version::MAX_OBSTACLES.to_string());
     constant("MAX_MESH_VERTICES", version::MAX_MESH_VERTICES.to_string());
     constant("MAX_MESH_TRIANGLES", version::MAX_MESH_TRIANGLES.to_string());
-    constant("MAX_GLB_BYTES", version::MAX_GLB_BYTES.to_string());
+    constant("MAX_MODEL_BYTES", version::MAX_MODEL_BYTES.to_string());
     constant("MAX_WOOD_BYTES", version::MAX_WOOD_BYTES.to_string());
     constant("MAX_TAGS", version::MAX_TAGS.to_string());
     constant("IMPORT_ENDINGS", format!("{:?} as const", library::IMPORT_ENDINGS));
@@ -92,6 +92,8 @@ pub fn declarations() -> String {
         obstacle::Obstacle::decl(&config),
         obstacle::PlacedShape::decl(&config),
         obstacle::PlacedObstacle::decl(&config),
+        obstacle::MeshSize::decl(&config),
+        obstacle::UploadedObstacle::decl(&config),
         LeafKind::decl(&config),
         settings::Change::decl(&config),
         settings::Course::decl(&config),

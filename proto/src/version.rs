@@ -66,8 +66,11 @@ pub const MAX_MESH_VERTICES: usize = 65_536;
 /// The most triangles of one mesh (`LM6`).
 pub const MAX_MESH_TRIANGLES: usize = 131_072;
 
-/// The largest glTF file that can be posted as an obstacle, in bytes (`LM6`).
-pub const MAX_GLB_BYTES: usize = 16 * 1024 * 1024;
+/// The largest file that can be posted as an obstacle, in bytes (`LM6`).
+pub const MAX_MODEL_BYTES: usize = 256 * 1024 * 1024;
+
+/// The most triangles of a file that is posted as an obstacle; it is simplified to what one mesh may have (`LM6`).
+pub const MAX_MODEL_TRIANGLES: usize = 6_000_000;
 
 /// The largest file that can be posted to become a tree, in bytes (`LM14`).
 pub const MAX_WOOD_BYTES: usize = 64 * 1024 * 1024;

@@ -35,6 +35,7 @@ import { Toolbox } from "./tools/toolbox";
 import { WidthList } from "./tools/width/width-list";
 import { FirstView } from "./view/first-view";
 import { Stage } from "./view/stage";
+import { countText } from "./words/measure-text";
 import { say } from "./words/say";
 
 /** The side of the pictures of trees that were not saved, in pixels. */
@@ -113,6 +114,8 @@ export class Studio {
     ahead: () => this.#ahead(),
     clock: browserClock,
     session: () => this.link.session.peek(),
+    simplified: (before, after) =>
+      this.toasts.show(say("scene.simplified", { before: countText(before), after: countText(after) })),
     failed: (error) => void this.#explain(error),
   });
   readonly unsaved = new UnsavedTrees({

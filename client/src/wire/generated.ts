@@ -24,7 +24,7 @@ export const MAX_FUTURES = 64;
 export const MAX_OBSTACLES = 64;
 export const MAX_MESH_VERTICES = 65536;
 export const MAX_MESH_TRIANGLES = 131072;
-export const MAX_GLB_BYTES = 16777216;
+export const MAX_MODEL_BYTES = 268435456;
 export const MAX_WOOD_BYTES = 67108864;
 export const MAX_TAGS = 32;
 export const IMPORT_ENDINGS = ["espalier", "mtg", "csv", "json"] as const;
@@ -678,6 +678,34 @@ shape: PlacedShape,
  * Where it stands.
  */
 pose: Pose, };
+
+export type MeshSize = { 
+/**
+ * Different places of corners.
+ */
+vertices: number, 
+/**
+ * Triangles.
+ */
+triangles: number, };
+
+export type UploadedObstacle = { 
+/**
+ * Names it; never used again for another one of the same session.
+ */
+id: number, 
+/**
+ * What it is.
+ */
+shape: PlacedShape, 
+/**
+ * Where it stands.
+ */
+pose: Pose, 
+/**
+ * How much the file has, where the obstacle has less.
+ */
+simplified_from?: MeshSize, };
 
 export type LeafKind = "ovate" | "round" | "lanceolate" | "lobed" | "palmate" | "fan" | "compound" | "needle" | "scale";
 
@@ -1399,7 +1427,7 @@ appearance: Appearance, };
 
 export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "stale" | "unavailable";
 
-export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
+export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
 
 export type Problem = { 
 /**

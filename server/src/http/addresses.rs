@@ -1,6 +1,6 @@
 //! The addresses of the API: what is asked for at each, how it is answered, and what its description says.
 
-use std::{borrow::Cow, collections::BTreeMap};
+use std::{borrow::Cow, collections::BTreeMap, time::Duration};
 
 use axum::routing::{MethodRouter, delete, get, patch, post, put};
 use espalier_proto::{
@@ -10,18 +10,19 @@ use espalier_proto::{
         NewSession, RestoreVersion, SaveTree, SaveVersion, SavedTree, SessionCreated, TreeAuthor,
         TreeCollection, TreePage, TreeTag, TreeVersion,
     },
-    obstacle::PlacedObstacle,
+    obstacle::UploadedObstacle,
     schematic::Schematic,
     species::Species,
     thumbnail::MAX_THUMBNAIL_BYTES,
-    version::{KEPT_DAYS, MAX_GLB_BYTES, MAX_WOOD_BYTES},
+    version::{KEPT_DAYS, MAX_MODEL_BYTES, MAX_WOOD_BYTES},
 };
 use espalier_settings::ParameterValues;
 use tower::limit::GlobalConcurrencyLimitLayer;
 
 use super::{
-    Shared, audit, collections, description, description::About, entry, exports, failure::Path, imports,
-    jobs, keys::Shown, links, obstacles, schematic, sessions, species, trees, uploads::uploads, versions,
+    Shared, audit, collections, description, description::About, entry, exports, failure::Path,
+    guard::TIME_LIMIT, imports, jobs, keys::Shown, links, obstacles, schematic, sessions, species, trees,
+    uploads::uploads, versions,
 };
 use crate::{
     access::Action,
@@ -36,8 +37,10 @@ const MAX_SMALL_BODY: usize = 4 * 1024;
 const MAX_SAID_BODY: usize = 32 * 1024;
 /// A thumbnail as base64, with room for the rest of the request.
 const MAX_TREE_BODY: usize = MAX_THUMBNAIL_BYTES.div_ceil(3) * 4 + 8 * 1024;
-/// Obstacles read at once: each holds a file and its triangles.
-const MAX_UPLOADS: usize = 2;
+/// Obstacles read at once: each holds millions of triangles.
+const MAX_UPLOADS: usize = 1;
+/// How long a request may take that brings an obstacle: so that it may be large, and the network slow.
+const UPLOAD_TIME: Duration = Duration::from_mins(10);
 /// Files read at once that become trees: a section of a document may unpack to 2 GB.
 const MAX_IMPORTS: usize = 1;
 /// Exports made at once: each holds a scene of its own.
@@ -58,6 +61,8 @@ pub(super) struct Route {
     pub noted: Option<&'static str>,
     /// Bytes that the body of a request may have.
     pub most_bytes: usize,
+    /// How long a request may take; `None` where it takes as long as it takes.
+    pub time_limit: Option<Duration>,
     /// What becomes of the answer to a request with a key.
     pub shown: Shown,
     pub about: About,
@@ -73,6 +78,12 @@ impl Route {
     /// The body of a request may have so many bytes.
     fn up_to(mut self, most_bytes: usize) -> Self {
         self.most_bytes = most_bytes;
+        self
+    }
+
+    /// A request may take so long.
+    fn within(mut self, time_limit: Duration) -> Self {
+        self.time_limit = Some(time_limit);
         self
     }
 
@@ -100,6 +111,7 @@ fn route(
         answer,
         noted: None,
         most_bytes: MAX_SMALL_BODY,
+        time_limit: Some(TIME_LIMIT),
         shown: Shown::Again,
         about,
     }
@@ -140,7 +152,10 @@ pub(super) fn downloads() -> Vec<Route> {
             .among(row.options)
             .gives_parts(row.media_type);
         let address = format!("GET {path}/tree.{}", row.ending);
-        route(address, action, answer.layer(exports.clone()), about).noted(EXPORT)
+        // Whoever no longer waits closes the connection, and that ends the work.
+        let time_limit = None;
+        let take = route(address, action, answer.layer(exports.clone()), about).noted(EXPORT);
+        Route { time_limit, ..take }
     };
     let of_session = |row| {
         let answer =
@@ -174,7 +189,7 @@ pub(super) fn routes() -> Vec<Route> {
         route("GET /api/v1/sessions/{session}/exports/{ticket}", Action::TakeTree, get(exports::progress), About::new("How far a file is that is being made (EX3).").gives::<ExportProgress>(200)),
         route("POST /api/v1/sessions", Action::EnterSession, post(sessions::create), About::new("Begin a session, or come into the one of a tree: 200 where it is there already (LB3).").takes::<NewSession>().gives::<SessionCreated>(201).gives::<SessionCreated>(200)),
         route("GET /api/v1/sessions/{session}", Action::SeeSession, get(sessions::find), About::new("Whether there is such a session.").gives::<SessionCreated>(200)),
-        route("POST /api/v1/sessions/{session}/obstacles", Action::EditSession, post(obstacles::upload).layer(uploads(MAX_UPLOADS)), About::new("Place a glTF model as an obstacle.").takes_file("model/gltf-binary").gives::<PlacedObstacle>(201)).up_to(MAX_GLB_BYTES),
+        route("POST /api/v1/sessions/{session}/obstacles", Action::EditSession, post(obstacles::upload).layer(uploads(MAX_UPLOADS)), About::new("Place a glTF or OBJ model as an obstacle (OB6).").takes_file("model/gltf-binary").gives::<UploadedObstacle>(201)).up_to(MAX_MODEL_BYTES).within(UPLOAD_TIME),
         route("GET /api/v1/sessions/{session}/obstacles/{obstacle}", Action::SeeObstacle, get(obstacles::mesh), About::new("The mesh of an obstacle (OB5).").gives_parts("application/octet-stream")),
         route("GET /api/v1/species", Action::Look, get(species::list), About::new("All species, in the order of a picker. Picking one is a `set_programme` with its `programme` and a `set_appearance` with the sections of its `appearance` but the background, both with one gesture.").gives::<Vec<Species>>(200)),
         route("GET /api/v1/species/{slug}/picture", Action::Look, get(species::picture).layer(at_once(MAX_PICTURES)), About::new("A tree of that species, with an `ETag`.").gives_parts("image/png")),

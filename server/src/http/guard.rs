@@ -59,8 +59,8 @@ pub(super) async fn headers(mut response: Response) -> Response {
     response
 }
 
-pub(super) async fn time_limit(request: Request, next: Next) -> Response {
-    match tokio::time::timeout(TIME_LIMIT, next.run(request)).await {
+pub(super) async fn within(limit: Duration, request: Request, next: Next) -> Response {
+    match tokio::time::timeout(limit, next.run(request)).await {
         Ok(response) => response,
         Err(_) => Failure::new(Reason::Late, "The request took too long.").into_response(),
     }

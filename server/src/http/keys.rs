@@ -26,7 +26,6 @@ use tokio_util::{sync::CancellationToken, task::TaskTracker};
 use super::{
     Shared,
     failure::{Failure, MostBytes},
-    guard,
 };
 use crate::{
     access::{Caller, SecretHash, hash},
@@ -61,6 +60,8 @@ pub(super) enum Shown {
 pub(super) struct Keyed {
     pub(super) shared: Shared,
     pub(super) shown: Shown,
+    /// How long a request may take.
+    pub(super) time_limit: Duration,
 }
 
 /// Says of a response that it is the answer to an earlier request, so that nothing was done.
@@ -105,7 +106,7 @@ impl Drop for Place {
 
 /// Does a request with a key once. It goes on where whoever asked no longer waits, so that they find its answer.
 pub(super) async fn once(
-    State(Keyed { shared, shown }): State<Keyed>,
+    State(Keyed { shared, shown, time_limit }): State<Keyed>,
     Extension(caller): Extension<Caller>,
     Extension(principal): Extension<Principal>,
     request: Request,
@@ -122,7 +123,7 @@ pub(super) async fn once(
     // From here on it is of no matter whether whoever asked still waits.
     let work = shared.under_way.work.clone();
     let answered = work.spawn(async move {
-        let response = answer(&shared, key, shown, request, next).await;
+        let response = answer(&shared, key, (shown, time_limit), request, next).await;
         drop(place);
         response
     });
@@ -133,9 +134,15 @@ pub(super) async fn once(
 }
 
 /// Does a request, unless one with its key has been done.
-async fn answer(shared: &Shared, key: AnswerKey, shown: Shown, request: Request, next: Next) -> Response {
+async fn answer(
+    shared: &Shared,
+    key: AnswerKey,
+    (shown, time_limit): (Shown, Duration),
+    request: Request,
+    next: Next,
+) -> Response {
     let stop = &shared.under_way.stop;
-    let (request, seen) = watched(request, guard::TIME_LIMIT, stop.clone());
+    let (request, seen) = watched(request, time_limit, stop.clone());
     match found(shared, key).await {
         Err(failure) => failure.into_response(),
         Ok(Some(Answering::UnderWay)) => {

@@ -112,33 +112,34 @@ pub fn router(shared: Shared) -> Router {
         let asked = Asked { shared: shared.clone(), action, noted };
         answer.layer(from_fn_with_state(asked, guard::ask))
     };
-    let keyed = |answer: MethodRouter<Shared>, shown| {
-        let keyed = Keyed { shared: shared.clone(), shown };
+    let keyed = |answer: MethodRouter<Shared>, shown, time_limit| {
+        let keyed = Keyed { shared: shared.clone(), shown, time_limit };
         answer.layer(from_fn_with_state(keyed, keys::once))
     };
     let api = |routes: Vec<Route>| {
         routes.into_iter().fold(Router::new(), |router, route| {
             let takes_keys = route.takes_keys();
-            let Route { address, action, answer, noted, most_bytes, shown, about } = route;
+            let Route { address, action, answer, noted, most_bytes, time_limit, shown, about } = route;
             let answer = match about.asks_nothing() {
                 true => answer.layer(from_fn(failure::without_query)),
                 false => answer,
             };
-            let answer = if takes_keys { keyed(answer, shown) } else { answer };
+            let answer = match time_limit {
+                Some(limit) if takes_keys => keyed(answer, shown, limit),
+                _ => answer,
+            };
             let answer = answer.layer(failure::body_limit(most_bytes));
             let answer = action.map_or(answer.clone(), |action| asked(answer, action, noted));
-            router.route(path_of(&address), answer.layer(from_fn(failure::legible)))
+            let answer = answer.layer(from_fn(failure::legible));
+            router.route(path_of(&address), time_limit.map_or(answer.clone(), |limit| within(limit, answer)))
         })
     };
     let methods_of = methods();
-    let requests = api(routes())
-        .route("/api/{*unknown}", any(failure::unknown_route))
-        .route("/health", get(health))
-        .layer(from_fn(guard::time_limit));
     Router::new()
-        .merge(requests)
-        // Whoever no longer waits closes the connection, and that ends the work.
+        .merge(api(routes()))
         .merge(api(downloads()))
+        .route("/api/{*unknown}", any(failure::unknown_route))
+        .route("/health", within(guard::TIME_LIMIT, get(health)))
         // A socket lasts as long as its drawing, so no time limit holds here. Whoever may not come in is told so by its
         // close, which a page can read.
         .route(path_of(SOCKET), get(sessions::socket))
@@ -158,6 +159,11 @@ pub fn router(shared: Shared) -> Router {
                 .layer(from_fn(origin::same_site)),
         )
         .with_state(shared)
+}
+
+/// An answer for which there is so much time.
+fn within(limit: Duration, answer: MethodRouter<Shared>) -> MethodRouter<Shared> {
+    answer.layer(from_fn(move |request, next| guard::within(limit, request, next)))
 }
 
 /// What the server answers where there is no place for another connection: that, and whether it can serve at all.

@@ -60,10 +60,24 @@ pub(super) fn uploads(at_once: usize) -> Extension<Uploads> {
 #[derive(Debug)]
 pub(super) struct File(pub(super) Bytes, pub(super) Turn);
 
+/// The same, on the disk still, for those who need not have all of it at once.
+#[derive(Debug)]
+pub(super) struct FileOnDisk(pub(super) OnDisk, pub(super) Turn);
+
 /// The right to read a file.
 pub(super) type Turn = OwnedSemaphorePermit;
 
 impl<S: Send + Sync> FromRequest<S> for File {
+    type Rejection = Failure;
+
+    async fn from_request(request: Request, state: &S) -> Result<Self, Failure> {
+        let FileOnDisk(file, turn) = FileOnDisk::from_request(request, state).await?;
+        let bytes = on_disk(move || read(file)).await.map_err(|error| failed(&error))?;
+        Ok(Self(bytes, turn))
+    }
+}
+
+impl<S: Send + Sync> FromRequest<S> for FileOnDisk {
     type Rejection = Failure;
 
     async fn from_request(request: Request, _: &S) -> Result<Self, Failure> {
@@ -76,7 +90,7 @@ impl<S: Send + Sync> FromRequest<S> for File {
 }
 
 impl Uploads {
-    async fn take(self, from: IpAddr, request: Request) -> Result<File, Failure> {
+    async fn take(self, from: IpAddr, request: Request) -> Result<FileOnDisk, Failure> {
         let most = MostBytes::of(&request);
         if most.are_exceeded(request.headers()) {
             return Err(too_large(most));
@@ -87,8 +101,7 @@ impl Uploads {
         drop(place);
         let turn = self.reading.acquire_owned().await;
         let turn = turn.map_err(|error| failed(&io::Error::other(error)))?;
-        let bytes = on_disk(move || read(file)).await.map_err(|error| failed(&error))?;
-        Ok(File(bytes, turn))
+        Ok(FileOnDisk(file, turn))
     }
 
     /// A file on disk, when all of it has come.

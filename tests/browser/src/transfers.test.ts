@@ -127,6 +127,22 @@ describe("a model", () => {
     expect((await tablet.untilQuiet()).obstacles, "and what was given up does not").toBe(1);
   });
 
+  it("OB6: may be an OBJ file, and the page says how many triangles are kept of many", async () => {
+    const { tablet } = await workshop.fresh(SMALL);
+    const { page } = tablet;
+    await tablet.tap("Scene");
+    const side = 300;
+    const places = Array.from({ length: side * side }, (_, i) => `v ${i % side} ${Math.floor(i / side)} 9`);
+    const faces = Array.from({ length: (side - 1) ** 2 }, (_, i) => {
+      const first = Math.floor(i / (side - 1)) * side + (i % (side - 1)) + 1;
+      return `f ${first} ${first + 1} ${first + side + 1} ${first + side}`;
+    });
+    const buffer = Buffer.from([...places, ...faces].join("\n"));
+    await page.locator('input[type="file"]').setInputFiles({ name: "sheet.obj", mimeType: "model/obj", buffer });
+    await page.getByText("The model has 178,802 triangles. It was simplified, and ", { exact: false }).waitFor();
+    await tablet.until("the model comes", ({ obstacles }) => obstacles === 1);
+  });
+
   it("that is none is told of in the language of the page", async () => {
     const { tablet } = await workshop.fresh(SMALL);
     const { page } = tablet;
@@ -136,7 +152,7 @@ describe("a model", () => {
     await tablet.tap("Szene");
     const none = { name: "none.glb", mimeType: "model/gltf-binary", buffer: Buffer.from("this is no model at all") };
     await page.locator('input[type="file"]').setInputFiles(none);
-    await page.getByText("Das ist keine glTF-Datei.", { exact: false }).waitFor();
+    await page.getByText("Das ist weder eine glTF- noch eine OBJ-Datei.", { exact: false }).waitFor();
   });
 });
 

@@ -13,6 +13,7 @@ pub mod journal;
 pub mod mesh;
 pub mod message;
 pub mod mtg;
+pub mod obj;
 pub mod qsm;
 pub mod query;
 pub mod range;
@@ -34,7 +35,7 @@ pub struct Target {
 }
 
 /// All readers.
-pub const TARGETS: [Target; 15] = [
+pub const TARGETS: [Target; 16] = [
     Target { name: "command", read: command::read, seeds: command::seeds },
     Target { name: "document", read: document::read, seeds: document::seeds },
     Target { name: "frame", read: frame::read, seeds: frame::seeds },
@@ -43,6 +44,7 @@ pub const TARGETS: [Target; 15] = [
     Target { name: "mesh", read: mesh::read, seeds: mesh::seeds },
     Target { name: "message", read: message::read, seeds: message::seeds },
     Target { name: "mtg", read: mtg::read, seeds: mtg::seeds },
+    Target { name: "obj", read: obj::read, seeds: obj::seeds },
     Target { name: "qsm", read: qsm::read, seeds: qsm::seeds },
     Target { name: "query", read: query::read, seeds: query::seeds },
     Target { name: "range", read: range::read, seeds: range::seeds },

@@ -188,6 +188,11 @@ fn models_survive_damage() {
 }
 
 #[test]
+fn faces_survive_damage() {
+    check("obj", 10000);
+}
+
+#[test]
 fn journals_survive_damage() {
     check("journal", 600);
 }

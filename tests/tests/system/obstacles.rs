@@ -1,7 +1,14 @@
-use espalier_proto::{PlacedShape, version::MAX_GLB_BYTES};
+use std::fs;
+
+use espalier_proto::{
+    PlacedShape,
+    version::{MAX_MESH_TRIANGLES, MAX_MESH_VERTICES, MAX_MODEL_BYTES},
+};
 use espalier_tests::{
     client::Client,
     http::{self, Answer},
+    program,
+    scratch::Scratch,
     server::Server,
 };
 use serde_json::{Value, json};
@@ -118,6 +125,63 @@ async fn ob1_a_tree_grows_around_an_uploaded_model() {
     assert!(xs().any(|x| x > 1.0) && xs().any(|x| x < -6.0), "it fills the room up to the screen and beyond");
 }
 
+/// An oak as the command line exports it, with options.
+fn oak(scratch: &Scratch, name: &str, options: &[&str]) -> Vec<u8> {
+    let out = scratch.path(name);
+    let path = out.to_str().expect("a plain name");
+    let grow = ["grow", "--species", "oak", "--seed", "4", "--export", path];
+    let grown = program::run(&[&grow[..], options].concat());
+    assert_eq!(grown.code, 0, "{}", grown.stderr);
+    fs::read(out).expect("the file was written")
+}
+
+#[tokio::test]
+async fn ob6_a_large_tree_of_our_own_is_simplified_and_another_one_grows_around_it() {
+    let (mut client, server, scratch) = Client::alone(&[]).await;
+    let session = client.session.clone();
+    let large = oak(&scratch, "large.glb", &[]);
+    assert!(large.len() > 32 << 20, "more than was taken once: {}", large.len());
+    let packed = oak(&scratch, "packed.glb", &["--quantised", "--compressed", "--instanced"]);
+    for (number, file) in [&large, &packed].into_iter().enumerate() {
+        let answer = upload(&server, &session, file);
+        assert_eq!(answer.status, 201, "{}", answer.text());
+        let answer = answer.json();
+        let count = |value: &Value| value.as_u64().expect("a number") as usize;
+        let (shape, from) = (&answer["shape"], &answer["simplified_from"]);
+        assert!((1..=MAX_MESH_VERTICES).contains(&count(&shape["vertices"])), "{answer}");
+        assert!((1..=MAX_MESH_TRIANGLES).contains(&count(&shape["triangles"])), "{answer}");
+        assert!(count(&from["triangles"]) > 4 * MAX_MESH_TRIANGLES, "{answer}");
+        client.until("it is told", |client| client.obstacles.len() == number + 1).await;
+    }
+    // Beside the seedling, its trunk 20 internodes away.
+    for id in 1..=2 {
+        client
+            .send(json!({ "kind": "move_obstacle", "id": id, "pose": at(20.0 * id as f32, 0.0, 0.0) }))
+            .await;
+    }
+    client.send(json!({ "kind": "grow", "steps": 14 })).await;
+    client.until_settled().await;
+    assert!(client.table.rows.len() > 20, "it grows");
+}
+
+#[tokio::test]
+async fn ob6_an_obj_file_becomes_an_obstacle() {
+    let (mut client, server, _scratch) = Client::alone(&[]).await;
+    let session = client.session.clone();
+    let house = "v 0 3 0\nv 1 3 0\nv 1 4 0\nv 0 4 0\nf 1 2 3 4\n";
+    let answer = upload(&server, &session, house.as_bytes());
+    assert_eq!(answer.status, 201, "{}", answer.text());
+    assert_eq!(answer.json().get("simplified_from"), None);
+    client.until("it is told", |client| client.obstacles.len() == 1).await;
+    assert_eq!(client.obstacles[0].shape, PlacedShape::Mesh { vertices: 4, triangles: 2, scale: 10.0 });
+    let answer = upload(&server, &session, b"v 0 3 0\nv 1 3 0\nf 1 2 3\n");
+    let problem = answer.json();
+    assert_eq!(
+        (answer.status, &problem["reason"], &problem["field"]),
+        (400, &json!("obj-damaged"), &json!("line 3"))
+    );
+}
+
 #[tokio::test]
 async fn ob6_what_is_no_mesh_is_refused_in_words() {
     let (mut client, server, _scratch) = Client::alone(&[]).await;
@@ -130,7 +194,7 @@ async fn ob6_what_is_no_mesh_is_refused_in_words() {
         let message = answer.json()["message"].as_str().expect("a problem has a sentence").to_owned();
         assert!(message.contains(words), "{message}");
     }
-    assert_eq!(upload(&server, &session, &vec![0; MAX_GLB_BYTES + 1]).status, 413);
+    assert_eq!(upload(&server, &session, &vec![0; MAX_MODEL_BYTES + 1]).status, 413);
     assert_eq!(upload(&server, "nowhere", &model(TRIANGLE)).status, 404);
     let path = format!("/api/v1/sessions/{session}/obstacles/one");
     assert_eq!(http::get(server.port(), &path).expect("the server answers").status, 400);

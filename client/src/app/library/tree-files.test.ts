@@ -12,7 +12,7 @@ function library() {
   const gates: (() => void)[] = [];
   const files = new TreeFiles(async (path, { body }, stop, tell) => {
     sent.push(path);
-    tell?.({ bytes: 1, total: body.byteLength });
+    tell?.({ bytes: 1, total: (body as Uint8Array).byteLength });
     if (path.includes("slow")) {
       await new Promise<void>((go) => gates.push(go));
       stop?.throwIfAborted();

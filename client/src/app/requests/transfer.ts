@@ -74,7 +74,7 @@ export async function bytesOf(response: Response, tell: (progress: Progress) => 
 /** Posts bytes and reports how many are sent, which `fetch` cannot; gives the answer's JSON. */
 export function send(
   path: string,
-  { type, body }: { readonly type: string; readonly body: Uint8Array<ArrayBuffer> },
+  { type, body }: { readonly type: string; readonly body: Uint8Array<ArrayBuffer> | Blob },
   stop?: AbortSignal,
   tell?: (progress: Progress) => void,
 ): Promise<unknown> {
@@ -85,7 +85,8 @@ export function send(
       request.setRequestHeader(name, value);
     }
     request.responseType = "json";
-    request.upload.onprogress = ({ loaded }) => tell?.({ bytes: loaded, total: body.byteLength });
+    request.upload.onprogress = ({ loaded }) =>
+      tell?.({ bytes: loaded, total: body instanceof Blob ? body.size : body.byteLength });
     request.onload = () =>
       request.status >= 200 && request.status < 300
         ? resolve(request.response)

@@ -52,6 +52,7 @@ function setUp(table = new TreeTable()) {
     ahead: () => ({ step: 0, pending: 0 }),
     clock: new Virtual(),
     session: () => null,
+    simplified: () => {},
     failed: () => {},
   });
   obstacles.receive([{ id: 1, shape: { kind: "sphere", radius: 2 }, pose: { position: [80, 0, 0] } }]);

@@ -196,10 +196,13 @@ export const HELP = {
   ],
   "help.topic.import": ["Import a model", "Modell laden"],
   "help.topic.import.text": [
-    "In the panel Scene: a glTF file becomes an obstacle to grow around; it can be cancelled on the way",
-    "In der Tafel Szene: Eine glTF-Datei wird zum Hindernis, um das es wächst; unterwegs lässt es sich abbrechen",
+    "In the panel Scene: a glTF or OBJ file becomes an obstacle to grow around; it can be cancelled on the way",
+    "In der Tafel Szene: Eine glTF- oder OBJ-Datei wird zum Hindernis, um das es wächst; unterwegs lässt es sich abbrechen",
   ],
-  "help.topic.import.words": ["upload file glb gltf obstacle", "importieren hochladen Datei glb gltf Hindernis"],
+  "help.topic.import.words": [
+    "upload file glb gltf obj obstacle",
+    "importieren hochladen Datei glb gltf obj Hindernis",
+  ],
   "help.topic.new": ["New tree", "Neuer Baum"],
   "help.topic.new.text": [
     "Plants a seed in a scene of its own; asks first where a tree that is not saved should stay",

@@ -14,6 +14,10 @@ export const REFUSALS = {
     "Die Datei ist nicht ganz angekommen; versuche es noch einmal.",
   ],
   "problems.not-a-tree-file": ["It cannot become a tree: {cause}.", "Daraus wird kein Baum: {cause}."],
+  "problems.not-model": [
+    "This is neither a glTF nor an OBJ file. Export the model as .glb or .obj.",
+    "Das ist weder eine glTF- noch eine OBJ-Datei. Exportiere das Modell als .glb oder .obj.",
+  ],
   "problems.not-gltf": [
     "This is no glTF file. Export the model as .glb.",
     "Das ist keine glTF-Datei. Exportiere das Modell als .glb.",
@@ -33,6 +37,10 @@ export const REFUSALS = {
   "problems.gltf-damaged": [
     "The file is damaged and cannot be an obstacle.",
     "Die Datei ist beschädigt und kann kein Hindernis werden.",
+  ],
+  "problems.obj-damaged": [
+    "The OBJ file cannot be read ({cause}). Export it again.",
+    "Die OBJ-Datei lässt sich nicht lesen ({cause}). Exportiere sie noch einmal.",
   ],
   "problems.thumbnail-kind": [
     "The picture for the library could not be taken; try again.",
@@ -54,8 +62,8 @@ export const REFUSALS = {
     "Das Modell hat keine Oberfläche: Kein Dreieck darin hat eine Fläche.",
   ],
   "problems.large-mesh": [
-    "The model has too many triangles or corners. Simplify it first.",
-    "Das Modell hat zu viele Dreiecke oder Ecken. Vereinfache es zuerst.",
+    "The model has too many triangles to be read. Simplify it first.",
+    "Das Modell hat zu viele Dreiecke, um gelesen zu werden. Vereinfache es zuerst.",
   ],
   "problems.text-length": [
     "Allowed there: {least} to {most} characters.",

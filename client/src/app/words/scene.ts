@@ -5,7 +5,7 @@ export const SCENE = {
   "scene.wall": ["Wall", "Mauer"],
   "scene.plane": ["Plane", "Ebene"],
   "scene.model": ["Model", "Modell"],
-  "scene.model.title": ["A .glb or .gltf file", "Eine .glb- oder .gltf-Datei"],
+  "scene.model.title": ["A .glb, .gltf or .obj file", "Eine .glb-, .gltf- oder .obj-Datei"],
   "scene.seed": ["Seed", "Samen"],
   "scene.advice": [
     "Trees grow around what stands here, and in its shade. Drag it where it should stand.",
@@ -50,8 +50,8 @@ export const SCENE = {
   "scene.depth": ["Depth", "Tiefe"],
   "scene.depth.help": ["From its front to its back, in internodes", "Von vorn nach hinten, in Internodien"],
   "scene.no-file": [
-    "Choose a .glb, or a .gltf together with its .bin files.",
-    "Wähle eine .glb-Datei oder eine .gltf-Datei zusammen mit ihren .bin-Dateien.",
+    "Choose a .glb, an .obj, or a .gltf together with its .bin files.",
+    "Wähle eine .glb-Datei, eine .obj-Datei oder eine .gltf-Datei zusammen mit ihren .bin-Dateien.",
   ],
   "scene.no-gltf": ["{name} is no glTF file.", "{name} ist keine glTF-Datei."],
   "scene.no-place": [
@@ -66,6 +66,10 @@ export const SCENE = {
 
 /** What is wrong with a mesh that the server sends, or with a model for it. */
 export const MESHES = {
+  "scene.simplified": [
+    "The model has {before} triangles. It was simplified, and {after} of them are kept.",
+    "Das Modell hat {before} Dreiecke. Es wurde vereinfacht; {after} davon bleiben.",
+  ],
   "scene.too-large": [
     "This model is too large; {limit} MiB is the most.",
     "Dieses Modell ist zu groß; höchstens {limit} MiB sind möglich.",

@@ -27,27 +27,32 @@ fn refused() -> Vec<Refused> {
         file.as_object_mut().unwrap().append(&mut rest.as_object().unwrap().clone());
         file.to_string().into_bytes()
     };
-    let triangles = |count: usize| {
-        let corners = 3 * count;
-        let uri = format!("data:application/octet-stream;base64,{}", "A".repeat(corners * 16));
+    // A file that says it has so many triangles, of which it has none.
+    let announced = |triangles: usize| {
         gltf(json!({
             "scenes": [{ "nodes": [0] }],
             "nodes": [{ "mesh": 0 }],
             "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
-            "accessors": [{ "bufferView": 0, "componentType": 5126, "type": "VEC3", "count": corners }],
-            "bufferViews": [{ "buffer": 0, "byteLength": corners * 12 }],
-            "buffers": [{ "uri": uri, "byteLength": corners * 12 }],
+            "accessors": [{ "bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3 * triangles }],
+            "bufferViews": [{ "buffer": 0, "byteLength": 36 * triangles }],
+            "buffers": [{ "uri": "data:application/octet-stream;base64,", "byteLength": 0 }],
         }))
     };
     let sound = "glTF 2.0 as .glb, or as .gltf with its buffers inside";
+    let model = "glTF 2.0 as .glb, or as .gltf with its buffers inside, or .obj";
     let obstacle = |file, reason, allowed| (OBSTACLES, file, reason, "body", allowed);
     let tree = |address, file: &str, field, allowed| {
         (address, file.as_bytes().to_vec(), "not-a-tree-file", field, allowed)
     };
     let later = "a document that this version of Espalier reads";
     vec![
-        obstacle(b"a garden gnome".into(), "not-gltf", sound),
-        obstacle(Vec::new(), "not-gltf", sound),
+        obstacle(b"a garden gnome".into(), "not-model", model),
+        obstacle(Vec::new(), "not-model", model),
+        obstacle(b"PK\x03\x04".into(), "not-model", model),
+        obstacle(b"{".into(), "not-gltf", sound),
+        (OBSTACLES, b"v 0 0 0\nv 1 0 NaN".into(), "obj-damaged", "line 2", "finite numbers"),
+        (OBSTACLES, b"v 0 0 0\nf 1 2 3".into(), "obj-damaged", "line 2", "1 to 1, or -1 to -1"),
+        obstacle(b"v 0 0 0\n".into(), "empty-mesh", "at least one triangle"),
         obstacle(br#"{"asset":{"version":"1.0"}}"#.into(), "gltf-version", sound),
         obstacle(b"glTF\x01\0\0\0".into(), "gltf-version", sound),
         obstacle(
@@ -63,7 +68,7 @@ fn refused() -> Vec<Refused> {
             "glTF 2.0 as .glb, or as .gltf with its buffers inside, without the extension KHR_draco_mesh_compression",
         ),
         obstacle(gltf(json!({})), "empty-mesh", "at least one triangle"),
-        obstacle(triangles(131_073), "large-mesh", "up to 131072 triangles and 65536 vertices"),
+        obstacle(announced(6_000_001), "large-mesh", "up to 6000000 triangles"),
         tree(QSM, "", "line 1", "cylinders of a QSM (.csv)"),
         tree(QSM, "a,b\n1,2\n", "line 1", "cylinders of a QSM (.csv)"),
         tree(QSM, &SCAN.replace("0.02,0.5", "-0.02,0.5"), "line 3, column 10", "more than 0"),

@@ -1,8 +1,9 @@
 import type { TriangleMesh } from "../../../scene/obstacle-meshes";
-import { MAX_GLB_BYTES, MAX_MESH_TRIANGLES, MAX_MESH_VERTICES, type PlacedObstacle } from "../../../wire/generated";
+import { MAX_MESH_TRIANGLES, MAX_MESH_VERTICES, MAX_MODEL_BYTES, type UploadedObstacle } from "../../../wire/generated";
 import { askFor } from "../../requests/request";
 import { type Progress, send } from "../../requests/transfer";
 import { say } from "../../words/say";
+import type { ModelFile } from "./model-file";
 
 /** Reads a mesh as it travels (`OB4`). */
 export function readMesh(bytes: ArrayBuffer): TriangleMesh {
@@ -27,18 +28,17 @@ export async function fetchMesh(session: string, id: number): Promise<TriangleMe
   return readMesh(await response.arrayBuffer());
 }
 
-/** Places a glTF binary in the scene (`OB6`). */
+/** Places a model in the scene (`OB6`). */
 export async function uploadModel(
   session: string,
-  glb: Uint8Array<ArrayBuffer>,
+  model: ModelFile,
   signal?: AbortSignal,
   tell?: (progress: Progress) => void,
-): Promise<PlacedObstacle> {
-  if (glb.byteLength > MAX_GLB_BYTES) {
-    throw new Error(say("scene.too-large", { limit: MAX_GLB_BYTES / 1024 / 1024 }));
+): Promise<UploadedObstacle> {
+  if (model.body.size > MAX_MODEL_BYTES) {
+    throw new Error(say("scene.too-large", { limit: MAX_MODEL_BYTES / 1024 / 1024 }));
   }
-  const sent = { type: "model/gltf-binary", body: glb };
-  return (await send(addressOf(session), sent, signal, tell)) as PlacedObstacle;
+  return (await send(addressOf(session), model, signal, tell)) as UploadedObstacle;
 }
 
 function addressOf(session: string): string {

@@ -1,13 +1,19 @@
 import { describe, expect, it } from "vitest";
 import { Virtual } from "../../../../test/virtual-clock";
-import type { Command, PlacedObstacle } from "../../../wire/generated";
+import type { Command, PlacedObstacle, UploadedObstacle } from "../../../wire/generated";
 import { ObstacleList, UndoGroup } from "./obstacle-list";
 
 const mesh = { positions: new Float32Array(9), triangles: new Uint32Array(3) };
 
 function setUp() {
   const sent: Command[] = [];
-  const world = { fetched: [] as number[], failures: [] as unknown[], fail: false };
+  const world = {
+    fetched: [] as number[],
+    failures: [] as unknown[],
+    simplified: [] as number[][],
+    fail: false,
+    file: {} as Partial<UploadedObstacle>,
+  };
   const clock = new Virtual();
   const list = new ObstacleList({
     submit: (command) => sent.push(command),
@@ -20,7 +26,8 @@ function setUp() {
       if (world.fail) throw new Error("gone");
       return mesh;
     },
-    uploadModel: async () => model(9),
+    uploadModel: async () => ({ ...model(9), ...world.file }),
+    simplified: (...counts) => world.simplified.push(counts),
     failed: (error) => world.failures.push(error),
   });
   return { list, sent, world, clock };
@@ -178,11 +185,20 @@ describe("obstacle list", () => {
 
   it("an imported model is chosen, a broken one is reported", async () => {
     const { list, world } = setUp();
-    await list.import(Promise.resolve([{ name: "a.glb", bytes: new Uint8Array(4) }]));
+    await list.import([new File([], "a.glb")]);
     expect([list.chosen.value, list.transfer.progress.value]).toEqual([9, null]);
-    await list.import(Promise.resolve([{ name: "a.obj", bytes: new Uint8Array(4) }]));
+    await list.import([new File([], "a.stl")]);
     expect([world.failures.length, list.transfer.progress.value]).toEqual([1, null]);
-    await list.import(Promise.reject(new Error("the file is gone")));
+    const gone = Object.assign(new File([], "a.gltf"), { arrayBuffer: () => Promise.reject(new Error("it is gone")) });
+    await list.import([gone]);
     expect(world.failures.length, "a file that cannot be read as well").toBe(2);
+    expect(world.simplified).toEqual([]);
+  });
+
+  it("OB6: says of an imported model that it was simplified", async () => {
+    const { list, world } = setUp();
+    world.file = { simplified_from: { vertices: 8000, triangles: 9000 } };
+    await list.import([new File([], "a.obj")]);
+    expect(world.simplified).toEqual([[9000, 1]]);
   });
 });

@@ -4,7 +4,6 @@ import type { Command, PlacedObstacle, PlacedShape, Pose, Shape } from "../../..
 import type { Clock } from "../../page/clock";
 import { Transfer } from "../../requests/transfer";
 import { alike, Draft, type GrowthAhead } from "../draft";
-import type { NamedBytes } from "./glb";
 import { fetchMesh, uploadModel } from "./obstacle-api";
 
 export interface ObstacleListOptions {
@@ -18,6 +17,8 @@ export interface ObstacleListOptions {
   readonly session: () => string | null;
   readonly fetchMesh?: typeof fetchMesh;
   readonly uploadModel?: typeof uploadModel;
+  /** A model had so many triangles, and fewer are kept. */
+  readonly simplified: (before: number, after: number) => void;
   /** Something could not be fetched or taken in. */
   readonly failed: (error: unknown) => void;
 }
@@ -165,18 +166,21 @@ export class ObstacleList {
     this.#awaited = this.#awaited.filter((awaited) => awaited !== command);
   }
 
-  async import(files: Promise<readonly NamedBytes[]>): Promise<void> {
+  async import(files: readonly File[]): Promise<void> {
     const session = this.#options.session();
     if (session === null) {
       return;
     }
     try {
       const send = this.#options.uploadModel ?? uploadModel;
-      const [{ packedModel }, read] = await Promise.all([import("./glb"), files]);
-      const model = packedModel(read);
+      const { modelFile } = await import("./model-file");
+      const model = await modelFile(files);
       const placed = await this.transfer.run((signal, tell) => send(session, model, signal, tell));
       if (placed && this.#options.session() === session) {
         this.chosen.value = placed.id;
+        if (placed.simplified_from && placed.shape.kind === "mesh") {
+          this.#options.simplified(placed.simplified_from.triangles, placed.shape.triangles);
+        }
       }
     } catch (error) {
       this.#options.failed(error);

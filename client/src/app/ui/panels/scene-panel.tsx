@@ -84,16 +84,12 @@ export function ScenePanel({ studio }: { studio: Studio }) {
   );
 }
 
-/** Lets a model be chosen: one .glb, or a .gltf with its buffers. */
+/** Lets a model be chosen: one .glb or .obj, or a .gltf with its buffers. */
 function ModelButton({ studio, disabled }: { studio: Studio; disabled: boolean }) {
   const input = useRef<HTMLInputElement>(null);
-  const take = async (files: FileList | null) => {
-    const named = [...(files ?? [])].map(async (file) => ({
-      name: file.name,
-      bytes: new Uint8Array(await file.arrayBuffer()),
-    }));
-    if (named.length > 0) {
-      await studio.obstacles.import(Promise.all(named));
+  const take = async (files: readonly File[]) => {
+    if (files.length > 0) {
+      await studio.obstacles.import(files);
     }
     if (input.current) {
       // The same file can then be chosen again.
@@ -111,8 +107,8 @@ function ModelButton({ studio, disabled }: { studio: Studio; disabled: boolean }
         hidden
         type="file"
         multiple
-        accept=".glb,.gltf,.bin,model/gltf-binary,model/gltf+json"
-        onChange={(event) => void take(event.currentTarget.files)}
+        accept=".glb,.gltf,.bin,.obj,.zip,model/gltf-binary,model/gltf+json,model/obj"
+        onChange={(event) => void take([...(event.currentTarget.files ?? [])])}
       />
     </>
   );

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { packedModel } from "./glb";
+import { modelFile } from "./model-file";
 
 const text = (json: unknown) => new TextEncoder().encode(JSON.stringify(json));
 const base64 = (bytes: readonly number[]) => btoa(String.fromCharCode(...bytes));
@@ -22,13 +22,17 @@ function unpacked(glb: Uint8Array) {
   return { json: JSON.parse(new TextDecoder().decode(chunks.get(0x4e4f534a))), binary: chunks.get(0x004e4942) };
 }
 
-describe("packed model", () => {
-  it("a .glb goes as it is", () => {
-    const bytes = new Uint8Array([1, 2, 3]);
-    expect(packedModel([{ name: "Wall.GLB", bytes }])).toBe(bytes);
+const file = (name: string, bytes: Uint8Array<ArrayBuffer> = new Uint8Array()) => new File([bytes], name);
+
+describe("model file", () => {
+  it("a .glb or .obj goes as it is, unread", async () => {
+    const glb = file("Wall.GLB");
+    expect(await modelFile([file("wall.bin"), glb])).toEqual({ type: "model/gltf-binary", body: glb });
+    const obj = file("oak.obj");
+    expect((await modelFile([file("oak.mtl"), obj])).body).toBe(obj);
   });
 
-  it("a .gltf takes its buffers along, inline and beside it", () => {
+  it("a .gltf takes its buffers along, inline and beside it", async () => {
     const gltf = {
       asset: { version: "2.0" },
       buffers: [
@@ -40,12 +44,12 @@ describe("packed model", () => {
         { buffer: 1, byteLength: 3 },
       ],
     };
-    const { json, binary } = unpacked(
-      packedModel([
-        { name: "my wall.bin", bytes: new Uint8Array([7, 8, 9, 99]) },
-        { name: "wall.gltf", bytes: text(gltf) },
-      ]),
-    );
+    const { type, body } = await modelFile([
+      file("my wall.bin", new Uint8Array([7, 8, 9, 99])),
+      file("wall.gltf", text(gltf)),
+    ]);
+    expect(type).toBe("model/gltf-binary");
+    const { json, binary } = unpacked(new Uint8Array(await body.arrayBuffer()));
     const views = json.bufferViews.map(({ buffer, byteOffset, byteLength }: Record<string, number>) => {
       expect(buffer).toBe(0);
       return [...binary!.subarray(byteOffset, byteOffset! + byteLength!)];
@@ -57,10 +61,10 @@ describe("packed model", () => {
     expect(json.buffers).toEqual([{ byteLength: binary!.length }]);
   });
 
-  it("says which file is missing, and what is none of the kind", () => {
+  it("says which file is missing, and what is none of the kind", async () => {
     const lonely = { buffers: [{ byteLength: 4, uri: "far.bin" }] };
-    expect(() => packedModel([{ name: "a.gltf", bytes: text(lonely) }])).toThrow("far.bin");
-    expect(() => packedModel([{ name: "a.gltf", bytes: new Uint8Array([1]) }])).toThrow("a.gltf");
-    expect(() => packedModel([{ name: "a.obj", bytes: new Uint8Array() }])).toThrow(".glb");
+    await expect(modelFile([file("a.gltf", text(lonely))])).rejects.toThrow("far.bin");
+    await expect(modelFile([file("a.gltf", new Uint8Array([1]))])).rejects.toThrow("a.gltf");
+    await expect(modelFile([file("a.stl")])).rejects.toThrow(".obj");
   });
 });

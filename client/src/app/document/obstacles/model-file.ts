@@ -1,10 +1,23 @@
 import { say } from "../../words/say";
 
-/** A file with its name, as chosen on this device. */
-export interface NamedBytes {
+/** A file as it is sent to become an obstacle. */
+export interface ModelFile {
+  readonly type: string;
+  readonly body: Blob;
+}
+
+/** The part of a .gltf, with its name. */
+interface NamedBytes {
   readonly name: string;
   readonly bytes: Uint8Array<ArrayBuffer>;
 }
+
+/** Kinds of files that are sent as they are, unread: they may be large. */
+const WHOLE = [
+  [".glb", "model/gltf-binary"],
+  [".obj", "model/obj"],
+  [".obj.zip", "application/zip"],
+] as const;
 
 interface Gltf {
   buffers?: { uri?: string; byteLength?: number }[];
@@ -16,13 +29,27 @@ const MAGIC = 0x46546c67;
 const JSON_CHUNK = 0x4e4f534a;
 const BINARY_CHUNK = 0x004e4942;
 
-/** One glTF binary from what was chosen: a .glb as it is, or a .gltf with the buffers it names. */
-export function packedModel(files: readonly NamedBytes[]): Uint8Array<ArrayBuffer> {
-  const glb = files.find(({ name }) => name.toLowerCase().endsWith(".glb"));
-  if (glb) {
-    return glb.bytes;
+/** One file from what was chosen: a .glb or .obj as it is, or a .gltf with the buffers it names as a glTF binary. */
+export async function modelFile(files: readonly File[]): Promise<ModelFile> {
+  for (const [ending, type] of WHOLE) {
+    const body = files.find(({ name }) => name.toLowerCase().endsWith(ending));
+    if (body) {
+      return { type, body };
+    }
   }
-  const main = files.find(({ name }) => name.toLowerCase().endsWith(".gltf"));
+  if (!files.some(isGltf)) {
+    throw new Error(say("scene.no-file"));
+  }
+  const named = files.map(async (file) => ({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) }));
+  return { type: "model/gltf-binary", body: new Blob([packed(await Promise.all(named))]) };
+}
+
+function isGltf({ name }: { readonly name: string }): boolean {
+  return name.toLowerCase().endsWith(".gltf");
+}
+
+function packed(files: readonly NamedBytes[]): Uint8Array<ArrayBuffer> {
+  const main = files.find(isGltf);
   if (!main) {
     throw new Error(say("scene.no-file"));
   }
