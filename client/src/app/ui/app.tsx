@@ -6,7 +6,6 @@ import { symmetryNow } from "../tools/symmetry/stroke-copies";
 import { descriptorOf } from "../tools/tools";
 import { say } from "../words/say";
 import { attachWorkspace } from "../workspace";
-import { DrawModeLegend } from "./bars/draw-mode-legend";
 import { RotationStrip } from "./bars/rotation-strip";
 import { ShowAll } from "./bars/show-all";
 import { SideBar } from "./bars/side-bar";
@@ -21,6 +20,7 @@ import type { Part } from "./part";
 import { PartView } from "./part-view";
 import {
   CHIPS,
+  DRAW_MODE_LEGEND,
   FILE_DROP,
   loadPartsWhenIdle,
   NAMES,
@@ -166,6 +166,7 @@ function Bars({ studio }: { studio: Studio }) {
   const TimelineStrip = usePart(studio, TIMELINE, isWorthShowing(studio.time.timeline.value));
   const Chips = usePart(studio, CHIPS, studio.document.value !== null);
   const Slowness = usePart(studio, SLOWNESS, studio.stage.cardless.value || studio.slowness.value !== null, true);
+  const DrawModeLegend = usePart(studio, DRAW_MODE_LEGEND, studio.drawMode.value !== "lit");
   const mayChange = studio.rights.mayChange.value;
   const isFirst = isFirstScreen(studio);
   const RecentTrees = usePart(studio, RECENT, isFirst);
@@ -186,7 +187,7 @@ function Bars({ studio }: { studio: Studio }) {
         {Chips && <Chips studio={studio} />}
         {Slowness && <Slowness studio={studio} />}
       </div>
-      <DrawModeLegend studio={studio} />
+      {DrawModeLegend && <DrawModeLegend studio={studio} />}
     </>
   );
 }

@@ -95,6 +95,12 @@ export const SLOWNESS = new Part(
   () => Promise.resolve(),
 );
 
+/** The draw modes, once their menu is opened. */
+export const DRAW_MODE_LIST = new Part(async () => (await import("./bars/draw-mode-list")).DrawModeList);
+
+/** What a draw mode shows, while the tree is not simply lit. */
+export const DRAW_MODE_LEGEND = new Part(async () => (await import("./bars/draw-mode-legend")).DrawModeLegend);
+
 /** The line of time, once anything was done. */
 export const TIMELINE = new Part(async () => (await import("./timeline/timeline-strip")).TimelineStrip);
 
@@ -119,6 +125,8 @@ const ALL: readonly Part<unknown>[] = [
   NAMES,
   CHIPS,
   TIMELINE,
+  DRAW_MODE_LIST,
+  DRAW_MODE_LEGEND,
   PREDICTION,
   ...Object.values(TOOL_PARTS),
   ...Object.values(PANELS),

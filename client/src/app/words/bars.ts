@@ -1,5 +1,7 @@
 /** The side bar and the tool bar. */
 export const BARS = {
+  "drawmode.menu": ["Way of drawing", "Darstellung"],
+  "drawmode.menu.title": ["Way of drawing (D)", "Darstellung (D)"],
   "bars.tools": ["Tools", "Werkzeuge"],
   "bars.all-tools": ["All tools", "Alle Werkzeuge"],
   "bars.undo": ["Undo", "Rückgängig"],

@@ -1,7 +1,5 @@
 /** Ways to draw the tree, and what their colours mean. */
 export const DRAWMODE = {
-  "drawmode.menu": ["Way of drawing", "Darstellung"],
-  "drawmode.menu.title": ["Way of drawing (D)", "Darstellung (D)"],
   "drawmode.lit": ["In the light", "Im Licht"],
   "drawmode.skeleton": ["Skeleton", "Skelett"],
   "drawmode.wireframe": ["Wireframe", "Drahtgitter"],

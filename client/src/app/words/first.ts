@@ -1,5 +1,4 @@
 import { BARS } from "./bars";
-import { DRAWMODE } from "./drawmode";
 import { NOTICES } from "./notices";
 import { PANELS } from "./panels";
 import { REQUESTS } from "./problems";
@@ -12,7 +11,6 @@ import { TOOLS } from "./tools";
 /** The texts that a page may need before it has loaded any of its parts, in every language. */
 export const FIRST = {
   ...BARS,
-  ...DRAWMODE,
   ...MESHES,
   ...NOTICES,
   ...OPERATIONS,

@@ -5,6 +5,7 @@ import { BRUSH } from "./brush";
 import { CHIPS } from "./chips";
 import { COLOURS } from "./colours";
 import { CONTROLS } from "./controls";
+import { DRAWMODE } from "./drawmode";
 import { ENTRY } from "./entry";
 import { EXPORTS } from "./exports";
 import { FINDING } from "./finding";
@@ -25,6 +26,7 @@ import { TRANSFERS } from "./transfers";
 /** The texts of the parts that are loaded when they are first needed; a page loads them in one language. */
 export const LATER = {
   ...COLOURS,
+  ...DRAWMODE,
   ...ARCHITECTURE,
   ...BRUSH,
   ...PARAMETERS,
