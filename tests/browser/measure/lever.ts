@@ -48,12 +48,25 @@ export async function measureLever(): Promise<void> {
   }
 }
 
+/** How large a tree is. */
+type Size = Pick<Facts, "metamers" | "step">;
+
 /** What the page says of the tree as the finger lifts, and once nothing grows any more. */
-async function held(tablet: Tablet): Promise<{ released: Facts; rested: Facts }> {
+async function held(tablet: Tablet): Promise<{ released: Size; rested: Size }> {
   const lever = await tablet.boxOf(tablet.page.getByLabel("Grow", { exact: true }));
+  // The page notes it itself: until somebody who asked has the answer, and the finger is up, a busy page has grown further.
+  const noted = await tablet.page.evaluateHandle(() => ({
+    size: new Promise<Size>((resolve) => {
+      const note = () => {
+        const { metamers, step } = document.documentElement.dataset;
+        resolve({ metamers: Number(metamers), step: Number(step) });
+      };
+      addEventListener("pointerup", note, { capture: true, once: true });
+    }),
+  }));
   await tablet.lead([way(middle(lever), { x: middle(lever).x, y: lever.y + 4 }, 4)]);
   await tablet.page.waitForTimeout(HELD);
-  const released = await tablet.facts();
   await tablet.touch("touchEnd", []);
-  return { released, rested: await tablet.untilQuiet() };
+  const rested = await tablet.untilQuiet();
+  return { released: await noted.evaluate(({ size }) => size), rested };
 }
