@@ -29,6 +29,8 @@ const MAX_CARDLESS_RATIO = 1;
 const LARGE = 10_000;
 /** What draws such a tree as lines is waited for so long at most, in milliseconds: it may never come. */
 const SKETCHED_BY = 10_000;
+/** Frames in which nothing else is asked for after it: what is asked for next may keep it from the screen for seconds. */
+const SKETCH_FRAMES = 4;
 /** Leaves and tips go on easing for this long after the last metamer has grown. */
 const AFTERGROWTH_SECONDS = 0.6;
 /** A line's width in pixels of the page. */
@@ -53,6 +55,8 @@ export class Viewport {
   private readonly eye = new Vector4();
   /** Whether no tree has been shown yet. */
   private empty = true;
+  /** Frames for which the sketch is left alone. */
+  private sketchStays = 0;
   /** What the last frame was worth. */
   private drawn: Quality;
   /** Whether details are still to be chosen. */
@@ -403,13 +407,18 @@ export class Viewport {
     this.loop.open();
   }
 
-  /** Draws a large tree as lines if that is its first sight, and says whether it was drawn; null where it is not wanted. */
+  /** Draws a large tree as lines if that is its first sight, and says whether more is to be drawn after it; null where it is not wanted. */
   private sketched(step: number): boolean | null {
     const { sketch } = this;
+    if (this.sketchStays > 0) {
+      this.sketchStays -= 1;
+      return true;
+    }
     if (sketch === null || this.table.rows <= LARGE || this.pause.on) return null;
     if (sketch instanceof Promise) return false;
     this.sketch = null;
     sketch(step);
+    this.sketchStays = SKETCH_FRAMES;
     return true;
   }
 
