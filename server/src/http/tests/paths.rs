@@ -120,7 +120,7 @@ async fn what_was_mistyped_is_told_what_may_have_been_meant() {
         (("POST", "/api/v1/trees/import?name=Oak&format=cvs", Value::Null), "cvs (did you mean csv?)"),
         (grow(json!({ "template": "oak", "format": "gltf" })), "format is gltf (did you mean glb?)"),
         (grow(json!({ "template": "scots-pien", "format": "glb" })), "; did you mean scots-pine?"),
-        (grow(json!({ "template": "ewy", "format": "glb" })), "; did you mean yew, which is called"),
+        (grow(json!({ "template": "ywe", "format": "glb" })), "; did you mean yew, which is called"),
         (grow(json!({ "template": "triffid", "format": "glb" })), "There is no such species or saved tree."),
     ] {
         let answer = ask(&server, &method.parse().unwrap(), path, &body, None).await;
