@@ -85,6 +85,47 @@ async function lookIntoLibrary(tablet: Tablet, look: (where: string, within: str
   await look("two versions side by side", "dialog");
 }
 
+/** What shares a tree: a link to be made, one that was made, and one that is to be revoked. */
+async function lookAtSharing(tablet: Tablet, look: (where: string, within: string) => Promise<void>): Promise<void> {
+  const { page } = tablet;
+  await page.getByRole("button", { name: "Make a link" }).click();
+  await page.getByRole("img", { name: "The link as a QR code" }).waitFor();
+  await page.locator(".link-row").waitFor();
+  await tablet.untilSettled();
+  await look("a link that was made", "dialog");
+  await page.getByRole("button", { name: "Revoke the link of Guest" }).click();
+  await look("a link to be revoked", ".link-row");
+  await page.getByRole("button", { name: "Revoke", exact: true }).click();
+  await page.getByText("Nobody has been invited").waitFor();
+}
+
+/** What orders many trees, with what it can be asked for, and what came of it. */
+async function lookAtVariations(tablet: Tablet, look: (where: string, within: string) => Promise<void>): Promise<void> {
+  const { page } = tablet;
+  await press(tablet, "Library");
+  await page.getByRole("radio", { name: "Templates", exact: true }).check();
+  await page.getByRole("button", { name: "More for Oak", exact: true }).click();
+  await look("the menu of a species", ".card-menu");
+  await page.locator(".card-menu").getByRole("button", { name: "Grow variations…" }).click();
+  await page.getByRole("radio", { name: "Model (glTF)" }).check();
+  await page.getByRole("radio", { name: "Larger" }).check();
+  await page.getByLabel("Metamers at least: value", { exact: true }).fill("40");
+  await tablet.untilSettled();
+  await look("how many trees are ordered, and as what", ".order-form");
+  await page.getByRole("radio", { name: "Skeleton (JSON)" }).check();
+  await page.getByLabel("How many: value", { exact: true }).fill("1");
+  await page.keyboard.press("Enter");
+  await page.locator(".job").getByText("Done", { exact: true }).waitFor();
+  await tablet.untilSettled();
+  await look("trees that were ordered", "dialog");
+  await page.getByRole("button", { name: "Remove the trees like Oak" }).click();
+  await look("ordered trees to be removed", ".job");
+  await page.getByRole("button", { name: "Remove", exact: true }).click();
+  await page.locator(".job").waitFor({ state: "detached" });
+  await page.keyboard.press("Escape");
+  await page.getByRole("dialog").waitFor({ state: "detached" });
+}
+
 /** What can be chosen of each format. */
 async function lookAtFormats(tablet: Tablet, look: (where: string, within: string) => Promise<void>): Promise<void> {
   const formats = tablet.page.locator('input[name="format"]');
@@ -152,11 +193,13 @@ test.each(CASES)("every control is hit where it is drawn: $name, by $pointer", a
     await tablet.untilSettled();
     await look(sheet, "dialog");
     if (sheet === "Library") await lookIntoLibrary(tablet, look);
+    if (sheet === "Share") await lookAtSharing(tablet, look);
     // A mouse needs no larger controls than a finger.
     if (sheet === "Download" && tablet.touches) await lookAtFormats(tablet, look);
     await page.keyboard.press("Escape");
     await page.getByRole("dialog").waitFor({ state: "detached" });
   }
+  await lookAtVariations(tablet, look);
   await page.keyboard.press("h");
   await look("everything hidden", ".workspace");
   expect(found).toEqual([]);

@@ -54,6 +54,7 @@ describe("help", () => {
       ["save", "store", "sichern"],
       ["library", "library", "Bibliothek"],
       ["share", "link", "Leute"],
+      ["variations", "batch", "Wald"],
       ["new", "new tree", "neuer Baum"],
       ["download", "export", "exportieren"],
       ["import", "upload", "hochladen"],

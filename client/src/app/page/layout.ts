@@ -1,8 +1,19 @@
 import { signal } from "@preact/signals";
 import type { SavedTree } from "../../wire/generated";
+import type { Pattern } from "../library/variations/order";
 
 /** Cards over the workspace, one at a time. */
-export const SHEET_NAMES = ["save", "leave", "library", "versions", "share", "download", "help", "settings"] as const;
+export const SHEET_NAMES = [
+  "save",
+  "leave",
+  "library",
+  "versions",
+  "share",
+  "variations",
+  "download",
+  "help",
+  "settings",
+] as const;
 export type SheetName = (typeof SHEET_NAMES)[number];
 
 /** The panels, as they stand in the tool bar. */
@@ -22,6 +33,8 @@ export class Layout {
   readonly subject = signal<SavedTree | null>(null);
   /** The tree of the library that is shared; null for the one on the page. */
   readonly shared = signal<SavedTree | null>(null);
+  /** What the trees that are ordered are to be like; null where what was ordered is only looked at. */
+  readonly pattern = signal<Pattern | null>(null);
   readonly panel = signal<PanelName | null>(null);
   /** Whether nothing but the workspace is shown. */
   readonly bare = signal(false);

@@ -53,6 +53,12 @@ export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
     height: "9rem",
     part: new Part(async () => (await import("./sheets/share/share-sheet")).ShareSheet),
   },
+  variations: {
+    title: "sheets.variations",
+    size: "wide",
+    height: "22rem",
+    part: new Part(async () => (await import("./sheets/variations/variations-sheet")).VariationsSheet),
+  },
   download: {
     title: "sheets.download",
     height: "22rem",

@@ -233,6 +233,15 @@ export const HELP = {
     "link together people invite collaborate multiplayer url send qr code guest revoke",
     "Link zusammen Leute einladen gemeinsam schicken Adresse QR-Code Gast widerrufen",
   ],
+  "help.topic.variations": ["Variations", "Variationen"],
+  "help.topic.variations.text": [
+    "Up to a thousand trees like a species or a saved tree, each from a seed of its own, grown into files of any format while you draw on; the menu of a tree in the library begins them, and their files are kept for an hour",
+    "Bis zu tausend Bäume wie eine Art oder ein gespeicherter Baum, jeder aus einem eigenen Samen, als Dateien in jedem Format, während du weiterzeichnest; das Menü eines Baums in der Bibliothek beginnt sie, und ihre Dateien bleiben eine Stunde",
+  ],
+  "help.topic.variations.words": [
+    "many forest batch job random seeds mass export grow fifty",
+    "viele Wald Stapel Auftrag zufällig Samen Massen exportieren fünfzig",
+  ],
   "help.topic.download": ["Download", "Herunterladen"],
   "help.topic.download.text": [
     "A picture of the view as PNG, the model as glTF, or the skeleton as JSON, named after the tree; a large one shows how far it is and can be cancelled",

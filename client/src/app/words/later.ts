@@ -22,6 +22,7 @@ import { SUN } from "./sun";
 import { TIMELINE } from "./timeline";
 import { SHAPING } from "./tools";
 import { TRANSFERS } from "./transfers";
+import { VARIATIONS } from "./variations";
 
 /** The texts of the parts that are loaded when they are first needed; a page loads them in one language. */
 export const LATER = {
@@ -49,5 +50,6 @@ export const LATER = {
   ...HELP,
   ...CHIPS,
   ...TRANSFERS,
+  ...VARIATIONS,
   ...TIMELINE,
 } as const satisfies Record<string, readonly [string, string]>;

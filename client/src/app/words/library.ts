@@ -43,6 +43,7 @@ export const LIBRARY = {
   "library.copy-of": ["{name} (copy)", "{name} (Kopie)"],
   "library.mark": ["Make it a template", "Zur Vorlage machen"],
   "library.unmark": ["No longer a template", "Nicht mehr als Vorlage"],
+  "library.variations": ["Grow variations…", "Variationen wachsen lassen…"],
   "library.share": ["Share…", "Teilen…"],
   "library.delete": ["Delete", "Löschen"],
   "library.cancel": ["Cancel", "Abbrechen"],

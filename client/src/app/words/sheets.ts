@@ -87,6 +87,7 @@ export const SHEET_TITLES = {
   "sheets.versions": ["Versions", "Versionen"],
   "sheets.download": ["Download this tree", "Diesen Baum herunterladen"],
   "sheets.share": ["Share this tree", "Diesen Baum teilen"],
+  "sheets.variations": ["Grow variations", "Variationen wachsen lassen"],
   "sheets.help": ["How to draw a tree", "So zeichnet man einen Baum"],
   "sheets.settings": ["Settings", "Einstellungen"],
 } as const;

@@ -8,6 +8,7 @@ import { symmetryText } from "../../tools/symmetry/symmetry-text";
 import { descriptorOf } from "../../tools/tools";
 import { say } from "../../words/say";
 import { CloseIcon, StopIcon } from "../icons";
+import { JobsChip } from "./jobs-chip";
 import { TransferChip } from "./transfer-chip";
 import { useLasting } from "./use-lasting";
 
@@ -21,6 +22,7 @@ export function Chips({ studio }: { studio: Studio }) {
       <TransferChip transfer={studio.exports.picture} name="picture" />
       <TransferChip transfer={studio.obstacles.transfer} name="import" />
       <TransferChip transfer={treeFiles.transfer} name="tree" />
+      {studio.rights.mayOrder && <JobsChip studio={studio} />}
       {placing !== null && (
         <p class="chip">
           {say(placing === "copy" ? "tools.placing.copy" : "tools.placing.move")}

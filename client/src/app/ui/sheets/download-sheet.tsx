@@ -1,20 +1,16 @@
-import { useEffect, useMemo, useState } from "preact/hooks";
-import { DEFAULT_APPEARANCE, type ExportFormat, MAX_NAME_CHARACTERS } from "../../../wire/generated";
+import { useMemo, useState } from "preact/hooks";
+import { DEFAULT_APPEARANCE, MAX_NAME_CHARACTERS } from "../../../wire/generated";
 import { type ExportChoice, optionsOf } from "../../library/export-choice";
 import { amountOf, bytesExpected } from "../../library/export-size";
-import { ask } from "../../requests/request";
 import type { Studio } from "../../studio";
 import { numberText } from "../../words/number-text";
-import { type Key, say } from "../../words/say";
+import { say } from "../../words/say";
 import { Segments } from "../controls/segments";
+import { ExportOptions, useFormats } from "./export-options";
 import { usualName } from "./name-field";
 
 /** Pixels along the longer side of a picture for a large screen. */
 const LARGE = 3840;
-const LODS = ["0", "1", "2", "3", "set"] as const;
-const FRAMES = ["24", "36", "72"] as const;
-const SWITCHES = ["quantised", "compressed", "instanced", "hull", "by_limb"] as const;
-const TEXTS = ["author", "licence"] as const;
 
 /** Names and gives the tree as a file: a picture of the view, or what the server writes. */
 export function DownloadSheet({ studio }: { studio: Studio }) {
@@ -74,7 +70,7 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
         </p>
       )}
       {format ? (
-        <Options format={format} choice={choice} choose={choose} />
+        <ExportOptions format={format} choice={choice} choose={choose} />
       ) : (
         <Segments
           legend={say("sheets.download.size")}
@@ -99,76 +95,6 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
       </div>
     </form>
   );
-}
-
-interface OptionsProps {
-  readonly format: ExportFormat;
-  readonly choice: ExportChoice;
-  readonly choose: (part: Partial<ExportChoice>) => void;
-}
-
-/** What the format can be asked for. */
-function Options({ format, choice, choose }: OptionsProps) {
-  const has = (option: string) => format.options.includes(option);
-  return (
-    <>
-      {has("lod") && (
-        <Segments
-          legend={say("exports.lod")}
-          name="lod"
-          values={LODS}
-          chosen={choice.lod}
-          text={(lod) => say(`exports.lod.${lod}` as Key)}
-          onChoose={(lod) => choose({ lod })}
-        />
-      )}
-      {has("frames") && (
-        <Segments
-          legend={say("exports.frames")}
-          name="frames"
-          values={FRAMES}
-          chosen={choice.frames}
-          text={(frames) => frames}
-          onChoose={(frames) => choose({ frames })}
-        />
-      )}
-      {SWITCHES.filter(has).map((option) => (
-        <label key={option} class="switch">
-          <input
-            type="checkbox"
-            checked={choice.on.includes(option)}
-            onChange={({ currentTarget: { checked } }) =>
-              choose({ on: [...choice.on.filter((other) => other !== option), ...(checked ? [option] : [])] })
-            }
-          />
-          <span>{say(`exports.${option}`)}</span>
-        </label>
-      ))}
-      {TEXTS.filter(has).map((option) => (
-        <label key={option} class="field">
-          <span>{say(`exports.${option}`)}</span>
-          <input
-            type="text"
-            value={choice[option]}
-            maxLength={MAX_NAME_CHARACTERS}
-            autocomplete="off"
-            onInput={(event) => choose({ [option]: event.currentTarget.value })}
-          />
-        </label>
-      ))}
-    </>
-  );
-}
-
-/** What the server writes: undefined until it has answered, null where it has not. */
-function useFormats() {
-  const [formats, set] = useState<readonly ExportFormat[] | null | undefined>();
-  const load = () => {
-    set(undefined);
-    ask<ExportFormat[]>("GET", "/api/v1/formats").then(set, () => set(null));
-  };
-  useEffect(load, []);
-  return [formats, load] as const;
 }
 
 /** The picture as large as on the screen, twice that, and for a large screen; none where there is no picture. */

@@ -4,6 +4,7 @@ import { foundSpecies, speciesName, speciesSentence } from "../../../document/sp
 import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
 import { pick, useSpecies } from "../../panels/architecture/species-list";
+import { CardMenu, type Deed, only } from "./card-menu";
 
 /** The species whose names have all the words, each of which a new tree can be begun as. */
 export function SpeciesTemplates({ studio, words }: { readonly studio: Studio; readonly words: string }) {
@@ -28,12 +29,28 @@ export function SpeciesTemplates({ studio, words }: { readonly studio: Studio; r
             <div class="card-foot">
               <strong class="card-name">{speciesName(one)}</strong>
               <span class="quiet card-facts card-sentence">{speciesSentence(one)}</span>
+              <CardMenu label={say("library.more-of", { name: speciesName(one) })} deeds={deedsOf(studio, one)} />
             </div>
           </li>
         ))}
       </ul>
     </section>
   );
+}
+
+/** What can be done with a species. */
+function deedsOf(studio: Studio, species: Species): readonly Deed[] {
+  return [
+    { label: say("library.begin"), act: () => void begin(studio, species) },
+    ...only(studio.rights.mayOrder, {
+      label: say("library.variations"),
+      act: () => {
+        const { slug } = species;
+        studio.layout.pattern.value = { template: slug, name: speciesName(species), picture: pictureOf(slug) };
+        studio.layout.sheet.value = "variations";
+      },
+    }),
+  ];
 }
 
 /** Begins a new tree and has it grow as a species. */

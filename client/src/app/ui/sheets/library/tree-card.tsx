@@ -71,6 +71,13 @@ export function TreeCard({ desk, tree }: TreeCardProps) {
       label: say(isTemplate ? "library.unmark" : "library.mark"),
       act: () => void section.mark([tree], !isTemplate),
     }),
+    ...only(rights.mayOrder, {
+      label: say("library.variations"),
+      act: () => {
+        studio.layout.pattern.value = { template: tree.id, name, picture: tree.thumbnail };
+        studio.layout.sheet.value = "variations";
+      },
+    }),
     ...only(rights.mayShare, {
       label: say("library.share"),
       act: () => {

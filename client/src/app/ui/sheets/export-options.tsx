@@ -1,0 +1,81 @@
+import { useEffect, useState } from "preact/hooks";
+import { type ExportFormat, MAX_NAME_CHARACTERS } from "../../../wire/generated";
+import type { ExportChoice } from "../../library/export-choice";
+import { ask } from "../../requests/request";
+import { type Key, say } from "../../words/say";
+import { Segments } from "../controls/segments";
+
+const LODS = ["0", "1", "2", "3", "set"] as const;
+const FRAMES = ["24", "36", "72"] as const;
+const SWITCHES = ["quantised", "compressed", "instanced", "hull", "by_limb"] as const;
+const TEXTS = ["author", "licence"] as const;
+
+interface OptionsProps {
+  readonly format: ExportFormat;
+  readonly choice: ExportChoice;
+  readonly choose: (part: Partial<ExportChoice>) => void;
+}
+
+/** What the format can be asked for. */
+export function ExportOptions({ format, choice, choose }: OptionsProps) {
+  const has = (option: string) => format.options.includes(option);
+  return (
+    <>
+      {has("lod") && (
+        <Segments
+          legend={say("exports.lod")}
+          name="lod"
+          values={LODS}
+          chosen={choice.lod}
+          text={(lod) => say(`exports.lod.${lod}` as Key)}
+          onChoose={(lod) => choose({ lod })}
+        />
+      )}
+      {has("frames") && (
+        <Segments
+          legend={say("exports.frames")}
+          name="frames"
+          values={FRAMES}
+          chosen={choice.frames}
+          text={(frames) => frames}
+          onChoose={(frames) => choose({ frames })}
+        />
+      )}
+      {SWITCHES.filter(has).map((option) => (
+        <label key={option} class="switch">
+          <input
+            type="checkbox"
+            checked={choice.on.includes(option)}
+            onChange={({ currentTarget: { checked } }) =>
+              choose({ on: [...choice.on.filter((other) => other !== option), ...(checked ? [option] : [])] })
+            }
+          />
+          <span>{say(`exports.${option}`)}</span>
+        </label>
+      ))}
+      {TEXTS.filter(has).map((option) => (
+        <label key={option} class="field">
+          <span>{say(`exports.${option}`)}</span>
+          <input
+            type="text"
+            value={choice[option]}
+            maxLength={MAX_NAME_CHARACTERS}
+            autocomplete="off"
+            onInput={(event) => choose({ [option]: event.currentTarget.value })}
+          />
+        </label>
+      ))}
+    </>
+  );
+}
+
+/** What the server writes: undefined until it has answered, null where it has not. */
+export function useFormats() {
+  const [formats, set] = useState<readonly ExportFormat[] | null | undefined>();
+  const load = () => {
+    set(undefined);
+    ask<ExportFormat[]>("GET", "/api/v1/formats").then(set, () => set(null));
+  };
+  useEffect(load, []);
+  return [formats, load] as const;
+}
