@@ -1,6 +1,7 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { createSession, findSession, socketAddress } from "../connection/session-api";
 import { changeTree, deleteTree, saveVersion } from "../library/library-api";
+import { orderTrees } from "../library/variations/job-api";
 import { askAs } from "./principal";
 import { RequestFailed } from "./request";
 
@@ -43,6 +44,13 @@ describe("requests", () => {
     expect(matched()).toBe('"7"');
     await changeTree("t", { name: "Oak" });
     expect(matched()).toBeNull();
+  });
+
+  it("IK1: carries the key of what is to be done once", async () => {
+    const fetch = answer(202, {});
+    await orderTrees({ template: "oak", seeds: "1-2", format: "glb", options: {} }, "a-key");
+    const [path, { headers }] = fetch.mock.lastCall as unknown as [string, RequestInit];
+    expect([path, new Headers(headers).get("Idempotency-Key")]).toEqual(["/api/v1/grow", '"a-key"']);
   });
 
   it("tells a missing session from a failing server", async () => {
