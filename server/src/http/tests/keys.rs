@@ -197,7 +197,7 @@ fn alone<F: Future<Output = &'static str> + Send + 'static>(
     shared: &Shared,
     answer: impl Fn() -> F + Clone + Send + Sync + 'static,
 ) -> Router {
-    let keyed = Keyed { shared: shared.clone(), shown: Shown::Again };
+    let keyed = Keyed { shared: shared.clone(), shown: Shown::Again, time_limit: Duration::from_secs(30) };
     let answer = post(answer).layer::<_, Infallible>(from_fn_with_state(keyed, once));
     let caller =
         ServiceBuilder::new().layer(Extension(Caller::local())).layer(Extension(Principal::visitor()));
