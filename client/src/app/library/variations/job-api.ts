@@ -41,13 +41,18 @@ export async function giveUpJob(id: string): Promise<void> {
   await orNull(ask<undefined>("DELETE", pathOf(id)));
 }
 
-/** All one's jobs; of a server that does not list them, those that are `known` here. */
-export async function listJobs(known: readonly string[]): Promise<readonly Job[]> {
-  const listed = await orNull(ask<Job[]>("GET", "/api/v1/jobs"));
-  if (listed !== null) {
-    return listed;
-  }
-  const found = await Promise.all(known.map(findJob));
+/** All one's jobs, the newest first (`JB8`), each with its files. */
+export async function listJobs(): Promise<readonly Job[]> {
+  const ids: string[] = [];
+  let before: number | undefined;
+  do {
+    const page = before === undefined ? "" : `?before=${before}`;
+    const { jobs, next } = await ask<{ jobs: { id: string }[]; next?: number }>("GET", `/api/v1/jobs${page}`);
+    ids.push(...jobs.map(({ id }) => id));
+    before = next;
+  } while (before !== undefined);
+  // Some may have gone meanwhile.
+  const found = await Promise.all(ids.map(findJob));
   return found.filter((job) => job !== null);
 }
 

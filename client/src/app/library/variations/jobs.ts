@@ -84,7 +84,7 @@ export class Jobs {
   /** Asks for all jobs. */
   async look(): Promise<void> {
     await this.#ask(async () => {
-      const jobs = await this.#options.api.listJobs(this.ordered.peek().map(({ id }) => id));
+      const jobs = await this.#options.api.listJobs();
       const known = new Set(jobs.map(({ id }) => id));
       this.ordered.value = this.ordered.peek().filter(({ id }) => known.has(id));
       this.list.value = this.#sorted(jobs);
