@@ -10,7 +10,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::{
-    claims::{Claimed, Region},
+    claims::Region,
     growth::Growth,
     newcomers::Newcomers,
     obstacles::Obstacles,
@@ -114,8 +114,8 @@ impl Growth {
     }
 
     fn aim(&self, scene: &Scene, axis: AxisId, stroke: Option<Vec3>) -> Option<Aim> {
-        let Claimed { space, region } = self.claims.of(axis)?;
-        Some(Aim { space: Some(self.lit_side(scene, axis, space)), stroke, region })
+        let claimed = self.claims.of(axis)?;
+        Some(Aim { space: Some(self.lit_side(scene, axis, claimed)), stroke, region: claimed.region })
     }
 
     /// Lets leaders grow along the paths of their strokes. Returns those that did.

@@ -63,9 +63,9 @@ pub(crate) fn step(simulation: &mut Simulation, input: &StepInput) {
         shoots.push((length, axis, claimed));
     }
     shoots.sort_by_key(|&(length, axis, _)| (core::cmp::Reverse(length), axis));
-    for (length, axis, Claimed { space, region }) in shoots {
-        let lit = plain.lit_side(&scene, axis, space);
-        let aim = Aim { space: Some(lit), stroke, region };
+    for (length, axis, claimed) in shoots {
+        let lit = plain.lit_side(&scene, axis, claimed);
+        let aim = Aim { space: Some(lit), stroke, region: claimed.region };
         plain.grow_shoot(&mut scene, axis, length, aim);
     }
     scene.plant.end_step();

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use crate::{
     brush::BrushPiece,
-    claims::Claims,
+    claims::{Claimed, Claims, Region},
     field::MarkerField,
     generator::{Change, Generator, StepOutcome},
     growth::Growth,
@@ -268,10 +268,11 @@ impl Growth {
         self.kept.get(ended_before).is_some_and(|&(after, _)| after < birth)
     }
 
-    /// E, turned towards the light as far as phototropism has it.
-    pub(crate) fn lit_side(&self, scene: &Scene, axis: AxisId, space: Vec3) -> Vec3 {
+    /// E, turned towards the light as far as phototropism has it; where a hand drew, E goes to what it drew.
+    pub(crate) fn lit_side(&self, scene: &Scene, axis: AxisId, claimed: Claimed) -> Vec3 {
+        let Claimed { space, region } = claimed;
         let (weight, is_flat) = (self.parameters.of(axis).phototropism, self.parameters.of(axis).is_flat);
-        if weight == 0.0 {
+        if weight == 0.0 || region != Region::Free {
             return space;
         }
         let Some(light) = scene.towards_light(scene.plant.bud_position(axis)) else { return space };
@@ -340,7 +341,8 @@ mod tests {
         let values = ParameterValues { phototropism: 0.5, ..ParameterValues::default() };
         let mut simulation = Simulation::new(1, Parameters::new(values).expect("in range"));
         let side = |simulation: &Simulation| {
-            simulation.generator.lit_side(&simulation.scene, AxisId::new(0), Vec3::Y)
+            let free = Claimed { space: Vec3::Y, region: Region::Free };
+            simulation.generator.lit_side(&simulation.scene, AxisId::new(0), free)
         };
         assert_eq!(side(&simulation), Vec3::Y, "there is nothing to turn away from");
         let wall = Shape::Box {

@@ -64,6 +64,14 @@ fn cm6_what_a_brush_fills_is_not_shed_while_it_lasts() {
 }
 
 #[test]
+fn cm6_a_brush_fills_what_it_swept_however_plants_seek_the_light() {
+    for phototropism in [0.5, 1.0] {
+        let parameters = ParametersPatch { phototropism: Some(phototropism), ..ParametersPatch::default() };
+        check(&[], &[3.0, 6.0], 2, Hand::SLOW, Some(&Action::SetParameters { parameters }));
+    }
+}
+
+#[test]
 fn cm6_a_brush_fills_what_it_swept_in_any_species() {
     for slug in ["stone-pine", "scots-pine"] {
         let programme = Some(wire_species(species::find(slug).expect("it exists")).programme);
