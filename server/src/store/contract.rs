@@ -51,6 +51,9 @@ pub trait Breakable: Store + Library + Finding + Passes + Users + Audit + Answer
     async fn lose_snapshot(&self, session: &str, through: u64);
     /// Changes a byte of a snapshot.
     async fn break_snapshot(&self, session: &str, through: u64);
+
+    /// Changes what all snapshots of a session have in common.
+    async fn break_all_snapshots(&self, session: &str);
     /// Changes a byte of each document of a tree.
     async fn break_tree(&self, id: &str);
     /// Changes the name of a tree.
@@ -82,6 +85,7 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         lost_entries_are_noticed,
         entries_lost_between_others_are_noticed,
         lost_snapshots_are_noticed,
+        damage_that_snapshots_share_is_named,
         versions_are_covered,
         a_session_row_is_covered,
         notices_are_kept_until_somebody_has_had_them,
@@ -328,6 +332,19 @@ async fn lost_snapshots_are_noticed(store: &impl Breakable) {
     store.lose_snapshot("oak", 0).await;
     let refused = store.load_session("oak", None).await;
     assert!(matches!(refused, Err(StoreError::Damaged(_))), "no other tree grows in its place");
+}
+
+async fn damage_that_snapshots_share_is_named(store: &impl Breakable) {
+    store.create_session(oak(Some(b"start"))).await.unwrap();
+    let lease = store.acquire("oak").await.unwrap();
+    store.append(&lease, 3, &entries(1..=1)).await.unwrap();
+    let same = NewSnapshot { through: 1, simulation_version: 3, bytes: b"start".to_vec() };
+    store.keep_snapshot(&lease, same).await.unwrap();
+    store.break_all_snapshots("oak").await;
+    let Err(StoreError::Damaged(what)) = store.load_session("oak", None).await else {
+        panic!("OP4: no other tree opens in its place")
+    };
+    assert!(what.contains("oak") && what.contains("entry 1, ") && what.contains("entry 0"), "{what}");
 }
 
 async fn versions_are_covered(store: &impl Breakable) {

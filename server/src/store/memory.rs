@@ -318,6 +318,12 @@ impl super::contract::Breakable for MemoryStore {
         }
     }
 
+    async fn break_all_snapshots(&self, session: &str) {
+        for row in &mut self.kept().sessions.get_mut(session).unwrap().snapshots {
+            row.bytes[0] ^= 1;
+        }
+    }
+
     async fn break_tree(&self, id: &str) {
         let mut kept = self.kept();
         let tree = kept.trees.get_mut(id).unwrap();

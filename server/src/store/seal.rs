@@ -5,7 +5,7 @@
 //! as far as each can be read, until a snapshot has taken their place.
 
 use espalier_proto::Notice;
-use espalier_session::{JournalEntry, Principal, read_command};
+use espalier_session::{Document, JournalEntry, Principal, read_command};
 use flate2::Crc;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -238,7 +238,16 @@ impl Found {
             }
             // The journal alone is no way back: what came before the oldest snapshot may be gone, or a saved tree.
             None if before.is_some() || !stored.damage.is_empty() => {
-                return Err(StoreError::Damaged(format!("no snapshot of session {session} is whole")));
+                let places = stored.damage.iter().filter_map(|part| part.snapshot());
+                let places: Vec<_> = places.map(|entry| format!("the one after entry {entry}")).collect();
+                let places = if places.is_empty() {
+                    String::new()
+                } else {
+                    format!(": damaged or missing is {}", places.join(", "))
+                };
+                return Err(StoreError::Damaged(format!(
+                    "no snapshot of session {session} is whole{places}"
+                )));
             }
             None if !is_whole => {
                 return Err(StoreError::Damaged(format!("the row of session {session} is damaged")));
@@ -276,6 +285,12 @@ impl Found {
 pub(super) fn document_hash(document: &TreeDocument) -> Vec<u8> {
     let hash = Sha256::new().chain_update(document.simulation_version.to_le_bytes());
     hash.chain_update(&document.bytes).finalize().to_vec()
+}
+
+/// Which section of a document differs from what was written, as the end of a sentence; nothing where its own checksums
+/// are right.
+pub(super) fn where_damaged(bytes: &[u8]) -> String {
+    Document::from_bytes(bytes).err().map_or_else(String::new, |error| format!(" ({error})"))
 }
 
 /// Of a tree's row.

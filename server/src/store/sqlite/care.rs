@@ -166,13 +166,13 @@ pub async fn check(database: &Path, mut progress: impl FnMut(u64, u64)) -> Resul
     for (done, name) in (1..).zip(&names) {
         match of_session(&readers, name).await {
             Ok(found) => report.damage.extend(found),
-            Err(error) => report.damage.push(format!("session {name}: {}", words(&error))),
+            Err(error) => report.damage.push(words(&error, || format!("session {name}"))),
         }
         progress(done, all);
     }
     for (done, (key, number)) in (report.sessions + 1..).zip(&versions) {
         if let Err(error) = trees::document(&readers, key, *number).await {
-            report.damage.push(format!("version {number} of the tree {key}: {}", words(&error)));
+            report.damage.push(words(&error, || format!("version {number} of the tree {key}")));
         }
         progress(done, all);
     }
@@ -208,10 +208,11 @@ async fn of_session(readers: &SqlitePool, name: &str) -> Result<BTreeSet<String>
     Ok(found)
 }
 
-fn words(error: &StoreError) -> String {
+/// What is damaged names itself; what else is wrong is said of what was read.
+fn words(error: &StoreError, read: impl FnOnce() -> String) -> String {
     match error {
         StoreError::Damaged(what) => what.clone(),
-        error => error.in_words().to_owned(),
+        error => format!("{}: {}", read(), error.in_words()),
     }
 }
 

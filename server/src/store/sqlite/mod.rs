@@ -345,6 +345,14 @@ mod tests {
             .await;
         }
 
+        async fn break_all_snapshots(&self, session: &str) {
+            self.sql(format!(
+                "UPDATE parts SET packed = x'ff' WHERE id IN
+                 (SELECT part FROM document_parts JOIN snapshots USING (document) WHERE session = '{session}')"
+            ))
+            .await;
+        }
+
         async fn break_tree(&self, id: &str) {
             self.sql(format!(
                 "UPDATE documents SET bytes = x'ff' WHERE id IN

@@ -5,7 +5,7 @@ use sqlx::{QueryBuilder, Row, Sqlite, SqlitePool, sqlite::SqliteRow};
 use super::{
     super::{
         Picture, SessionTree, StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery,
-        seal::{document_hash, tree_sum, version_sum},
+        seal::{document_hash, tree_sum, version_sum, where_damaged},
     },
     finding, parts,
 };
@@ -110,7 +110,8 @@ pub(super) async fn document(
     if is_whole {
         Ok(Some(document))
     } else {
-        Err(StoreError::Damaged(format!("version {number} of the tree {key} is damaged")))
+        let place = where_damaged(&document.bytes);
+        Err(StoreError::Damaged(format!("version {number} of the tree {key} is damaged{place}")))
     }
 }
 
