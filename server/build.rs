@@ -121,7 +121,7 @@ fn npm(client: &Path, arguments: &[&str]) -> Result<(), String> {
     Err(format!("The client could not be built, `{called}` in client/ failed: {cause}"))
 }
 
-/// Writes `client.rs`: a sorted table of all files, compressed beforehand.
+/// Writes `client.rs`: a sorted table of all files, each once, packed where that is shorter.
 fn embed(dist: &Path, out: &Path) -> io::Result<()> {
     let mut files = Vec::new();
     collect(dist, "", &mut files)?;
@@ -136,21 +136,19 @@ fn embed(dist: &Path, out: &Path) -> io::Result<()> {
         let bytes = fs::read(source)?;
         let gzip = compressed(&bytes)?;
         // Already compressed formats gain nothing.
-        let gzip = if gzip.len() < bytes.len() * 9 / 10 {
-            let file = packed.join(number.to_string());
-            fs::write(&file, gzip)?;
-            format!("Some(include_bytes!({:?}))", fs::canonicalize(file)?)
-        } else {
-            "None".into()
-        };
+        let is_packed = gzip.len() < bytes.len() * 9 / 10;
+        let contents = if is_packed { packed.join(number.to_string()) } else { source.clone() };
+        if is_packed {
+            fs::write(&contents, gzip)?;
+        }
         let mut sum = Crc::new();
         sum.update(&bytes);
         let etag = format!("\"{:08x}-{:x}\"", sum.sum(), bytes.len());
-        let (source, media_type) = (fs::canonicalize(source)?, media_type(path));
+        let (contents, media_type) = (fs::canonicalize(contents)?, media_type(path));
         writeln!(
             table,
             "    File {{ path: {path:?}, media_type: {media_type:?}, etag: {etag:?}, \
-             bytes: include_bytes!({source:?}), gzip: {gzip} }},"
+             bytes: include_bytes!({contents:?}), is_packed: {is_packed} }},"
         )
         .map_err(io::Error::other)?;
     }

@@ -1,10 +1,14 @@
-//! The tablet client, embedded by the build script: each file plain and, where that is shorter, as gzip.
+//! The tablet client, embedded by the build script: each file once, as gzip where that is shorter.
+
+use std::io::{self, Read};
 
 use axum::{
     body::Body,
     http::{HeaderMap, HeaderValue, StatusCode, Uri, header},
     response::{IntoResponse, Response},
 };
+use espalier_proto::Reason;
+use flate2::read::GzDecoder;
 
 use super::failure::Failure;
 
@@ -16,7 +20,8 @@ struct File {
     /// Changes when the contents do; with quotes, as it travels.
     etag: &'static str,
     bytes: &'static [u8],
-    gzip: Option<&'static [u8]>,
+    /// Whether these are gzip of the file.
+    is_packed: bool,
 }
 
 include!(concat!(env!("OUT_DIR"), "/client.rs"));
@@ -51,15 +56,28 @@ fn answer(path: &str, headers: &HeaderMap) -> Response {
         return response;
     }
     answer.insert(header::CONTENT_TYPE, HeaderValue::from_static(file.media_type));
-    let bytes = match file.gzip {
-        Some(gzip) if mentions(headers, header::ACCEPT_ENCODING, "gzip") => {
-            answer.insert(header::CONTENT_ENCODING, HeaderValue::from_static("gzip"));
-            gzip
+    *response.body_mut() = if !file.is_packed {
+        Body::from(file.bytes)
+    } else if mentions(headers, header::ACCEPT_ENCODING, "gzip") {
+        answer.insert(header::CONTENT_ENCODING, HeaderValue::from_static("gzip"));
+        Body::from(file.bytes)
+    } else {
+        // Every browser takes gzip; for the few others it is unpacked each time.
+        match unpacked(file.bytes) {
+            Ok(bytes) => Body::from(bytes),
+            Err(error) => {
+                tracing::error!(path, %error, "a file of the page cannot be unpacked");
+                return Failure::new(Reason::Failed, "The server failed to compute this.").into_response();
+            }
         }
-        _ => file.bytes,
     };
-    *response.body_mut() = Body::from(bytes);
     response
+}
+
+fn unpacked(gzip: &[u8]) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    GzDecoder::new(gzip).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// Vite puts a hash of the contents into the names under `assets`; everything else is asked for anew.
@@ -145,6 +163,18 @@ mod tests {
         assert!(accepts("br;q=1.0, gzip;q=0.8"));
         assert!(!accepts("br, gzip;q=0"));
         assert!(!accepts("deflate"));
+    }
+
+    #[test]
+    fn who_takes_no_gzip_gets_the_file_itself() {
+        for file in FILES {
+            let bytes = if file.is_packed { unpacked(file.bytes).unwrap() } else { file.bytes.to_vec() };
+            let mut sum = flate2::Crc::new();
+            sum.update(&bytes);
+            assert_eq!(file.etag, format!("\"{:08x}-{:x}\"", sum.sum(), bytes.len()), "{}", file.path);
+        }
+        let plain = get("/index.html", None);
+        assert_eq!(plain.headers().get(header::CONTENT_ENCODING), None);
     }
 
     #[test]
