@@ -106,3 +106,19 @@ test("a switch of the first run has every button show its name, and is remembere
   await expect.poll(shown).toBe(await page.locator(`${ICONS}.tool`).count());
   expect(await misses(tablet, "the bars with names", ".workspace")).toEqual([]);
 });
+
+test.each([
+  ["a phone", { ...PHONE, detail: 0.2 }],
+  ["an upright tablet", { width: 834, height: 1194, detail: 0.2 }],
+] as const)("no button with its name lies over another on %s", async (where, screen) => {
+  const { tablet } = await workshop.fresh(screen);
+  for (const language of ["en", "de"]) {
+    await tablet.page.evaluate((language) => {
+      localStorage.setItem("espalier.language", JSON.stringify(language));
+      localStorage.setItem("espalier.names", "true");
+    }, language);
+    await tablet.page.reload();
+    await tablet.untilReady();
+    expect(await misses(tablet, `${where}, ${language}`, ".workspace")).toEqual([]);
+  }
+});
