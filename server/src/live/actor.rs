@@ -10,7 +10,7 @@ use std::{
 use espalier_proto::{Command, Mesh, PlacedObstacle, Problem, version::CloseCode};
 use espalier_session::{
     Access, ActId, ClientId, Input, JournalEntry, Output, PredictionRun, Principal, ReadDocument, ReadId,
-    Session, Urgency, Work,
+    Session, Work,
 };
 use espalier_settings::ParameterValues;
 use tokio::{
@@ -19,7 +19,10 @@ use tokio::{
 };
 use tokio_util::sync::CancellationToken;
 
-use super::outbox::{Outbox, Outgoing};
+use super::{
+    outbox::{Outbox, Outgoing},
+    turn::turn_of,
+};
 use crate::{
     SIMULATION_VERSION,
     pool::{Class, Person, SimulationPool},
@@ -481,16 +484,6 @@ impl Actor {
             outbox.close(code, sentence.into());
         }
     }
-}
-
-/// Whose turn on the pool a slice of work is.
-fn turn_of(work: &Work) -> (Class, Person) {
-    let class = match work.urgency() {
-        Urgency::Drawing => Class::Drawing,
-        Urgency::Growing => Class::Growing,
-        Urgency::Keeping => Class::Whole,
-    };
-    (class, work.whose().map_or_else(Person::default, |person| person.name().into()))
 }
 
 /// The session must be loaded again from what is durable.

@@ -5,6 +5,7 @@ mod outbox;
 mod registry;
 mod restoring;
 mod socket;
+mod turn;
 
 pub use actor::{Ended, SessionHandle};
 pub use registry::Sessions;
