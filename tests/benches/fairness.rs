@@ -87,7 +87,7 @@ async fn draw(server: Arc<Server>, number: u32) -> Vec<Duration> {
     while begun.elapsed() < LONG {
         ticks.tick().await;
         height += 0.4;
-        let sample = json!({ "position": [height.sin(), height, 0.0], "radius": 2.0 });
+        let sample = json!({ "position": [height % 2.0 - 1.0, height, 0.0], "radius": 2.0 });
         let (frames, sent) = (client.frames, Instant::now());
         let id = client.send(json!({ "kind": "stroke_move", "stroke": 1, "samples": [sample] })).await;
         // Here and there nothing grows by it.

@@ -9,8 +9,8 @@ const VISITOR: &str = "outside";
 
 /// Who does something, in every request, socket and journal entry.
 ///
-/// Nobody has to log in: a page is known by the client key it made up (`HS1`), a request without one
-/// comes from a visitor.
+/// A page is known by the client key it made up (`HS1`), a request without one comes from a visitor. Who may do what is
+/// asked elsewhere, before anything reaches a session; this is whom history names.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Principal(Arc<str>);
 
