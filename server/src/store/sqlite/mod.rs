@@ -7,6 +7,7 @@ mod finding;
 mod identity;
 mod library_file;
 mod open;
+mod packing;
 mod parts;
 mod passes;
 mod place;

@@ -4,24 +4,18 @@
 //! changes the parts there, and the cuts behind it are where they were. So a tree that is a stroke later shares nearly
 //! all parts with the one before.
 
-use std::{
-    collections::BTreeSet,
-    io::{Read, Write as _},
-    ops::Range,
-};
+use std::{collections::BTreeSet, error::Error, io, ops::Range};
 
 use espalier_session::plain;
 use fastcdc::v2020::FastCDC;
-use flate2::{Compression, Crc, read::DeflateDecoder, write::DeflateEncoder};
+use flate2::Crc;
 use sha2::{Digest, Sha256};
 use sqlx::{AssertSqlSafe, Row, SqlitePool, sqlite::SqliteConnection};
-use tokio::{
-    sync::RwLock,
-    task::{JoinError, spawn_blocking},
-};
+use tokio::{sync::RwLock, task::spawn_blocking};
 
 use super::{
     super::{StoreError, TreeDocument, seal::document_hash},
+    packing::{Packer, Packing, Unpacker},
     writer::{Write, Writer},
 };
 
@@ -76,11 +70,11 @@ impl Keeping {
         let mut bytes = document.bytes;
         loop {
             let packing = spawn_blocking(move || {
-                let packed = pack_some(&bytes, &mut cuts, &mut missing);
-                (packed, bytes, cuts, missing)
+                let packed = pack_some(&bytes, &mut cuts, &mut missing)?;
+                io::Result::Ok((packed, bytes, cuts, missing))
             });
             let packed;
-            (packed, bytes, cuts, missing) = packing.await.map_err(broken)?;
+            (packed, bytes, cuts, missing) = packing.await.map_err(broken)?.map_err(broken)?;
             if packed.is_empty() {
                 break;
             }
@@ -104,8 +98,8 @@ impl Keeping {
     }
 }
 
-/// What a work thread did not answer.
-fn broken(error: JoinError) -> StoreError {
+/// What a work thread did not answer, or had no memory for.
+fn broken(error: impl Error + Send + Sync + 'static) -> StoreError {
     StoreError::Failed { words: "a document cannot be packed", cause: Box::new(error) }
 }
 
@@ -148,24 +142,18 @@ fn pack_some(
     bytes: &[u8],
     cuts: &mut impl Iterator<Item = (Hash, Range<usize>)>,
     missing: &mut BTreeSet<Hash>,
-) -> Vec<Part> {
+) -> io::Result<Vec<Part>> {
+    let mut packer = Packer::new()?;
     let mut parts = Vec::new();
     let mut length = 0;
     while length < MAX_WRITE
         && let Some((hash, range)) = cuts.find(|(hash, _)| missing.remove(hash))
     {
-        let packed = deflate(&bytes[range]);
+        let packed = packer.pack(&bytes[range])?;
         length += packed.len();
         parts.push(Part { hash, checksum: sum(&packed), packed });
     }
-    parts
-}
-
-fn deflate(bytes: &[u8]) -> Vec<u8> {
-    let mut out = DeflateEncoder::new(Vec::with_capacity(bytes.len() / 2), Compression::new(3));
-    // Writing into memory does not fail.
-    let _ = out.write_all(bytes);
-    out.finish().unwrap_or_default()
+    Ok(parts)
 }
 
 fn sum(bytes: &[u8]) -> u32 {
@@ -178,10 +166,12 @@ fn sum(bytes: &[u8]) -> u32 {
 pub(super) async fn write(connection: &mut SqliteConnection, parts: &[Part]) -> Result<u64, StoreError> {
     for part in parts {
         sqlx::query(
-            "INSERT INTO parts (hash, packed, checksum) VALUES (?, ?, ?)
-             ON CONFLICT (hash) DO UPDATE SET packed = excluded.packed, checksum = excluded.checksum",
+            "INSERT INTO parts (hash, packing, packed, checksum) VALUES (?, ?, ?, ?)
+             ON CONFLICT (hash) DO UPDATE
+             SET packing = excluded.packing, packed = excluded.packed, checksum = excluded.checksum",
         )
         .bind(part.hash.as_slice())
+        .bind(Packing::NOW.column())
         .bind(&part.packed)
         .bind(part.checksum)
         .execute(&mut *connection)
@@ -231,22 +221,25 @@ pub(super) async fn contents(
 /// The bytes of a document that has parts; those that can be read of it where it is damaged, which is for the caller to
 /// notice.
 async fn read(connection: &mut SqliteConnection, document: i64) -> Result<Vec<u8>, StoreError> {
-    let packed: Vec<Vec<u8>> = sqlx::query_scalar(
-        "SELECT packed FROM document_parts JOIN parts ON parts.id = part WHERE document = ? ORDER BY ordinal",
+    let parts: Vec<(i64, Vec<u8>)> = sqlx::query_as(
+        "SELECT packing, packed FROM document_parts JOIN parts ON parts.id = part
+         WHERE document = ? ORDER BY ordinal",
     )
     .bind(document)
     .fetch_all(connection)
     .await?;
     let unpacking = spawn_blocking(move || {
+        let mut unpacker = Unpacker::new(MOST)?;
         let mut bytes = Vec::new();
-        for part in &packed {
-            if DeflateDecoder::new(part.as_slice()).take(MOST as u64).read_to_end(&mut bytes).is_err() {
+        for (packing, packed) in &parts {
+            let Some(packing) = Packing::of_column(*packing) else { break };
+            if unpacker.unpack(packing, packed, &mut bytes).is_err() {
                 break;
             }
         }
-        bytes
+        io::Result::Ok(bytes)
     });
-    unpacking.await.map_err(broken)
+    unpacking.await.map_err(broken)?.map_err(broken)
 }
 
 /// Rows that nothing refers to any more.
@@ -301,12 +294,18 @@ impl Orphans {
 
 #[cfg(test)]
 mod tests {
+    use std::io::Write as _;
+
     use espalier_growth::SIMULATION_VERSION;
     use espalier_proto::Command;
     use espalier_session::{Document, Principal};
+    use flate2::{Compression, write::DeflateEncoder};
     use serde_json::json;
 
-    use super::super::{Folder, SqliteStore};
+    use super::{
+        super::{Folder, SqliteStore},
+        MOST, Packing, Unpacker, sum,
+    };
     use crate::store::{Library, NewSession, NewSnapshot, Store, contract::tree_of_bytes};
 
     fn after(document: &mut Document, commands: serde_json::Value) -> Vec<u8> {
@@ -390,6 +389,33 @@ mod tests {
         store.purge_sessions("9999", "9999", 9).await.unwrap();
         while store.shrink().await.unwrap() {}
         assert_eq!(kept(&store).await, 0);
+    }
+
+    #[tokio::test]
+    async fn parts_that_earlier_programs_deflated_are_read() {
+        let folder = Folder::new();
+        let store = SqliteStore::open(&folder.database()).await.unwrap();
+        let bytes = grown(&mut Document::new(3), 12);
+        store.add_tree(tree_of_bytes("ash", "2026", bytes.clone())).await.unwrap();
+        let (id, packed): (i64, Vec<u8>) = sqlx::query_as("SELECT id, packed FROM parts ORDER BY id LIMIT 1")
+            .fetch_one(&store.readers)
+            .await
+            .unwrap();
+        let mut part = Vec::new();
+        Unpacker::new(MOST).unwrap().unpack(Packing::NOW, &packed, &mut part).unwrap();
+        let mut encoder = DeflateEncoder::new(Vec::new(), Compression::new(3));
+        encoder.write_all(&part).unwrap();
+        let deflated = encoder.finish().unwrap();
+        let hex: String = deflated.iter().map(|byte| format!("{byte:02x}")).collect();
+        let checksum = sum(&deflated);
+        let earlier =
+            format!("UPDATE parts SET packing = 0, packed = x'{hex}', checksum = {checksum} WHERE id = {id}");
+        store.sql(earlier).await;
+        let read = store.document("ash", 1).await.unwrap().unwrap();
+        assert_eq!(Document::from_bytes(&read.bytes).unwrap().to_bytes(), bytes);
+
+        store.sql(format!("UPDATE parts SET packing = 7 WHERE id = {id}")).await;
+        assert!(store.document("ash", 1).await.is_err(), "a packing of later programs is not guessed");
     }
 
     #[tokio::test]
