@@ -32,6 +32,7 @@ use crate::{
     principal::Principal,
     snapshot::{self, RestoreError, Snapshot},
     stops::Stops,
+    to_proto::Held,
     window::MAX_UNREAD,
     work::{BendUpdate, Work},
 };
@@ -182,6 +183,13 @@ impl Session {
         document.end_gestures();
         let snapshot = snapshot::to_bytes(0, &BTreeMap::new(), &document);
         Ok((Self::with_document(name.into(), epoch, document, 0, 0, BTreeMap::new()), snapshot))
+    }
+
+    /// Makes the frame of the whole tree before anybody comes who waits for it.
+    pub fn draw_whole(&mut self) {
+        if let Some(work) = &mut self.home {
+            work.catch_up(&Held::Nothing);
+        }
     }
 
     fn with_document(

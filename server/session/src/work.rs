@@ -354,7 +354,7 @@ impl Work {
         }
     }
 
-    fn catch_up(&mut self, held: &Held) -> Arc<[u8]> {
+    pub(crate) fn catch_up(&mut self, held: &Held) -> Arc<[u8]> {
         if !matches!(held, Held::Nothing) {
             return to_proto::catch_up(&self.table, held, self.epoch, self.sequence).encode().into();
         }

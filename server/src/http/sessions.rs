@@ -92,10 +92,17 @@ pub(super) async fn create(
     count(&shared, &caller)?;
     let version = new.version.unwrap_or(stored.head.number);
     let name = name::unguessable();
-    let (session, snapshot) = planted(&shared, &name, &tree, version).await?;
-    let of = (!new.template).then_some((tree, version));
-    let begun = begin(&shared, &principal, name.clone(), 0, snapshot, of).await?;
-    shared.sessions.seat(&name, session).await;
+    let (mut session, snapshot) = planted(&shared, &name, &tree, version).await?;
+    let of = (!new.template).then_some((tree.clone(), version));
+    // It is drawn while it is made durable.
+    let drawing = shared.pool.run(Class::Whole, tree.as_str().into(), move |_| {
+        session.draw_whole();
+        session
+    });
+    let begun = begin(&shared, &principal, name.clone(), 0, snapshot, of);
+    let (begun, session) = tokio::join!(begun, drawing);
+    let begun = begun?;
+    shared.sessions.seat(&name, session?).await;
     Ok((StatusCode::CREATED, begun))
 }
 
