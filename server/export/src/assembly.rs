@@ -27,8 +27,6 @@ use crate::{
 
 /// Metamers whose leaves are made before they are written.
 const BLOCK: usize = 1024;
-/// What reaches beyond the nodes of a plant, in internodes: leaves, flowers, fruits and the cones at tips.
-const BEYOND: f32 = 8.0;
 /// The name of a plant of no known species.
 const UNNAMED: &str = "Tree";
 
@@ -78,9 +76,20 @@ pub(crate) struct Part<'a> {
     pub surfaces: &'a [Surface<'a>],
     /// Whether the texture comes again beyond its borders.
     pub repeats: bool,
-    /// All vertices lie within so many internodes of the node, along each axis.
-    pub reach: f32,
     pub blocks: Blocks<'a>,
+}
+
+impl Part<'_> {
+    /// All vertices lie within so many internodes of a place, along each axis.
+    pub(crate) fn reach(&self, place: Vec3) -> Result<f32, ExportError> {
+        let mut reach = 0.0f32;
+        (self.blocks)(&mut |block| {
+            let offsets = block.mesh.positions.iter().map(|&vertex| (vertex - place).abs().max_element());
+            reach = offsets.fold(reach, f32::max);
+            Ok(())
+        })?;
+        Ok(reach)
+    }
 }
 
 /// Leaves as places of few forms.
@@ -206,8 +215,6 @@ impl<'a> Assembly<'a> {
         ids: &[MetamerId],
     ) -> Result<(), ExportError> {
         let place = self.plant.metamers().end(seed);
-        let ends = ids.iter().map(|&id| (self.plant.metamers().end(id) - place).abs().max_element());
-        let reach = ends.fold(0.0, f32::max) + BEYOND;
         for level in &self.levels {
             let is_set = self.model.detail == Detail::Set;
             if is_set {
@@ -223,12 +230,12 @@ impl<'a> Assembly<'a> {
                     let name = if is_trunk { "Trunk".to_owned() } else { format!("Limb {number}") };
                     let foot = limb.bodies.iter().find(|body| body.axis() == *axis).map(Body::foot);
                     builder.begin(&name, foot.unwrap_or(place), Some(json!({ "axis": axis.raw() })))?;
-                    self.parts(builder, level, limb, 2.0 * reach)?;
+                    self.parts(builder, level, limb)?;
                     builder.end()?;
                 }
             } else {
                 for limb in limbs.values() {
-                    self.parts(builder, level, limb, reach)?;
+                    self.parts(builder, level, limb)?;
                 }
             }
             if is_set {
@@ -287,11 +294,10 @@ impl<'a> Assembly<'a> {
         builder: &mut dyn Builder,
         level: &Level<'_>,
         limb: &Limb<'_>,
-        reach: f32,
     ) -> Result<(), ExportError> {
         let surfaces = [Surface::Bark(&self.bark, self.looks.bark.relief), Surface::Plain("Cut", CUT)];
         let blocks: Blocks<'_> = &|take| self.wood(limb, take);
-        builder.part(&Part { name: "Wood", surfaces: &surfaces, repeats: true, reach, blocks })?;
+        builder.part(&Part { name: "Wood", surfaces: &surfaces, repeats: true, blocks })?;
         for (kind, thin) in self.thin.iter().enumerate() {
             let (name, Some(thin)) = (PARTS[kind], thin) else { continue };
             let surface = Surface::Thin(name, &thin.texture);
@@ -307,7 +313,7 @@ impl<'a> Assembly<'a> {
                 continue;
             }
             let blocks: Blocks<'_> = &|take| cards(level, limb, kind, thin.strength, take);
-            builder.part(&Part { name, surfaces: &[surface], repeats: false, reach, blocks })?;
+            builder.part(&Part { name, surfaces: &[surface], repeats: false, blocks })?;
         }
         Ok(())
     }
@@ -349,10 +355,8 @@ impl<'a> Assembly<'a> {
         let blocks: Blocks<'_> = &|take| {
             take(Block { mesh: &cards.mesh, tangents: &cards.tangents, colours: &cards.hues, second: &[] })
         };
-        let corners = cards.mesh.positions.iter().map(|corner| (*corner - place).abs().max_element());
-        let reach = corners.fold(1.0, f32::max);
         let surfaces = [Surface::Thin("Billboard", &texture)];
-        builder.part(&Part { name: "Billboard", surfaces: &surfaces, repeats: false, reach, blocks })
+        builder.part(&Part { name: "Billboard", surfaces: &surfaces, repeats: false, blocks })
     }
 }
 

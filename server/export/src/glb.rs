@@ -71,7 +71,12 @@ impl Builder for Writer<'_> {
     }
 
     fn part(&mut self, part: &Part<'_>) -> Result<(), ExportError> {
-        let mut vertices = self.begin_part(part.repeats, part.reach);
+        // What is not quantised has no bounds.
+        let reach = if self.packing.is_quantised { part.reach(self.origin())? } else { 1.0 };
+        if !(reach * self.scale).is_finite() {
+            return Err(ExportError::NotFinite);
+        }
+        let mut vertices = self.begin_part(part.repeats, reach);
         let mut triangles = [Vec::new(), Vec::new()];
         (part.blocks)(&mut |block| {
             let first = vertices.count();

@@ -118,7 +118,8 @@ impl<'a> Writer<'a> {
     /// Begins a mesh; what it shows lies within `reach` internodes of the open node if vertices are quantised.
     pub(super) fn begin_part(&self, repeats: bool, reach: f32) -> Part {
         let layout = Layout::new(self.packing.is_quantised, repeats);
-        let unit = if self.packing.is_quantised { reach * self.scale } else { 1.0 };
+        let is_measured = self.packing.is_quantised && reach > 0.0;
+        let unit = if is_measured { reach * self.scale } else { 1.0 };
         let (origin, start) = (self.origin(), self.written);
         Part { layout, unit, origin, start, count: 0, held: Vec::new(), low: Vec3::MAX, high: Vec3::MIN }
     }

@@ -3,7 +3,7 @@
 use espalier_export::{Detail, Model};
 use espalier_growth::species;
 use espalier_mesh::Style;
-use espalier_plant::Plant;
+use espalier_plant::{MetamerId, Plant};
 use glam::{Mat4, Quat, Vec3};
 use serde_json::Value;
 
@@ -154,6 +154,23 @@ fn quantised_vertices_are_where_the_others_are_in_half_the_bytes() {
     let bytes = |file: &[u8]| root(file)["bufferViews"][0]["byteLength"].as_u64().unwrap_or(0);
     assert!(bytes(&small) * 100 < bytes(&plain) * 55);
     assert_eq!(root(&small)["extensionsRequired"], serde_json::json!(["KHR_mesh_quantization"]));
+}
+
+#[test]
+fn quantised_wood_is_as_thick_as_the_other() {
+    let mut plant = saplings::pole(6);
+    plant.begin_edit();
+    let thick: Vec<_> = (1..=6).map(|row| (MetamerId::new(row), Some(30.0))).collect();
+    plant.give_radii(&thick).expect("living wood");
+    plant.end_step();
+    for by_limb in [false, true] {
+        let [plain, small] =
+            [false, true].map(|quantised| shown(&file(&plant, &Model { quantised, by_limb, ..PLAIN })));
+        let [plain, small] = [&plain, &small].map(|shown| bounds(&shown[0].places));
+        assert!(plain[1].x > 30.0 * METRES, "the wood is thick: {plain:?}");
+        let off = (plain[0] - small[0]).abs().max((plain[1] - small[1]).abs()).max_element();
+        assert!(off < 1e-3, "{plain:?} is {small:?}");
+    }
 }
 
 #[cfg(feature = "meshopt")]
