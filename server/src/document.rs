@@ -110,6 +110,7 @@ pub const FORMATS: &[FormatRow] = &[
             option::INSTANCED,
             option::HULL,
             option::BY_LIMB,
+            option::LIGHTMAP,
             option::AUTHOR,
             option::LICENCE,
         ],
@@ -237,8 +238,12 @@ const LEVELS: [f64; 4] = [1.0, 0.22, 0.036, 0.0022];
 const USD_LEVELS: [f64; 4] = [1.0, 0.22, 0.048, 0.0008];
 
 /// The shares of the bytes for metamers and for leaves that options leave.
-const SHARES: &[(&str, [f64; 2])] =
-    &[(option::QUANTISED, [0.58, 0.58]), (option::COMPRESSED, [0.5, 0.5]), (option::INSTANCED, [1.0, 0.08])];
+const SHARES: &[(&str, [f64; 2])] = &[
+    (option::QUANTISED, [0.58, 0.58]),
+    (option::COMPRESSED, [0.5, 0.5]),
+    (option::INSTANCED, [1.0, 0.08]),
+    (option::LIGHTMAP, [1.12, 1.12]),
+];
 
 impl FormatRow {
     /// How the names of files of each format end.

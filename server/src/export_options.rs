@@ -11,6 +11,9 @@ use serde_json::Value;
 
 /// The most pixels of a picture: each takes some 170 bytes while it is drawn.
 const MOST_PIXELS: usize = 4_000_000;
+/// Texels along a side of a light map, as engines have them.
+const FEWEST_TEXELS: u32 = 64;
+const MOST_TEXELS: u32 = 8192;
 /// The most pictures of a turntable.
 const MOST_FRAMES: u16 = 180;
 /// The most points of a cloud.
@@ -41,6 +44,9 @@ pub struct ExportOptions {
     /// Write a node for each limb.
     #[arg(long, requires = "export")]
     pub by_limb: bool,
+    /// Add a second place for each vertex, in a light map of so many texels square.
+    #[arg(long, value_name = "TEXELS", requires = "export")]
+    pub lightmap: Option<Texels>,
     /// Pixels of a picture across and down.
     #[arg(long, value_name = "WIDTHxHEIGHT", requires = "export")]
     pub size: Option<Size>,
@@ -75,6 +81,7 @@ pub mod option {
     pub const INSTANCED: &str = "instanced";
     pub const HULL: &str = "hull";
     pub const BY_LIMB: &str = "by_limb";
+    pub const LIGHTMAP: &str = "lightmap";
     pub const SIZE: &str = "size";
     pub const TURN: &str = "turn";
     pub const RISE: &str = "rise";
@@ -85,7 +92,7 @@ pub mod option {
     /// Those of all files of triangles.
     pub const MESHES: &[&str] = &[LOD, HULL, BY_LIMB, AUTHOR, LICENCE];
     /// Those of USD.
-    pub const SCENES: &[&str] = &[LOD, INSTANCED, HULL, BY_LIMB, AUTHOR, LICENCE];
+    pub const SCENES: &[&str] = &[LOD, INSTANCED, HULL, BY_LIMB, LIGHTMAP, AUTHOR, LICENCE];
 }
 
 impl ExportOptions {
@@ -98,6 +105,7 @@ impl ExportOptions {
             (option::INSTANCED, self.instanced),
             (option::HULL, self.hull),
             (option::BY_LIMB, self.by_limb),
+            (option::LIGHTMAP, self.lightmap.is_some()),
             (option::SIZE, self.size.is_some()),
             (option::TURN, self.turn.is_some()),
             (option::RISE, self.rise.is_some()),
@@ -119,7 +127,8 @@ impl ExportOptions {
     pub fn model(&self) -> Model {
         let &Self { quantised, compressed, instanced, hull, by_limb, .. } = self;
         let detail = self.lod.map_or(Detail::Level(0), |lod| lod.0);
-        Model { detail, quantised, compressed, instanced, hull, by_limb }
+        let lightmap = self.lightmap.map(|texels| texels.0);
+        Model { detail, quantised, compressed, instanced, hull, by_limb, lightmap }
     }
 
     /// Where the first picture is taken from.
@@ -223,6 +232,8 @@ values! {
     Turn(f32): "-3600 to 3600", |text| number(text, -3600.0, 3600.0).map(Self);
     /// Degrees above the horizon.
     Rise(f32): "1 to 80", |text| number(text, 1.0, 80.0).map(Self);
+    /// Texels along a side of a light map.
+    Texels(u32): format!("{FEWEST_TEXELS} to {MOST_TEXELS}"), |text| number(text, FEWEST_TEXELS, MOST_TEXELS).map(Self);
     /// Pictures of a turntable.
     Frames(u16): format!("1 to {MOST_FRAMES}"), |text| number(text, 1, MOST_FRAMES).map(Self);
     /// Points of a cloud.
@@ -253,6 +264,10 @@ mod tests {
         for bad in ["0", "181", "70000", "1.5", ""] {
             assert!(bad.parse::<Frames>().is_err_and(|error| error == "allowed: 1 to 180"), "{bad}");
         }
+        assert_eq!("1024".parse(), Ok(Texels(1024)));
+        for bad in ["63", "8193", "true"] {
+            assert!(bad.parse::<Texels>().is_err_and(|error| error == "allowed: 64 to 8192"), "{bad}");
+        }
         assert!("20000001".parse::<Points>().is_err());
     }
 
@@ -261,5 +276,8 @@ mod tests {
         let options = ExportOptions { hull: true, ..ExportOptions::default() };
         assert_eq!(options.check(&[option::LOD]), Err(NotOfFormat("hull")));
         assert_eq!(options.check(&[option::HULL]), Ok(()));
+        let options = ExportOptions { lightmap: Some(Texels(512)), ..ExportOptions::default() };
+        assert_eq!(options.check(option::MESHES), Err(NotOfFormat("lightmap")), "OBJ has no second places");
+        assert_eq!(options.check(option::SCENES), Ok(()));
     }
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use espalier_mesh::{Bodies, Body, Grain, Style, TriangleMesh, Wood, seeds};
 use espalier_plant::{AxisId, MetamerId, Plant};
 use espalier_settings::Appearance;
-use glam::{Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use serde_json::{Value, json};
 
 use crate::{
@@ -18,6 +18,10 @@ use crate::{
         living,
     },
     hull,
+    lightmap::{
+        LightMap, flat_cards,
+        unrolled::{UnrolledWood, WoodMap},
+    },
     surface::{
         Texture,
         bark::{Bark, CUT},
@@ -58,6 +62,8 @@ pub(crate) struct Block<'a> {
     pub colours: &'a [Vec3],
     /// Triangles of the part's second surface.
     pub second: &'a [u32],
+    /// The place of each vertex in the part's light map, upwards, where it has one.
+    pub places: Option<&'a [Vec2]>,
 }
 
 /// Gives blocks one by one, always the same; it may be asked several times.
@@ -66,6 +72,9 @@ pub(crate) type Each<'a, T> =
 
 /// Takes the blocks of a part.
 pub(crate) type Take<'t> = dyn FnMut(Block<'_>) -> Result<(), ExportError> + 't;
+
+/// Gives cards piece by piece, as [`Each`] does.
+type EachCards<'a> = &'a dyn Fn(&mut dyn FnMut(&Cards) -> Result<(), ExportError>) -> Result<(), ExportError>;
 
 /// Gives the blocks of a part, as [`Each`] does.
 pub(crate) type Blocks<'a> = &'a dyn Fn(&mut Take<'_>) -> Result<(), ExportError>;
@@ -76,6 +85,7 @@ pub(crate) struct Part<'a> {
     pub surfaces: &'a [Surface<'a>],
     /// Whether the texture comes again beyond its borders.
     pub repeats: bool,
+    pub lightmap: Option<&'a LightMap>,
     pub blocks: Blocks<'a>,
 }
 
@@ -296,8 +306,15 @@ impl<'a> Assembly<'a> {
         limb: &Limb<'_>,
     ) -> Result<(), ExportError> {
         let surfaces = [Surface::Bark(&self.bark, self.looks.bark.relief), Surface::Plain("Cut", CUT)];
-        let blocks: Blocks<'_> = &|take| self.wood(limb, take);
-        builder.part(&Part { name: "Wood", surfaces: &surfaces, repeats: true, blocks })?;
+        if !limb.bodies.is_empty() {
+            let map = self.model.lightmap.map(|texels| WoodMap::of(&limb.bodies, texels));
+            let blocks: Blocks<'_> = &|take| match &map {
+                Some(map) => self.unrolled_wood(limb, map, take),
+                None => self.wood(limb, take),
+            };
+            let lightmap = map.as_ref().map(|map| &map.map);
+            builder.part(&Part { name: "Wood", surfaces: &surfaces, repeats: true, lightmap, blocks })?;
+        }
         for (kind, thin) in self.thin.iter().enumerate() {
             let (name, Some(thin)) = (PARTS[kind], thin) else { continue };
             let surface = Surface::Thin(name, &thin.texture);
@@ -312,8 +329,8 @@ impl<'a> Assembly<'a> {
                 builder.scatter(&Scatter { name, surface, strength, form, each })?;
                 continue;
             }
-            let blocks: Blocks<'_> = &|take| cards(level, limb, kind, thin.strength, take);
-            builder.part(&Part { name, surfaces: &[surface], repeats: false, blocks })?;
+            let each: EachCards<'_> = &|take| cards(level, limb, kind, thin.strength, take);
+            self.cards(builder, name, surface, each)?;
         }
         Ok(())
     }
@@ -326,11 +343,54 @@ impl<'a> Assembly<'a> {
             body.sweep(&mut wood);
             colours.extend(wood.radii.iter().map(|&radius| self.bark.tint(radius)));
             let (mesh, tangents) = (&wood.surface, &wood.tangents);
-            take(Block { mesh, tangents, colours: &colours, second: &wood.cuts })?;
+            take(Block { mesh, tangents, colours: &colours, second: &wood.cuts, places: None })?;
             wood.clear();
             colours.clear();
         }
         Ok(())
+    }
+
+    /// Wood with its places in a light map.
+    fn unrolled_wood(&self, limb: &Limb<'_>, map: &WoodMap, take: &mut Take<'_>) -> Result<(), ExportError> {
+        map.each(&limb.bodies, |UnrolledWood { wood, places }| {
+            let colours: Vec<Vec3> = wood.radii.iter().map(|&radius| self.bark.tint(radius)).collect();
+            let (mesh, tangents) = (&wood.surface, &wood.tangents);
+            take(Block { mesh, tangents, colours: &colours, second: &wood.cuts, places: Some(places) })
+        })
+    }
+
+    /// A part of cards, with their places in a light map where one is asked for.
+    fn cards(
+        &self,
+        builder: &mut dyn Builder,
+        name: &'static str,
+        surface: Surface<'_>,
+        each: EachCards<'_>,
+    ) -> Result<(), ExportError> {
+        let map = match self.model.lightmap {
+            None => None,
+            Some(texels) => {
+                let mut sizes = Vec::new();
+                each(&mut |cards| {
+                    sizes.extend(flat_cards::sizes(cards));
+                    Ok(())
+                })?;
+                Some(LightMap::of(&sizes, texels))
+            }
+        };
+        let lightmap = map.as_ref();
+        let blocks: Blocks<'_> = &|take| {
+            let (mut piece, mut places) = (0, Vec::new());
+            each(&mut |cards| {
+                places.clear();
+                if let Some(map) = lightmap {
+                    flat_cards::places(cards, map, piece, &mut places);
+                    piece += cards.grids.len();
+                }
+                take(Block { places: lightmap.map(|_| &places[..]), ..shown(cards) })
+            })
+        };
+        builder.part(&Part { name, surfaces: &[surface], repeats: false, lightmap, blocks })
     }
 
     /// Two crossed cards with pictures of the plant.
@@ -346,27 +406,30 @@ impl<'a> Assembly<'a> {
                 self.wood(limb, &mut |block| take(&self.bark.texture, block))?;
                 for (kind, thin) in self.thin.iter().enumerate() {
                     let Some(thin) = thin else { continue };
-                    cards(level, limb, kind, thin.strength, &mut |block| take(&thin.texture, block))?;
+                    let mut take = |cards: &Cards| take(&thin.texture, shown(cards));
+                    cards(level, limb, kind, thin.strength, &mut take)?;
                 }
             }
             Ok(())
         };
         let Billboard { cards, texture } = Billboard::of(place, &each)?;
-        let blocks: Blocks<'_> = &|take| {
-            take(Block { mesh: &cards.mesh, tangents: &cards.tangents, colours: &cards.hues, second: &[] })
-        };
-        let surfaces = [Surface::Thin("Billboard", &texture)];
-        builder.part(&Part { name: "Billboard", surfaces: &surfaces, repeats: false, blocks })
+        self.cards(builder, "Billboard", Surface::Thin("Billboard", &texture), &|take| take(&cards))
     }
 }
 
-/// Leaves, flowers or fruits.
+/// Cards as a block that is in no light map.
+fn shown(cards: &Cards) -> Block<'_> {
+    let Cards { mesh, tangents, hues, .. } = cards;
+    Block { mesh, tangents, colours: hues, second: &[], places: None }
+}
+
+/// Gives leaves, flowers or fruits.
 fn cards(
     level: &Level<'_>,
     limb: &Limb<'_>,
     kind: usize,
     strength: f32,
-    take: &mut Take<'_>,
+    take: &mut dyn FnMut(&Cards) -> Result<(), ExportError>,
 ) -> Result<(), ExportError> {
     let mut cards = Cards::default();
     for block in limb.metamers.chunks(BLOCK) {
@@ -380,7 +443,7 @@ fn cards(
         for hue in &mut cards.hues {
             *hue *= strength;
         }
-        take(Block { mesh: &cards.mesh, tangents: &cards.tangents, colours: &cards.hues, second: &[] })?;
+        take(&cards)?;
         cards.clear();
     }
     Ok(())

@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3};
 use crate::{
     ExportError,
     assembly::Block,
-    foliage::cards::Cards,
+    foliage::cards::{Cards, Grid},
     picture::raster::{View, weights},
     surface::Texture,
 };
@@ -141,6 +141,7 @@ impl Side {
 
     fn add_card(&self, cards: &mut Cards, foot: Vec3, half: f32) {
         let first = cards.mesh.positions.len() as u32;
+        cards.grids.push(Grid { first, columns: 1, rows: 1 });
         let depth = self.eye * foot.dot(self.eye);
         for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
             let at = self.low + (self.high - self.low) * Vec2::new(x, y);

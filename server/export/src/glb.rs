@@ -9,7 +9,7 @@ mod writer;
 use espalier_mesh::{Style, TriangleMesh};
 use espalier_plant::Plant;
 use espalier_settings::Appearance;
-use glam::{Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use serde_json::Value;
 
 use self::{
@@ -77,13 +77,17 @@ impl Builder for Writer<'_> {
             return Err(ExportError::NotFinite);
         }
         let mut vertices = self.begin_part(part.repeats, reach);
+        if let Some(map) = part.lightmap {
+            vertices = vertices.with_lightmap(&map.about(self.scale));
+        }
         let mut triangles = [Vec::new(), Vec::new()];
         (part.blocks)(&mut |block| {
             let first = vertices.count();
             for (index, &place) in block.mesh.positions.iter().enumerate() {
                 let (normal, uv) = (block.mesh.normals[index], block.mesh.uvs[index]);
                 let (tangent, colour) = (block.tangents[index], block.colours[index]);
-                vertices.vertex(self, &Vertex { place, normal, tangent, uv, colour })?;
+                let lit = block.places.map_or(Vec2::ZERO, |places| places[index]);
+                vertices.vertex(self, &Vertex { place, normal, tangent, uv, colour, lit })?;
             }
             for (to, from) in triangles.iter_mut().zip([&block.mesh.indices[..], block.second]) {
                 to.extend(from.iter().map(|&index| first + index));
@@ -107,7 +111,8 @@ impl Builder for Writer<'_> {
         let mut vertices = self.begin_part(false, reach.fold(1.0, f32::max));
         for (&place, &normal) in mesh.positions.iter().zip(&mesh.normals) {
             let tangent: Vec4 = normal.any_orthonormal_vector().extend(1.0);
-            let vertex = Vertex { place, normal, tangent, uv: glam::Vec2::ZERO, colour: Vec3::ONE };
+            let (uv, colour) = (Vec2::ZERO, Vec3::ONE);
+            let vertex = Vertex { place, normal, tangent, uv, colour, lit: uv };
             vertices.vertex(self, &vertex)?;
         }
         let surface = Surface::Plain(COLLISION, HULL);

@@ -87,6 +87,8 @@ pub(crate) struct Node {
 pub(crate) struct Mesh {
     pub name: String,
     pub primitives: Vec<Primitive>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub extras: Option<Value>,
 }
 
 #[derive(Serialize)]
@@ -105,6 +107,8 @@ pub(crate) struct Attributes {
     pub tangent: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub texcoord_0: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub texcoord_1: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color_0: Option<usize>,
 }

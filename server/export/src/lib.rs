@@ -9,6 +9,7 @@ mod foliage;
 pub mod glb;
 mod gltf;
 mod hull;
+mod lightmap;
 mod mean_materials;
 mod model;
 pub mod mtg;

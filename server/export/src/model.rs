@@ -15,6 +15,8 @@ pub struct Model {
     pub hull: bool,
     /// A node for each limb, where it begins.
     pub by_limb: bool,
+    /// A second place for each vertex in a light map of so many texels square, one for each mesh.
+    pub lightmap: Option<u32>,
 }
 
 /// How finely plants are drawn.

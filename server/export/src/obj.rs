@@ -29,8 +29,8 @@ pub fn obj(
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
     let scale = about.scale()?;
-    // There are no places of meshes in this format.
-    let model = Model { instanced: false, ..*model };
+    // There are no places of meshes in this format, and a vertex has one place in a texture.
+    let model = Model { instanced: false, lightmap: None, ..*model };
     let assembly = Assembly::of(plant, style, appearance, about.species, &model);
     let mut zip = Zip::new(out);
     let mut materials = MeanMaterials::default();

@@ -196,11 +196,16 @@ impl Builder for Writer<'_> {
         if !(low.is_finite() && high.is_finite()) {
             return Err(ExportError::NotFinite);
         }
-        writeln!(
-            self.out,
-            "def Mesh \"{}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n{{",
-            part.name
-        )?;
+        writeln!(self.out, "def Mesh \"{}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]", part.name)?;
+        if let Some(Value::Object(about)) = part.lightmap.map(|map| map.about(self.scale)) {
+            writeln!(self.out, "customData = {{\ndictionary lightmap = {{")?;
+            for (name, value) in &about {
+                let kind = if value.is_u64() { "int" } else { "double" };
+                writeln!(self.out, "{kind} {name} = {value}")?;
+            }
+            writeln!(self.out, "}}\n}}")?;
+        }
+        writeln!(self.out, ")\n{{")?;
         writeln!(self.out, "uniform token subdivisionScheme = \"none\"")?;
         if part.surfaces.len() == 1 {
             writeln!(self.out, "uniform bool doubleSided = 1")?;
@@ -237,6 +242,14 @@ impl Builder for Writer<'_> {
         self.array("texCoord2f[] primvars:st", vertex, |array| {
             (part.blocks)(&mut |block| block.mesh.uvs.iter().try_for_each(|uv| array.vector(&uv.to_array())))
         })?;
+        if part.lightmap.is_some() {
+            self.array("texCoord2f[] primvars:st1", vertex, |array| {
+                (part.blocks)(&mut |block| {
+                    let mut places = block.places.into_iter().flatten();
+                    places.try_for_each(|place| array.vector(&place.to_array()))
+                })
+            })?;
+        }
         self.array("color3f[] primvars:displayColor", vertex, |array| {
             (part.blocks)(&mut |block| {
                 block.colours.iter().try_for_each(|colour| array.vector(&colour.to_array()))

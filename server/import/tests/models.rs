@@ -24,6 +24,7 @@ const PLAIN: Model = Model {
     instanced: false,
     hull: false,
     by_limb: false,
+    lightmap: None,
 };
 
 type Export = fn(

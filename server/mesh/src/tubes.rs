@@ -12,6 +12,7 @@ use crate::{
     curve::{Sample, samples},
     grain::Grain,
     rotation_minimising,
+    sheet::{Closing, Sheet},
     style::Style,
     triangle_mesh::TriangleMesh,
 };
@@ -98,9 +99,9 @@ impl Body<'_> {
         self.course.nodes[0]
     }
 
-    /// Makes it and adds it to others.
-    pub fn sweep(&self, wood: &mut Wood) {
-        wood.sweep(self.course, self.smoothing, &self.grain);
+    /// Makes it, adds it to others and says how it hangs together; none where it has no length.
+    pub fn sweep(&self, wood: &mut Wood) -> Option<Sheet> {
+        wood.sweep(self.course, self.smoothing, &self.grain)
     }
 }
 
@@ -162,14 +163,16 @@ impl Wood {
         self.surface
     }
 
-    fn sweep(&mut self, course: &Course, smoothing: f32, grain: &Grain) {
+    fn sweep(&mut self, course: &Course, smoothing: f32, grain: &Grain) -> Option<Sheet> {
         let samples = samples(course, smoothing, grain.tolerance);
-        let [first, .., last] = &samples[..] else { return };
+        let [first, .., last] = &samples[..] else { return None };
         let across = rotation_minimising::normals(samples.iter().map(|sample| sample.tangent), course.normal);
         let thickest = course.radii.iter().copied().fold(0.0, f32::max);
         let slopes = slopes(&samples, course.end);
         let tube = Tube::new(sides(thickest, grain), squares(thickest));
         let foot = self.add_ring(&tube, first, across[0], slopes[0], 0.0);
+        let mut rings = vec![foot];
+        let face = self.count();
         let back = self.add_face(&tube, foot, first, -first.tangent, 0.0);
         for triangle in back.as_chunks::<3>().0 {
             let &[a, b, c] = triangle;
@@ -181,15 +184,27 @@ impl Wood {
             v += tube.tiles_along(to.arc - from.arc, 0.5 * (to.radius + from.radius));
             let ring = self.add_ring(&tube, to, across[i + 1], slopes[i + 1], v);
             self.join(&tube, below, ring);
+            rings.push(ring);
             below = ring;
         }
-        match course.end {
-            End::Grown => self.close(&tube, below, last, v),
+        let top = self.count();
+        let end = match course.end {
+            End::Grown => {
+                self.close(&tube, below, last, v);
+                Closing::Cone(top)
+            }
             End::Cut => {
                 let face = self.add_face(&tube, below, last, last.tangent, v);
                 self.cuts.extend(face);
+                Closing::Face(top)
             }
-        }
+        };
+        Some(Sheet { sides: tube.sides(), rings, foot: face, end })
+    }
+
+    /// Vertices so far.
+    fn count(&self) -> u32 {
+        self.radii.len() as u32
     }
 
     fn vertex(&mut self, position: Vec3, normal: Vec3, uv: Vec2, radius: f32, tangent: Vec4) -> u32 {
@@ -207,7 +222,7 @@ impl Wood {
     /// Adds a ring and returns its first vertex.
     fn add_ring(&mut self, tube: &Tube, sample: &Sample, across: Vec3, slope: f32, v: f32) -> u32 {
         let binormal = sample.tangent.cross(across);
-        let first = self.radii.len() as u32;
+        let first = self.count();
         for &(cos, sin, u) in &tube.around {
             let outward = across * cos + binormal * sin;
             let normal = (outward - sample.tangent * slope).normalize();
@@ -240,7 +255,7 @@ impl Wood {
     /// The triangles of a flat face over a ring, as seen from above it.
     fn add_face(&mut self, tube: &Tube, ring: u32, end: &Sample, normal: Vec3, v: f32) -> Vec<u32> {
         // The rim once more, for the face has another normal than the sides; texels go on as they come over the rim.
-        let rim = self.radii.len() as u32;
+        let rim = self.count();
         // Seen from behind v still grows inwards.
         let hand = if normal.dot(end.tangent) < 0.0 { -1.0 } else { 1.0 };
         for corner in (ring..=ring + tube.sides()).map(|corner| corner as usize) {

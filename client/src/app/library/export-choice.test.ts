@@ -23,6 +23,16 @@ describe("a choice", () => {
     expect([...optionsOf(FIRST_CHOICE, GLB)]).toEqual([]);
   });
 
+  it("asks for light maps of so many texels where the format can have them", () => {
+    const lit = { ...GLB, options: ["lightmap"] };
+    expect([...optionsOf({ ...FIRST_CHOICE, lightmap: "1024" }, lit)]).toEqual([["lightmap", "1024"]]);
+    expect([...optionsOf({ ...FIRST_CHOICE, lightmap: "1024" }, GLB)]).toEqual([]);
+    expect([...optionsOf({ ...FIRST_CHOICE, lightmap: "" }, lit)]).toEqual([]);
+    expect([isExportChoice({ ...FIRST_CHOICE, lightmap: "1024" }), isExportChoice({ ...FIRST_CHOICE, lightmap: 1 })]).toEqual(
+      [true, false],
+    );
+  });
+
   it("that something else was kept as is none", () => {
     expect(isExportChoice(FIRST_CHOICE)).toBe(true);
     for (const other of [null, 3, {}, { ...FIRST_CHOICE, on: "hull" }, { ...FIRST_CHOICE, lod: 1 }]) {

@@ -6,6 +6,8 @@ export interface ExportChoice {
   readonly format: string;
   readonly lod: string;
   readonly frames: string;
+  /** Texels along a side of light maps; none, or missing in what was kept before there were any. */
+  readonly lightmap?: string;
   /** Switches that are on, for all formats that have them. */
   readonly on: readonly string[];
   readonly author: string;
@@ -30,6 +32,7 @@ export function isExportChoice(value: unknown): boolean {
     [choice.format, choice.lod, choice.frames, choice.author, choice.licence].every(
       (text) => typeof text === "string",
     ) &&
+    ["undefined", "string"].includes(typeof choice.lightmap) &&
     Array.isArray(choice.on) &&
     choice.on.every((name) => typeof name === "string")
   );
@@ -40,6 +43,7 @@ export function optionsOf(choice: ExportChoice, format: ExportFormat): ReadonlyM
   const all: [string, string][] = [
     ["lod", choice.lod === "0" ? "" : choice.lod],
     ...choice.on.map((name): [string, string] => [name, "true"]),
+    ["lightmap", choice.lightmap ?? ""],
     ["frames", choice.frames],
     ["author", choice.author.trim()],
     ["licence", choice.licence.trim()],

@@ -16,6 +16,8 @@ export const EXPORTS = {
   "exports.instanced": ["Leaves as instances", "Blätter als Instanzen"],
   "exports.hull": ["Hull for collisions", "Hülle für Kollisionen"],
   "exports.by_limb": ["A node for each limb", "Ein Knoten je Ast"],
+  "exports.lightmap": ["Light map, in texels", "Lichtkarte, in Texeln"],
+  "exports.lightmap.none": ["None", "Keine"],
   "exports.frames": ["Pictures", "Bilder"],
   "exports.author": ["Author", "Urheber"],
   "exports.licence": ["Licence", "Lizenz"],

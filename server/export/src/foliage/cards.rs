@@ -27,6 +27,24 @@ pub(crate) struct Cards {
     pub tangents: Vec<Vec4>,
     /// The colour of what each vertex belongs to, linear.
     pub hues: Vec<Vec3>,
+    /// The cards, in the order of their vertices.
+    pub grids: Vec<Grid>,
+}
+
+/// One card: lines of vertices, each from its left to its right, from its foot upwards.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Grid {
+    /// Its first vertex.
+    pub first: u32,
+    pub columns: u32,
+    pub rows: u32,
+}
+
+impl Grid {
+    /// The index of a vertex.
+    pub(crate) fn vertex(&self, column: u32, row: u32) -> usize {
+        (self.first + row * (self.columns + 1) + column) as usize
+    }
 }
 
 /// How finely leaves are drawn.
@@ -265,6 +283,7 @@ impl Cards {
         corner: impl Fn(f32, f32) -> Corner,
     ) {
         let first = self.mesh.positions.len() as u32;
+        self.grids.push(Grid { first, columns, rows });
         for row in 0..=rows {
             for column in 0..=columns {
                 let (across, along) = (2.0 * column as f32 / columns as f32 - 1.0, row as f32 / rows as f32);
@@ -290,6 +309,7 @@ impl Cards {
         self.mesh.clear();
         self.tangents.clear();
         self.hues.clear();
+        self.grids.clear();
     }
 }
 

@@ -19,7 +19,9 @@ pub(super) fn vertices(bytes: &[u8], stride: usize) -> Result<Vec<u8>, ExportErr
     let packed = match stride {
         24 => packed::<24>(bytes),
         28 => packed::<28>(bytes),
+        32 => packed::<32>(bytes),
         52 => packed::<52>(bytes),
+        60 => packed::<60>(bytes),
         _ => None,
     };
     packed.ok_or(ExportError::NoCompression)

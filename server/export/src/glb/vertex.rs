@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3, Vec4};
 use crate::gltf::{BYTE, FLOAT, SHORT, UNSIGNED_BYTE, UNSIGNED_SHORT};
 
 /// The most bytes that a vertex has.
-const MOST: usize = 52;
+const MOST: usize = 60;
 
 /// One vertex, lengths in internodes.
 pub(super) struct Vertex {
@@ -16,6 +16,8 @@ pub(super) struct Vertex {
     pub uv: Vec2,
     /// Linear.
     pub colour: Vec3,
+    /// Its place in a light map, upwards, where there is one.
+    pub lit: Vec2,
 }
 
 /// Where one attribute stands in the bytes of a vertex.
@@ -34,6 +36,7 @@ pub(super) struct Layout {
     pub tangent: Attribute,
     pub uv: Attribute,
     pub colour: Attribute,
+    pub lit: Option<Attribute>,
     pub stride: usize,
 }
 
@@ -47,7 +50,8 @@ const PLAIN: Layout = Layout {
     tangent: at(24, FLOAT, "VEC4"),
     uv: at(40, FLOAT, "VEC2"),
     colour: at(48, UNSIGNED_BYTE, "VEC4"),
-    stride: MOST,
+    lit: None,
+    stride: 52,
 };
 /// For places in an atlas, which are between 0 and 1.
 const SMALL: Layout = Layout {
@@ -56,6 +60,7 @@ const SMALL: Layout = Layout {
     tangent: at(12, BYTE, "VEC4"),
     uv: at(16, UNSIGNED_SHORT, "VEC2"),
     colour: at(20, UNSIGNED_BYTE, "VEC4"),
+    lit: None,
     stride: 24,
 };
 /// For bark, which repeats itself along a limb.
@@ -71,9 +76,17 @@ impl Layout {
         }
     }
 
+    /// The same with places in a light map behind all others.
+    pub(super) fn with_lightmap(self) -> Self {
+        let is_small = self.place.component_type != FLOAT;
+        let (component_type, bytes) = if is_small { (UNSIGNED_SHORT, 4) } else { (FLOAT, 8) };
+        let lit = Some(at(self.stride, component_type, "VEC2"));
+        Self { lit, stride: self.stride + bytes, ..self }
+    }
+
     /// The bytes of a vertex whose `place` is in the units of its node, and the place as its accessor counts it.
     pub(super) fn encode(&self, vertex: &Vertex, place: Vec3) -> ([u8; MOST], Vec3) {
-        let Vertex { normal, tangent, uv, colour, .. } = vertex;
+        let Vertex { normal, tangent, uv, colour, lit, .. } = vertex;
         let mut bytes = [0; MOST];
         let mut put = |attribute: Attribute, values: &[f32]| {
             let to = &mut bytes[attribute.offset..];
@@ -95,6 +108,9 @@ impl Layout {
         put(self.normal, &normal.to_array());
         put(self.tangent, &tangent.to_array());
         put(self.uv, &[uv.x, 1.0 - uv.y]);
+        if let Some(attribute) = self.lit {
+            put(attribute, &[lit.x, 1.0 - lit.y]);
+        }
         put(self.colour, &colour.clamp(Vec3::ZERO, Vec3::ONE).extend(1.0).to_array());
         let counted =
             if self.place.component_type == FLOAT { place } else { place.map(|part| whole(part, i16::MAX)) };

@@ -121,15 +121,16 @@ impl<'a> Writer<'a> {
         let is_measured = self.packing.is_quantised && reach > 0.0;
         let unit = if is_measured { reach * self.scale } else { 1.0 };
         let (origin, start) = (self.origin(), self.written);
-        Part { layout, unit, origin, start, count: 0, held: Vec::new(), low: Vec3::MAX, high: Vec3::MIN }
+        let (low, high, extras) = (Vec3::MAX, Vec3::MIN, None);
+        Part { layout, unit, origin, start, count: 0, held: Vec::new(), low, high, extras }
     }
 
     /// Begins a mesh that is measured from its own origin, in internodes; it is small, and not quantised.
     pub(super) fn begin_plain(&self) -> Part {
         let layout = Layout::new(false, false);
         let (unit, start) = (self.scale, self.written);
-        let (low, high) = (Vec3::MAX, Vec3::MIN);
-        Part { layout, unit, origin: Vec3::ZERO, start, count: 0, held: Vec::new(), low, high }
+        let (low, high, extras) = (Vec3::MAX, Vec3::MIN, None);
+        Part { layout, unit, origin: Vec3::ZERO, start, count: 0, held: Vec::new(), low, high, extras }
     }
 
     /// Makes bytes a view.
@@ -289,9 +290,16 @@ pub(super) struct Part {
     held: Vec<u8>,
     low: Vec3,
     high: Vec3,
+    /// What the mesh says of itself.
+    extras: Option<Value>,
 }
 
 impl Part {
+    /// Its vertices have places in a light map, of which the mesh says this; none have been added yet.
+    pub(super) fn with_lightmap(self, about: &Value) -> Self {
+        Self { layout: self.layout.with_lightmap(), extras: Some(json!({ "lightmap": about })), ..self }
+    }
+
     /// Vertices so far.
     pub(super) fn count(&self) -> u32 {
         self.count as u32
@@ -349,7 +357,7 @@ impl Part {
         name: String,
         triangles: &[(&[u32], Surface<'_>)],
     ) -> Result<Option<usize>, ExportError> {
-        let Self { layout, start, count, held, low, high, .. } = self;
+        let Self { layout, start, count, held, low, high, extras, .. } = self;
         if count == 0 {
             return Ok(None);
         }
@@ -370,6 +378,7 @@ impl Part {
             normal: accessor(layout.normal),
             tangent: is_textured.then(|| accessor(layout.tangent)),
             texcoord_0: is_textured.then(|| accessor(layout.uv)),
+            texcoord_1: layout.lit.map(&mut accessor),
             color_0: is_textured.then(|| accessor(layout.colour)),
         };
         let places = &mut writer.root.accessors[attributes.position];
@@ -377,16 +386,19 @@ impl Part {
         let mut primitives = Vec::new();
         for (indices, surface) in triangles.iter().filter(|(indices, _)| !indices.is_empty()) {
             let attributes = match surface {
-                // The colour of bark is not that of wood below it.
-                Surface::Plain(..) => {
-                    Attributes { tangent: None, texcoord_0: None, color_0: None, ..attributes }
-                }
+                // The colour of bark is not that of wood below it. Sets of places are numbered without a gap.
+                Surface::Plain(..) => Attributes {
+                    tangent: None,
+                    texcoord_0: attributes.texcoord_0.filter(|_| layout.lit.is_some()),
+                    color_0: None,
+                    ..attributes
+                },
                 _ => attributes,
             };
             let indices = writer.indices(indices, count)?;
             primitives.push(Primitive { attributes, indices, material: writer.material(surface)? });
         }
-        writer.root.meshes.push(Mesh { name, primitives });
+        writer.root.meshes.push(Mesh { name, primitives, extras });
         Ok(Some(writer.root.meshes.len() - 1))
     }
 }

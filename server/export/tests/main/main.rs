@@ -1,5 +1,6 @@
 //! Files are what their formats say, for any plant.
 
+mod lightmap;
 mod models;
 mod reader;
 mod saplings;

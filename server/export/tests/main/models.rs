@@ -16,6 +16,7 @@ const PLAIN: Model = Model {
     instanced: false,
     hull: false,
     by_limb: false,
+    lightmap: None,
 };
 
 fn file(plant: &Plant, options: &Model) -> Vec<u8> {
@@ -23,7 +24,7 @@ fn file(plant: &Plant, options: &Model) -> Vec<u8> {
 }
 
 /// The accessor's numbers, each of its parts from -1 to 1 where it is normalised.
-fn numbers(file: &[u8], accessor: usize) -> Vec<f32> {
+pub fn numbers(file: &[u8], accessor: usize) -> Vec<f32> {
     let root = root(file);
     let number = |value: &Value| value.as_u64().map_or(0, |value| value as usize);
     let (accessor, views) = (&root["accessors"][accessor], &root["bufferViews"]);

@@ -14,6 +14,8 @@ pub struct ReadMesh {
     pub normals: Vec<Vec3>,
     pub tangents: Vec<Vec4>,
     pub uvs: Vec<Vec2>,
+    /// Places in the light map, where there is one.
+    pub lit: Vec<Vec2>,
     /// Linear.
     pub colours: Vec<Vec3>,
     /// The mean of what its texture shows, linear; white without one.
@@ -100,6 +102,7 @@ fn read_primitive(name: String, primitive: &Primitive, blob: &[u8]) -> ReadMesh 
     let positions: Vec<Vec3> = reader.read_positions().expect("positions").map(Vec3::from_array).collect();
     let normals: Vec<Vec3> = reader.read_normals().expect("normals").map(Vec3::from_array).collect();
     let uvs: Vec<Vec2> = reader.read_tex_coords(0).expect("uvs").into_f32().map(Vec2::from_array).collect();
+    let lit = reader.read_tex_coords(1).map(|places| places.into_f32().map(Vec2::from_array).collect());
     let tangents: Vec<Vec4> = reader.read_tangents().expect("tangents").map(Vec4::from_array).collect();
     for (tangent, normal) in tangents.iter().zip(&normals) {
         let along = tangent.truncate();
@@ -140,7 +143,17 @@ fn read_primitive(name: String, primitive: &Primitive, blob: &[u8]) -> ReadMesh 
     assert!(
         indices.iter().all(|&index| (index as usize) < positions.len() && !(is_short && index == 0xffff))
     );
-    ReadMesh { name, positions, normals, tangents, uvs, colours, texture_mean, indices }
+    ReadMesh {
+        name,
+        positions,
+        normals,
+        tangents,
+        uvs,
+        lit: lit.unwrap_or_default(),
+        colours,
+        texture_mean,
+        indices,
+    }
 }
 
 /// The mean colour of what a texture covers, linear.

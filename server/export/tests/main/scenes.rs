@@ -84,6 +84,17 @@ fn usd_has_the_triangles_of_the_glb_and_its_package_is_aligned() {
         assert_eq!(counts, meshes.iter().map(|mesh| mesh.indices.len() / 3).collect::<Vec<_>>());
         assert!(usd.contains("def Xform \"Sour__cherry_\""));
     }
+    assert!(!plain.contains("primvars:st1"));
+    let lit = Model { lightmap: Some(512), ..Model::default() };
+    let lit = String::from_utf8(file(espalier_export::usda, &lit)).expect("text");
+    let lists = |name: &str| -> Vec<usize> {
+        let lines = lit.lines().filter(|line| line.starts_with(name));
+        lines.map(|line| line.matches('(').count()).collect()
+    };
+    // The array of places, and the mark of what it is for each vertex, end with a bracket each.
+    let places = lists("texCoord2f[] primvars:st1 = [");
+    assert_eq!(places.iter().map(|count| count - 1).collect::<Vec<_>>(), lists("point3f[] points = ["));
+    assert_eq!(lit.matches("dictionary lightmap = {").count(), meshes.len());
     assert!(!plain.contains(".png"));
     for name in text.split('@').filter(|name| name.ends_with(".png")) {
         assert!(packed[name].1.starts_with(b"\x89PNG"), "{name}");

@@ -6,6 +6,7 @@ import { type Key, say } from "../../words/say";
 import { Segments } from "../controls/segments";
 
 const LODS = ["0", "1", "2", "3", "set"] as const;
+const LIGHTMAPS = ["", "512", "1024", "2048", "4096"] as const;
 const FRAMES = ["24", "36", "72"] as const;
 const SWITCHES = ["quantised", "compressed", "instanced", "hull", "by_limb"] as const;
 const TEXTS = ["author", "licence"] as const;
@@ -29,6 +30,16 @@ export function ExportOptions({ format, choice, choose }: OptionsProps) {
           chosen={choice.lod}
           text={(lod) => say(`exports.lod.${lod}` as Key)}
           onChoose={(lod) => choose({ lod })}
+        />
+      )}
+      {has("lightmap") && (
+        <Segments
+          legend={say("exports.lightmap")}
+          name="lightmap"
+          values={LIGHTMAPS}
+          chosen={choice.lightmap ?? ""}
+          text={(texels) => texels || say("exports.lightmap.none")}
+          onChoose={(lightmap) => choose({ lightmap })}
         />
       )}
       {has("frames") && (
