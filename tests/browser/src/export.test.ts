@@ -78,12 +78,8 @@ it.each([
   [["--lod", "3"], []],
   [["--compressed", "--quantised"], ["UNSUPPORTED_EXTENSION"]],
   [["--instanced"], ["UNSUPPORTED_EXTENSION", "UNUSED_OBJECT"]],
-  // Light maps are for light that is baked later: no material uses their places.
-  [["--lightmap", "1024"], ["MESH_PRIMITIVE_UNUSED_TEXCOORD"]],
-  [
-    ["--lightmap", "512", "--lod", "set", "--hull", "--quantised"],
-    ["MESH_PRIMITIVE_UNUSED_TEXCOORD"],
-  ],
+  [["--lightmap", "1024"], []],
+  [["--lightmap", "512", "--lod", "set", "--hull", "--quantised"], []],
 ])(
   "so are files with %j",
   async (options, information) => {

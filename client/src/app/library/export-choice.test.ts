@@ -28,9 +28,10 @@ describe("a choice", () => {
     expect([...optionsOf({ ...FIRST_CHOICE, lightmap: "1024" }, lit)]).toEqual([["lightmap", "1024"]]);
     expect([...optionsOf({ ...FIRST_CHOICE, lightmap: "1024" }, GLB)]).toEqual([]);
     expect([...optionsOf({ ...FIRST_CHOICE, lightmap: "" }, lit)]).toEqual([]);
-    expect([isExportChoice({ ...FIRST_CHOICE, lightmap: "1024" }), isExportChoice({ ...FIRST_CHOICE, lightmap: 1 })]).toEqual(
-      [true, false],
-    );
+    expect([
+      isExportChoice({ ...FIRST_CHOICE, lightmap: "1024" }),
+      isExportChoice({ ...FIRST_CHOICE, lightmap: 1 }),
+    ]).toEqual([true, false]);
   });
 
   it("that something else was kept as is none", () => {
