@@ -40,13 +40,13 @@ pub(crate) enum Surface<'a> {
     /// Bark, and how deep its furrows look.
     Bark(&'a Bark, f32),
     /// What has pictures with nothing around them.
-    Thin(&'static str, &'a Texture),
+    Thin(&'a str, &'a Texture),
     /// One linear colour.
     Plain(&'static str, Vec3),
 }
 
-impl Surface<'_> {
-    pub(crate) fn name(&self) -> &'static str {
+impl<'a> Surface<'a> {
+    pub(crate) fn name(&self) -> &'a str {
         match self {
             Self::Bark(..) => "Bark",
             Self::Thin(name, _) | Self::Plain(name, _) => name,
@@ -210,7 +210,7 @@ impl<'a> Assembly<'a> {
             let place = plant.metamers().end(seed);
             builder.begin(&name, place, Some(json!({ "row": seed.raw(), "metamers": ids.len() })))?;
             if !ids.is_empty() {
-                self.plant(builder, &name, seed, ids)?;
+                self.plant(builder, &name, number, seed, ids)?;
             }
             builder.end()?;
         }
@@ -221,6 +221,7 @@ impl<'a> Assembly<'a> {
         &self,
         builder: &mut dyn Builder,
         name: &str,
+        number: usize,
         seed: MetamerId,
         ids: &[MetamerId],
     ) -> Result<(), ExportError> {
@@ -233,7 +234,7 @@ impl<'a> Assembly<'a> {
             }
             let limbs = self.limbs(level, seed, ids);
             if level.number == Detail::BILLBOARD {
-                self.billboard(builder, level, &limbs, place)?;
+                self.billboard(builder, level, &limbs, place, number)?;
             } else if self.model.by_limb {
                 for (number, (axis, limb)) in limbs.iter().enumerate() {
                     let is_trunk = self.plant.axes().order(*axis) == 0;
@@ -400,6 +401,7 @@ impl<'a> Assembly<'a> {
         level: &Level<'_>,
         limbs: &BTreeMap<AxisId, Limb<'_>>,
         place: Vec3,
+        number: usize,
     ) -> Result<(), ExportError> {
         let each = |take: &mut dyn FnMut(&Texture, Block<'_>) -> Result<(), ExportError>| {
             for limb in limbs.values() {
@@ -413,7 +415,9 @@ impl<'a> Assembly<'a> {
             Ok(())
         };
         let Billboard { cards, texture } = Billboard::of(place, &each)?;
-        self.cards(builder, "Billboard", Surface::Thin("Billboard", &texture), &|take| take(&cards))
+        // Each plant has pictures of its own.
+        let name = if number == 1 { "Billboard".to_owned() } else { format!("Billboard_{number}") };
+        self.cards(builder, "Billboard", Surface::Thin(&name, &texture), &|take| take(&cards))
     }
 }
 

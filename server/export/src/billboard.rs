@@ -7,7 +7,7 @@ use crate::{
     assembly::Block,
     foliage::cards::{Cards, Grid},
     picture::raster::{View, weights},
-    surface::Texture,
+    surface::{Depth, Texture},
 };
 
 /// Texels along a side of the texture, whose left half shows the plant from the front and its right half from the side.
@@ -47,7 +47,7 @@ impl Billboard {
         for (half, side) in sides.iter().enumerate() {
             side.add_card(&mut cards, foot, half as f32);
         }
-        Ok(Self { cards, texture: texture(&sides) })
+        Ok(Self { cards, texture: texture(&sides, foot) })
     }
 }
 
@@ -154,40 +154,121 @@ impl Side {
         cards.mesh.triangle(first + 2, first + 1, first + 3);
     }
 
-    /// A texel, from the foot upwards: its colour and normal, and what share of it is covered.
-    fn texel(&self, x: usize, y: usize) -> Option<(Vec3, Vec3, f32)> {
+    /// A texel, from the foot upwards.
+    fn texel(&self, x: usize, y: usize) -> Option<Texel> {
         let (mut colour, mut normal, mut count) = (Vec3::ZERO, Vec3::ZERO, 0);
+        let mut near = f32::NEG_INFINITY;
         for i in 0..SAMPLES * SAMPLES {
             let at = [x * SAMPLES + i % SAMPLES, (SIDE - 1 - y) * SAMPLES + i / SAMPLES];
             let sample = self.samples[at[1] * SIZE[0] + at[0]];
             if sample.near > f32::NEG_INFINITY {
                 colour += sample.colour;
                 normal += sample.normal;
+                near = near.max(sample.near);
                 count += 1;
             }
         }
         let share = count as f32 / (SAMPLES * SAMPLES) as f32;
-        (count > 0).then(|| (colour / count as f32, normal.normalize_or(Vec3::Z), share))
+        let (colour, normal) = (colour / count.max(1) as f32, normal.normalize_or(Vec3::Z));
+        (count > 0).then_some(Texel { colour, normal, share, near })
     }
 }
 
-fn texture(sides: &[Side; 2]) -> Texture {
-    let texels: Vec<_> = (0..SIDE * SIDE)
-        .map(|at| sides[at % SIDE * 2 / SIDE].texel(at % SIDE % (SIDE / 2), at / SIDE))
-        .collect();
+/// What a texel shows.
+#[derive(Clone, Copy)]
+struct Texel {
+    colour: Vec3,
+    normal: Vec3,
+    /// What share of it is covered.
+    share: f32,
+    /// How near the nearest is.
+    near: f32,
+}
+
+fn texture(sides: &[Side; 2], foot: Vec3) -> Texture {
+    let side_of = |at: usize| &sides[at % SIDE * 2 / SIDE];
+    let texels: Vec<_> =
+        (0..SIDE * SIDE).map(|at| side_of(at).texel(at % SIDE % (SIDE / 2), at / SIDE)).collect();
     let seen = || texels.iter().flatten();
     // Coarser levels mix in what lies outside.
-    let mean = seen().map(|(colour, ..)| *colour).sum::<Vec3>() / seen().count().max(1) as f32;
+    let mean = seen().map(|texel| texel.colour).sum::<Vec3>() / seen().count().max(1) as f32;
     // Where half of a texel is covered it is drawn, or thin crowns would vanish.
     let cover = |share: f32| (510.0 * share).min(255.0) as u8;
+    // The cards go through the foot; where nothing is seen, the card is.
+    let offsets: Vec<f32> = (0..texels.len())
+        .map(|at| texels[at].map_or(0.0, |texel| texel.near - foot.dot(side_of(at).eye)))
+        .collect();
+    let (far, near) = offsets.iter().fold((0.0f32, 0.0f32), |(far, near), &at| (far.min(at), near.max(at)));
+    let range = (near - far).max(f32::MIN_POSITIVE);
     Texture {
         side: SIDE,
-        colours: texels
-            .iter()
-            .map(|texel| texel.map_or(mean, |(colour, ..)| colour.min(Vec3::ONE)))
-            .collect(),
-        cover: texels.iter().map(|texel| texel.map_or(0, |(.., share)| cover(share))).collect(),
-        normals: texels.iter().map(|texel| texel.map_or(Vec3::Z, |(_, normal, _)| normal)).collect(),
+        colours: texels.iter().map(|texel| texel.map_or(mean, |texel| texel.colour.min(Vec3::ONE))).collect(),
+        cover: texels.iter().map(|texel| texel.map_or(0, |texel| cover(texel.share))).collect(),
+        normals: texels.iter().map(|texel| texel.map_or(Vec3::Z, |texel| texel.normal)).collect(),
         exposure: None,
+        depth: Some(Depth { shares: offsets.iter().map(|at| (at - far) / range).collect(), far, near }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use espalier_mesh::TriangleMesh;
+
+    use super::*;
+
+    /// An upright square, two internodes wide, that faces `eye`, so far in front of the origin.
+    fn square(mesh: &mut TriangleMesh, eye: Vec3, middle: Vec3) {
+        let right = Vec3::Y.cross(eye);
+        let first = mesh.positions.len() as u32;
+        for (x, y) in [(-1.0, 0.0), (1.0, 0.0), (-1.0, 2.0), (1.0, 2.0)] {
+            mesh.vertex(middle + right * x + Vec3::Y * y, eye, Vec2::ZERO);
+        }
+        mesh.triangle(first, first + 1, first + 2);
+        mesh.triangle(first + 2, first + 1, first + 3);
+    }
+
+    #[test]
+    fn a_plane_at_a_known_distance_has_the_depth_of_it() {
+        let foot = Vec3::new(10.0, 5.0, -20.0);
+        let mut mesh = TriangleMesh::default();
+        // Seen from the front: on the left one three internodes in front of the card, on the right one behind it.
+        square(&mut mesh, Vec3::Z, foot + Vec3::new(-2.0, 0.0, 3.0));
+        square(&mut mesh, Vec3::Z, foot + Vec3::new(2.0, 0.0, -1.0));
+        // Seen from the side: one two internodes in front.
+        square(&mut mesh, Vec3::X, foot + Vec3::new(2.0, 0.0, 0.0));
+        let plain = Texture {
+            side: 1,
+            colours: vec![Vec3::ONE],
+            cover: vec![255],
+            normals: vec![Vec3::Z],
+            exposure: None,
+            depth: None,
+        };
+        let colours = vec![Vec3::ONE; mesh.positions.len()];
+        let tangents = vec![Vec3::X.extend(1.0); mesh.positions.len()];
+        let billboard = Billboard::of(foot, &|take| {
+            let (second, places) = (&[][..], None);
+            take(&plain, Block { mesh: &mesh, tangents: &tangents, colours: &colours, second, places })
+        })
+        .expect("it is painted");
+        let depth = billboard.texture.depth.as_ref().expect("a billboard has depths");
+        assert!(
+            (depth.far + 1.0).abs() < 1e-4 && (depth.near - 3.0).abs() < 1e-4,
+            "{} to {}",
+            depth.far,
+            depth.near
+        );
+        // Half-way up: the front picture spans -3 to 3 across, that from the side the squares' own depth.
+        let texel = |across: f32| SIDE * SIDE / 2 + (across * (SIDE / 2) as f32) as usize;
+        let at = |texel: usize| depth.far + (depth.near - depth.far) * depth.shares[texel];
+        assert!((at(texel(1.0 / 6.0)) - 3.0).abs() < 1e-4);
+        assert!((at(texel(5.0 / 6.0)) + 1.0).abs() < 1e-4);
+        let between = texel(0.5);
+        assert!(billboard.texture.cover[between] == 0 && at(between).abs() < 1e-4, "nothing is seen there");
+        let from_the_side = (SIDE / 2..SIDE).map(|x| SIDE * SIDE / 2 + x);
+        let seen: Vec<usize> = from_the_side.filter(|&at| billboard.texture.cover[at] > 0).collect();
+        assert!(!seen.is_empty() && seen.iter().any(|&texel| (at(texel) - 2.0).abs() < 1e-4));
+        let png = billboard.texture.depth_png().expect("a picture of them");
+        assert!(png.starts_with(b"\x89PNG"));
     }
 }

@@ -116,7 +116,7 @@ pub(crate) struct Attributes {
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Material {
-    pub name: &'static str,
+    pub name: String,
     pub pbr_metallic_roughness: PbrMetallicRoughness,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub normal_texture: Option<NormalTexture>,
@@ -126,6 +126,8 @@ pub(crate) struct Material {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub alpha_mode: Option<&'static str>,
     pub double_sided: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub extras: Option<Value>,
 }
 
 #[derive(Serialize)]

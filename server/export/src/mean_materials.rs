@@ -13,7 +13,7 @@ pub(crate) struct MeanMaterials(pub Vec<MeanMaterial>);
 
 /// One material.
 pub(crate) struct MeanMaterial {
-    pub name: &'static str,
+    pub name: String,
     /// What is multiplied by its mean colour, and how deep its relief is.
     pub texture: Option<(Texture, f32)>,
     /// Whether the texture has nothing in places.
@@ -37,7 +37,13 @@ impl MeanMaterials {
                 Surface::Bark(bark, relief) => (Some((bark.texture.clone(), *relief)), false),
                 Surface::Thin(_, texture) => (Some(((*texture).clone(), 1.0)), true),
             };
-            self.0.push(MeanMaterial { name, texture, is_cut_out, sum: Vec3::ZERO, count: 0 });
+            self.0.push(MeanMaterial {
+                name: name.to_owned(),
+                texture,
+                is_cut_out,
+                sum: Vec3::ZERO,
+                count: 0,
+            });
             self.0.len() - 1
         });
         let material = &mut self.0[at];
@@ -68,7 +74,10 @@ impl MeanMaterial {
     /// Its pictures, each with the end of its name.
     pub(crate) fn pictures(&self) -> Vec<(String, Vec<u8>)> {
         let Some((texture, _)) = &self.texture else { return Vec::new() };
-        vec![(self.picture("colour"), texture.colour_png()), (self.picture("normal"), texture.normal_png())]
+        let depth = texture.depth_png().map(|png| (self.picture("depth"), png));
+        let both =
+            [(self.picture("colour"), texture.colour_png()), (self.picture("normal"), texture.normal_png())];
+        both.into_iter().chain(depth).collect()
     }
 
     /// The name of its picture of a kind.

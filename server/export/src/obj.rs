@@ -45,7 +45,7 @@ pub fn obj(
         assembly.build(&mut writer)
     })?;
     zip.add("tree.mtl", |out| {
-        materials.0.iter().try_for_each(|material| Ok(out.write_all(library(material).as_bytes())?))
+        materials.0.iter().try_for_each(|material| Ok(out.write_all(library(material, scale).as_bytes())?))
     })?;
     for (name, png) in materials.0.iter().flat_map(MeanMaterial::pictures) {
         zip.add(&name, |out| Ok(out.write_all(&png)?))?;
@@ -54,16 +54,21 @@ pub fn obj(
 }
 
 /// A material as the library of materials has it.
-fn library(material: &MeanMaterial) -> String {
-    let name = material.name;
+fn library(material: &MeanMaterial, metres: f32) -> String {
+    let name = &material.name;
     let [r, g, b] = encoded(material.mean()).map(|part| f32::from(part) / 255.0);
     let mut text = format!("newmtl {name}\nKd {r:.4} {g:.4} {b:.4}\nKs 0 0 0\nillum 1\n");
-    if let Some((_, relief)) = material.texture {
+    if let Some((texture, relief)) = &material.texture {
         let [colour, normal] = ["colour", "normal"].map(|kind| material.picture(kind));
         text += &format!("map_Kd {colour}\nnorm -bm {relief} {normal}\n");
         if material.is_cut_out {
             // Cover stands in the alpha channel of the picture.
             text += &format!("map_d -imfchan m {colour}\n");
+        }
+        if let Some(depth) = &texture.depth {
+            // What the darkest means, and how much more the lightest.
+            let [(_, far), (_, near)] = depth.about(metres);
+            text += &format!("disp -mm {far} {} {}\n", near - far, material.picture("depth"));
         }
     }
     text + "\n"

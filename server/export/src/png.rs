@@ -9,9 +9,13 @@ pub(crate) fn indexed(width: usize, height: usize, colours: &[[u8; 3]], indices:
     file([width, height], ColorType::Indexed, Filter::NoFilter, Some(colours.as_flattened()), indices)
 }
 
-/// A square file with a byte for each channel: three are red, green, blue; the fourth is cover.
+/// A square file with a byte for each channel: one is grey, three are red, green, blue; the fourth is cover.
 pub(crate) fn square<const CHANNELS: usize>(side: usize, pixels: &[[u8; CHANNELS]]) -> Vec<u8> {
-    let colours = if CHANNELS == 4 { ColorType::Rgba } else { ColorType::Rgb };
+    let colours = match CHANNELS {
+        1 => ColorType::Grayscale,
+        4 => ColorType::Rgba,
+        _ => ColorType::Rgb,
+    };
     file([side, side], colours, Filter::Adaptive, None, pixels.as_flattened())
 }
 

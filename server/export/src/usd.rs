@@ -86,7 +86,7 @@ fn layer(
     let mut writer = Writer { out, scale, model, open: Vec::new(), materials: MeanMaterials::default() };
     assembly.build(&mut writer)?;
     let Writer { out, materials, .. } = writer;
-    materials::write(&materials, has_pictures, out)?;
+    materials::write(&materials, has_pictures, scale, out)?;
     writeln!(out, "}}")?;
     Ok(materials)
 }

@@ -1,6 +1,7 @@
 //! The materials of a file, each made when it is first asked for.
 
 use glam::Vec3;
+use serde_json::{Value, json};
 
 use super::writer::Writer;
 use crate::{
@@ -26,6 +27,7 @@ impl Writer<'_> {
                 material.normal_texture = Some(self.normals(name, texture, 1.0)?);
                 material.alpha_mode = Some("MASK");
                 material.double_sided = true;
+                material.extras = self.depth(name, texture)?;
                 material
             }
             Surface::Bark(bark, relief) => {
@@ -45,13 +47,21 @@ impl Writer<'_> {
         };
         let index = self.root.materials.len();
         self.root.materials.push(material);
-        self.materials.insert(name, index);
+        self.materials.insert(name.to_owned(), index);
         Ok(index)
     }
 
     fn normals(&mut self, name: &str, texture: &Texture, scale: f32) -> Result<NormalTexture, ExportError> {
         let TextureInfo { index } = self.texture(format!("{name} normal"), &texture.normal_png())?;
         Ok(NormalTexture { index, scale })
+    }
+
+    /// Where a picture's depths are, and what they mean in metres: no material of glTF has a place for them.
+    fn depth(&mut self, name: &str, texture: &Texture) -> Result<Option<Value>, ExportError> {
+        let Some((depth, png)) = texture.depth.as_ref().zip(texture.depth_png()) else { return Ok(None) };
+        let TextureInfo { index } = self.texture(format!("{name} depth"), &png)?;
+        let [(far, black), (near, white)] = depth.about(self.scale);
+        Ok(Some(json!({ "depth": { "texture": { "index": index }, far: black, near: white } })))
     }
 
     fn texture(&mut self, name: String, png: &[u8]) -> Result<TextureInfo, ExportError> {
@@ -62,9 +72,9 @@ impl Writer<'_> {
     }
 }
 
-fn plain(name: &'static str, colour: Vec3, roughness: f32) -> Material {
+fn plain(name: &str, colour: Vec3, roughness: f32) -> Material {
     Material {
-        name,
+        name: name.to_owned(),
         pbr_metallic_roughness: PbrMetallicRoughness {
             base_color_factor: colour.extend(1.0).to_array(),
             base_color_texture: None,
@@ -76,5 +86,6 @@ fn plain(name: &'static str, colour: Vec3, roughness: f32) -> Material {
         occlusion_texture: None,
         alpha_mode: None,
         double_sided: false,
+        extras: None,
     }
 }

@@ -47,7 +47,7 @@ pub(super) struct Writer<'a> {
     pub(super) packing: Packing,
     pub(super) scale: f32,
     pub(super) root: Root,
-    pub(super) materials: BTreeMap<&'static str, usize>,
+    pub(super) materials: BTreeMap<String, usize>,
     open_nodes: Vec<Open>,
     /// Meshes that several nodes show, by their level of detail and number.
     pub(super) prototypes: BTreeMap<(u8, usize), usize>,

@@ -65,6 +65,7 @@ impl Bark {
             cover: vec![255; painted.colours.len()],
             normals: painted.relief.iter().map(normal).collect(),
             exposure: Some(painted.relief.iter().map(exposure).collect()),
+            depth: None,
         };
         let mut bark = Self { texture: plain, palette, shares: mean, strength: 1.0 };
         let radii = (0..=20).map(|step| THICKEST * step as f32 / 20.0);

@@ -21,6 +21,25 @@ pub(crate) struct Texture {
     pub normals: Vec<Vec3>,
     /// How much of the sky is seen, and how rough it is; none where both are the same all over.
     pub exposure: Option<Vec<[f32; 2]>>,
+    /// How far what is seen lies in front of the card that shows it; none where a surface is what it seems.
+    pub depth: Option<Depth>,
+}
+
+/// Depths of the texels of a picture.
+#[derive(Clone, Debug)]
+pub(crate) struct Depth {
+    /// From 0, which is `far`, to 1, which is `near`.
+    pub shares: Vec<f32>,
+    /// How far in front of the card they are, in internodes; behind it where they are negative.
+    pub far: f32,
+    pub near: f32,
+}
+
+impl Depth {
+    /// What a file says of it, with so many metres in an internode.
+    pub(crate) fn about(&self, metres: f32) -> [(&'static str, f32); 2] {
+        [("far", self.far * metres), ("near", self.near * metres)]
+    }
 }
 
 impl Texture {
@@ -47,6 +66,12 @@ impl Texture {
             let [sky, rough] = exposure[texel];
             [byte(sky), byte(rough), 0]
         }))
+    }
+
+    /// The depths as a PNG file, black for the farthest, where it says so.
+    pub(crate) fn depth_png(&self) -> Option<Vec<u8>> {
+        let depth = self.depth.as_ref()?;
+        Some(self.png(|texel| [byte(depth.shares[texel])]))
     }
 
     fn png<const CHANNELS: usize>(&self, texel: impl Fn(usize) -> [u8; CHANNELS]) -> Vec<u8> {

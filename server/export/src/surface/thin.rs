@@ -86,7 +86,8 @@ fn thin(painted: &Painted, hue: Vec3, brightest: f32, albedo: impl Fn([f32; 4], 
         if cover < 32 { Vec3::Z } else { Vec3::new(x, y, out).normalize() }
     });
     let normals = normals.collect();
-    Thin { texture: Texture { side: painted.side, colours, cover, normals, exposure: None }, strength }
+    let (side, exposure, depth) = (painted.side, None, None);
+    Thin { texture: Texture { side, colours, cover, normals, exposure, depth }, strength }
 }
 
 #[cfg(test)]

@@ -6,15 +6,20 @@ use super::{ROOT, arrays::joined};
 use crate::mean_materials::{MeanMaterial, MeanMaterials};
 
 /// The scope of all materials.
-pub(super) fn write(materials: &MeanMaterials, has_pictures: bool, out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn write(
+    materials: &MeanMaterials,
+    has_pictures: bool,
+    metres: f32,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     writeln!(out, "def Scope \"Looks\"\n{{")?;
     for material in &materials.0 {
-        one(material, has_pictures && material.texture.is_some(), out)?;
+        one(material, has_pictures && material.texture.is_some(), metres, out)?;
     }
     writeln!(out, "}}")
 }
 
-fn one(material: &MeanMaterial, has_pictures: bool, out: &mut dyn Write) -> io::Result<()> {
+fn one(material: &MeanMaterial, has_pictures: bool, metres: f32, out: &mut dyn Write) -> io::Result<()> {
     let path = format!("/{ROOT}/Looks/{}", material.name);
     writeln!(out, "def Material \"{}\"\n{{", material.name)?;
     writeln!(out, "token outputs:surface.connect = <{path}/Surface.outputs:surface>")?;
@@ -38,7 +43,15 @@ fn one(material: &MeanMaterial, has_pictures: bool, out: &mut dyn Write) -> io::
         let relief = material.texture.as_ref().map_or(1.0, |(_, relief)| *relief);
         // Textures of normals count from -1 to 1; the relief makes them steeper.
         let (slope, rest) = (2.0 * relief, -relief);
-        for (name, kind, space, settings) in [
+        // Nothing is moved by depths: whoever draws cards with them takes them from here, in metres.
+        let depth = material.texture.as_ref().and_then(|(texture, _)| texture.depth.as_ref()).map(|depth| {
+            let [(_, far), (_, near)] = depth.about(metres);
+            let gain = near - far;
+            let settings =
+                format!("float4 inputs:scale = ({gain}, {gain}, {gain}, 1)\nfloat4 inputs:bias = ({far}, {far}, {far}, 0)");
+            ("Depth", "depth", "raw", settings)
+        });
+        let both = [
             ("Colour", "colour", "sRGB", format!("float4 inputs:scale = ({r}, {g}, {b}, 1)")),
             (
                 "Normal",
@@ -48,7 +61,8 @@ fn one(material: &MeanMaterial, has_pictures: bool, out: &mut dyn Write) -> io::
                     "float4 inputs:scale = ({slope}, {slope}, 2, 1)\nfloat4 inputs:bias = ({rest}, {rest}, -1, 0)"
                 ),
             ),
-        ] {
+        ];
+        for (name, kind, space, settings) in both.into_iter().chain(depth) {
             writeln!(out, "def Shader \"{name}\"\n{{\nuniform token info:id = \"UsdUVTexture\"")?;
             writeln!(out, "asset inputs:file = @{}@", material.picture(kind))?;
             writeln!(out, "float2 inputs:st.connect = <{path}/Place.outputs:result>")?;

@@ -3,7 +3,7 @@
 use espalier_export::{Detail, Model};
 use espalier_growth::species;
 use espalier_mesh::Style;
-use espalier_plant::{MetamerId, Plant};
+use espalier_plant::{Internode, MetamerId, Plant};
 use glam::{Mat4, Quat, Vec3};
 use serde_json::Value;
 
@@ -258,6 +258,39 @@ fn a_set_has_all_levels_each_with_fewer_triangles() {
         assert!(off < 0.06 * (whole[1] - whole[0]).max_element(), "level {level} is another size by {off} m");
     }
     assert_eq!(before, 4, "two cards");
+}
+
+#[test]
+fn each_billboard_has_its_own_pictures_and_says_what_its_depths_mean() {
+    let mut plant = saplings::pole(6);
+    plant.begin_step();
+    let axis = plant.sow(Vec3::new(9.0, 0.0, 0.0));
+    plant.end_step();
+    plant.begin_step();
+    let end = Vec3::new(9.0, 1.0, 3.0);
+    plant.extend(axis, &Internode { end, normal: Vec3::X, laterals: &[] });
+    plant.end_step();
+    // Twigs are left out at the level that billboards show.
+    plant.begin_edit();
+    plant.give_radii(&[(MetamerId::new(8), Some(0.3))]).expect("living wood");
+    plant.end_step();
+    let root = root(&file(&plant, &Model { detail: Detail::Level(Detail::BILLBOARD), ..PLAIN }));
+    let materials = root["materials"].as_array().expect("materials");
+    let names: Vec<_> = materials.iter().map(|one| one["name"].as_str().unwrap_or_default()).collect();
+    assert_eq!(names, ["Billboard", "Billboard_2"]);
+    let shown = |mesh: usize| root["meshes"][mesh]["primitives"][0]["material"].as_u64();
+    assert_eq!((shown(0), shown(1)), (Some(0), Some(1)));
+    // The second leans to the front by three internodes, and is no further back than its foot and its leaves.
+    let depth = &materials[1]["extras"]["depth"];
+    let (far, near) = (depth["far"].as_f64().expect("metres"), depth["near"].as_f64().expect("metres"));
+    let lean = f64::from(3.0 * METRES);
+    assert!((-0.4 * lean..=0.0).contains(&far) && near > 0.9 * lean && near < 1.6 * lean, "{far} to {near}");
+    let picture = |texture: &Value| {
+        let texture = texture["index"].as_u64().expect("a texture") as usize;
+        let image = root["textures"][texture]["source"].as_u64().expect("an image") as usize;
+        root["images"][image]["name"].clone()
+    };
+    assert_eq!(picture(&depth["texture"]), "Billboard_2 depth");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use espalier_export::{About, ExportError, Model, Sink, in_memory};
+use espalier_export::{About, Detail, ExportError, Model, Sink, in_memory};
 use espalier_mesh::Style;
 use espalier_plant::Plant;
 use espalier_settings::{Appearance, ParameterValues};
@@ -99,6 +99,10 @@ fn usd_has_the_triangles_of_the_glb_and_its_package_is_aligned() {
     for name in text.split('@').filter(|name| name.ends_with(".png")) {
         assert!(packed[name].1.starts_with(b"\x89PNG"), "{name}");
     }
+    let far = Model { detail: Detail::Level(Detail::BILLBOARD), ..Model::default() };
+    let far = members(&file(espalier_export::usdz, &far));
+    let text = String::from_utf8(far["tree.usda"].1.clone()).expect("text");
+    assert!(text.contains("def Shader \"Depth\"") && far.contains_key("billboard_depth.png"));
     let instanced = file(espalier_export::usda, &Model { instanced: true, ..Model::default() });
     let instanced = String::from_utf8(instanced).expect("text");
     assert!(
