@@ -436,7 +436,7 @@ mod tests {
         let Progress { grown, failed, state, .. } = job.progress();
         assert_eq!((state, failed.len()), (State::Done, 0));
         assert_eq!(grown.iter().map(|grown| grown.seed).collect::<Vec<_>>(), [7, 3]);
-        for Grown { seed, metamers, bytes } in grown {
+        for Grown { seed, metamers, bytes, .. } in grown {
             let (file, length) = job.open(seed).unwrap().expect("there is such a file");
             assert_eq!((file.metadata().unwrap().len(), length), (bytes, bytes));
             assert!(bytes > 100 && metamers > 3);

@@ -197,6 +197,7 @@ pub(super) fn routes() -> Vec<Route> {
         route("GET /api/v1/jobs", Action::OwnJobs, get(jobs::list), About::new("One's own jobs, newest first, page by page (JB8).").asks::<jobs::Page>().gives::<jobs::JobPage>(200)),
         route("GET /api/v1/jobs/{job}", Action::OwnJobs, get(jobs::find), About::new("How far a job is, and its files so far (JB2).").gives::<jobs::JobNow>(200)),
         route("DELETE /api/v1/jobs/{job}", Action::OwnJobs, delete(jobs::give_up), About::new("Give a job up; its files go (JB4).").gives_nothing()),
+        route("GET /api/v1/jobs/{job}/results.zip", Action::OwnJobs, get(jobs::archive), About::new("All files of a job so far in one (JB9).").gives_parts("application/zip")),
         route("GET /api/v1/jobs/{job}/results/{seed}", Action::OwnJobs, get(jobs::result), About::new("A file of a job (JB3).").gives_parts("application/octet-stream")),
         route("POST /api/v1/schematic", Action::Look, post(schematic::draw).layer(at_once(MAX_SCHEMATICS)), About::new("A small tree that shows what parameters do (SC1).").takes::<ParameterValues>().gives::<Schematic>(200)),
         route("GET /api/v1/trees", Action::ListTrees, get(trees::list), About::new("Trees of the library, page by page (LB7).").asks::<trees::Page>().gives::<TreePage>(200)),

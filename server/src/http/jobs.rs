@@ -1,5 +1,6 @@
 //! Jobs: trees that are grown on request (`JB`).
 
+mod archive;
 mod list;
 
 use std::{borrow::Cow, collections::BTreeSet, fmt};
@@ -22,7 +23,10 @@ use serde::{
 };
 use serde_json::Value;
 
-pub(super) use self::list::{JobPage, Page, list};
+pub(super) use self::{
+    archive::archive,
+    list::{JobPage, Page, list},
+};
 use super::{
     Shared,
     exports::{self, not_of},
@@ -290,7 +294,7 @@ impl JobNow {
         let jobs::Progress { state, grown, failed, problem, seed, .. } = job.progress();
         let (metamers, bytes) = job.under_way();
         let address = |seed| format!("{}/results/{seed}", address_of(&id));
-        let results = grown.iter().map(|&jobs::Grown { seed, metamers, bytes }| GrownTree {
+        let results = grown.iter().map(|&jobs::Grown { seed, metamers, bytes, .. }| GrownTree {
             seed,
             metamers,
             bytes,

@@ -2,8 +2,8 @@
 
 use std::{
     fs::{self, File},
-    io::{self, ErrorKind},
-    path::PathBuf,
+    io::{self, ErrorKind, Read},
+    path::{Path, PathBuf},
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicU32, AtomicU64, Ordering},
@@ -28,6 +28,9 @@ use crate::{
     spool::Spool,
     time::now,
 };
+
+/// Bytes read from the disk at once.
+const PIECE: usize = 256 * 1024;
 
 /// What is to be grown, and written.
 #[derive(Clone, Debug)]
@@ -68,6 +71,8 @@ pub struct Grown {
     pub metamers: u32,
     /// Bytes of the file.
     pub bytes: u64,
+    /// CRC-32 of the file.
+    pub sum: u32,
 }
 
 /// How far a job is.
@@ -246,12 +251,24 @@ impl Job {
         let mut plot = Plot { document: recipe.seedling(seed).map_err(GrowError::from)?, job: self, pool };
         recipe.grow(&mut plot)?;
         let mut document = plot.document;
-        let file = File::create_new(self.path(seed).ok_or(GrowError::GivenUp)?)?;
+        let path = self.path(seed).ok_or(GrowError::GivenUp)?;
+        let file = File::create_new(&path)?;
         let stop = self.given_up.clone();
         let mut out = Spool::new(file, pool.clone(), stop, Arc::clone(&self.written)).within(bytes_left);
         document::write(&mut document, *species, row.format, options, &mut out)?;
         let (_, bytes) = out.into_file()?;
-        Ok(Grown { seed, metamers: document.metamers(), bytes })
+        Ok(Grown { seed, metamers: document.metamers(), bytes, sum: sum_of(&path)? })
+    }
+}
+
+/// The CRC-32 of a file.
+fn sum_of(path: &Path) -> io::Result<u32> {
+    let (mut file, mut piece, mut sum) = (File::open(path)?, vec![0; PIECE], crc32fast::Hasher::new());
+    loop {
+        match file.read(&mut piece)? {
+            0 => return Ok(sum.finalize()),
+            count => sum.update(&piece[..count]),
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-import { stat } from "node:fs/promises";
+import { readFile, stat } from "node:fs/promises";
 import { join } from "node:path";
 import { expect, test } from "vitest";
 import { screenshots } from "./browser";
@@ -53,6 +53,13 @@ test.each<[string, Screen]>([
   await file.saveAs(path);
   expect(file.suggestedFilename()).toMatch(/8.*\.json$/);
   expect((await stat(path)).size).toBeGreaterThan(500);
+  // All of them come as one.
+  const all = page.waitForEvent("download", { timeout: 120_000 });
+  await page.getByRole("link", { name: "Download all 3 as ZIP" }).tap();
+  const archive = await all;
+  await archive.saveAs(path);
+  expect(archive.suggestedFilename()).toBe("trees.zip");
+  expect((await readFile(path)).subarray(0, 4)).toEqual(Buffer.from("PK\x03\x04"));
   // Files are asked about before they go.
   await page.getByRole("button", { name: "Remove the trees like Oak" }).tap();
   await page.getByText("Its files go from the server.").waitFor();

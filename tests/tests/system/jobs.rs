@@ -23,6 +23,32 @@ fn done(port: u16, order: &Value) -> Value {
     }
 }
 
+/// All files of a job are in one, each as it is, and a part of it is that of the whole.
+fn is_one_file(port: u16, address: &str, files: [(String, Vec<u8>); 2]) {
+    let archive = http::get(port, address).expect("an answer");
+    assert_eq!((archive.status, archive.header("content-type")), (200, Some("application/zip")));
+    let zip = &archive.body;
+    let number = |at: usize| u32::from_le_bytes(zip[at..at + 4].try_into().expect("four bytes")) as usize;
+    let mut at = 0;
+    for (name, file) in files {
+        assert_eq!(
+            (&zip[at..at + 4], &zip[at + 30..at + 30 + name.len()]),
+            (&b"PK\x03\x04"[..], name.as_bytes())
+        );
+        assert_eq!((number(at + 18), number(at + 22)), (file.len(), file.len()), "nothing is packed");
+        let data = at + 30 + name.len();
+        assert!(zip[data..data + file.len()] == file, "{name} is in it as it is");
+        at = data + file.len();
+    }
+    assert_eq!(
+        (&zip[at..at + 4], &zip[zip.len() - 22..zip.len() - 18]),
+        (&b"PK\x01\x02"[..], &b"PK\x05\x06"[..])
+    );
+    assert_eq!(number(zip.len() - 6), at, "its end says where its list begins");
+    let part = http::send_with(port, "GET", address, "range: bytes=100-299\r\n", b"").expect("an answer");
+    assert_eq!((part.status, &part.body[..]), (206, &zip[100..300]));
+}
+
 #[test]
 fn jb1_the_same_seed_and_settings_give_the_file_of_the_command_line() {
     let scratch = Scratch::new();
@@ -64,6 +90,14 @@ fn jb1_the_same_seed_and_settings_give_the_file_of_the_command_line() {
         assert!(file.body == ours, "seed {seed}: {} and {} bytes", file.body.len(), ours.len());
     }
     let address = format!("/api/v1/jobs/{}", job["id"].as_str().expect("a name"));
+    is_one_file(
+        server.port(),
+        &format!("{address}/results.zip"),
+        [4, 5].map(|seed| {
+            let ours = fs::read(scratch.path(&format!("juniper-{seed}.glb"))).expect("the file is there");
+            (format!("{seed}.glb"), ours)
+        }),
+    );
     assert_eq!(http::send(server.port(), "DELETE", &address, None).expect("an answer").status, 204);
     assert_eq!(http::get(server.port(), &address).expect("an answer").status, 404);
 }

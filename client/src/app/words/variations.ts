@@ -40,6 +40,7 @@ export const VARIATIONS = {
   "variations.file": ["Seed {seed}", "Samen {seed}"],
   "variations.file.facts": ["{metamers} metamers, {megabytes} MB", "{metamers} Metamere, {megabytes} MB"],
   "variations.file.which": ["Download seed {seed}", "Samen {seed} herunterladen"],
+  "variations.all": ["Download all {count} as ZIP", "Alle {count} als ZIP herunterladen"],
   "variations.failed": ["Seed {seed}: {reason}", "Samen {seed}: {reason}"],
   "variations.more": ["Show all {count} files", "Alle {count} Dateien zeigen"],
   "variations.cancel": ["Cancel", "Abbrechen"],

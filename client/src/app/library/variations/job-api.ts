@@ -67,6 +67,11 @@ async function orNull<Answer>(answer: Promise<Answer>): Promise<Answer | null> {
   }
 }
 
+/** Where all files of a job are in one (`JB9`). */
+export function archiveOf(id: string): string {
+  return `${pathOf(id)}/results.zip`;
+}
+
 function pathOf(id: string): string {
   return `/api/v1/jobs/${encodeURIComponent(id)}`;
 }

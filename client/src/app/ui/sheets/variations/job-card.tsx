@@ -1,5 +1,5 @@
 import { useState } from "preact/hooks";
-import type { GrownTree, Job } from "../../../library/variations/job-api";
+import { archiveOf, type GrownTree, type Job } from "../../../library/variations/job-api";
 import { isActive, type Jobs } from "../../../library/variations/jobs";
 import { plainly, sentence } from "../../../problems/plain-words";
 import type { Studio } from "../../../studio";
@@ -65,6 +65,11 @@ export function JobCard({ studio, jobs, job }: JobCardProps) {
       {active && <progress max={all} value={done} aria-label={text} />}
       {problem && <p class="warning">{plainly(problem)}</p>}
       <Files results={results} />
+      {results.length > 1 && (
+        <a class="job-archive" href={archiveOf(id)} download>
+          {say("variations.all", { count: results.length })}
+        </a>
+      )}
       {failed.map(({ seed, problem }) => (
         <p class="quiet" key={seed}>
           {say("variations.failed", { seed, reason: plainly(problem) })}
