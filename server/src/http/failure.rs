@@ -71,7 +71,8 @@ impl Failure {
     }
 
     pub(super) fn no_tree(more: &str) -> Self {
-        let problem = Problem::new(Reason::NoTree, format!("There is no such tree{more}."));
+        let end = if more.ends_with('?') { "" } else { "." };
+        let problem = Problem::new(Reason::NoTree, format!("There is no such tree{more}{end}"));
         problem.at(Missing::Tree.field(), "the identifier of a tree in the library").into()
     }
 
@@ -199,7 +200,11 @@ impl From<Panicked> for Failure {
 
 impl IntoResponse for Failure {
     fn into_response(self) -> Response {
+        let is_no_tree = self.problem.reason == Reason::NoTree;
         let mut response = (self.status, Json(self.problem)).into_response();
+        if is_no_tree {
+            response.extensions_mut().insert(NoTree);
+        }
         if self.status == StatusCode::UNAUTHORIZED {
             // How a program comes in; a page has a cookie.
             response.headers_mut().insert(header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"));
@@ -210,6 +215,10 @@ impl IntoResponse for Failure {
         response
     }
 }
+
+/// Marks the answer to whoever asked for a tree that is not there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NoTree;
 
 fn whole_seconds(wait: Duration) -> u16 {
     let seconds = wait.as_secs() + u64::from(wait.subsec_nanos() > 0);

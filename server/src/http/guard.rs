@@ -15,8 +15,9 @@ use espalier_session::Principal;
 use super::{
     Shared,
     audit::{self, Made},
-    failure::Failure,
+    failure::{Failure, NoTree},
     keys::Repeated,
+    trees,
 };
 use crate::{
     access::{Action, Caller, Object, Peer},
@@ -112,7 +113,12 @@ pub(super) async fn ask(
         Ok(principal) => {
             parts.extensions.insert(caller);
             parts.extensions.insert(principal);
-            next.run(Request::from_parts(parts, body)).await
+            let response = next.run(Request::from_parts(parts, body)).await;
+            let tree = params.iter().find(|(name, _)| *name == "tree").map(|(_, id)| id);
+            match tree.filter(|_| response.extensions().get::<NoTree>().is_some()) {
+                Some(id) => trees::no_such(&shared, id).await.unwrap_or(response),
+                None => response,
+            }
         }
         Err(failure) => failure.into_response(),
     };

@@ -32,7 +32,7 @@ use super::{
     exports::{self, not_of},
     failure::{Body, Failure, Path},
     guard::Named,
-    ranges, sessions,
+    ranges, sessions, trees,
 };
 use crate::{
     access::{Action, Caller},
@@ -42,7 +42,7 @@ use crate::{
     pool::Class,
     recipe::{Recipe, SeedRange},
     similar::{asked_for, similar},
-    store::{Library, StoredTree, TreeQuery},
+    store::Library,
 };
 
 /// Seeds of one job.
@@ -377,20 +377,12 @@ async fn recipe_of(
     Ok((Recipe { script, ..Recipe::default() }, species.as_deref().and_then(species::find)))
 }
 
-/// Trees that are looked through for one that may have been meant: the newest.
-const LOOKED_THROUGH: u32 = 500;
-
 /// What whoever names no template is told: also which species, or which saved tree by its name, they may have meant.
 async fn no_template(shared: &Shared, template: &str) -> Result<Failure, Failure> {
-    let trees = TreeQuery { limit: LOOKED_THROUGH, ..TreeQuery::default() };
-    let trees = shared.store.trees(&trees).await?;
+    let trees = trees::mistakable(shared).await?;
     let known = species::all().iter().map(|species| species.slug);
     let known = known.chain(trees.iter().flat_map(|tree| [&*tree.id, &*tree.name]));
-    let meant = similar(template, known).map(|meant| {
-        let tree = trees.iter().find(|tree| tree.id == meant || tree.name == meant);
-        let named = tree.map(|StoredTree { id, name, .. }| format!("{id}, which is called {name:?}"));
-        format!("; did you mean {}?", named.as_deref().unwrap_or(meant))
-    });
+    let meant = similar(template, known).map(|found| trees::meant(&trees, found));
     let meant = meant.unwrap_or_else(|| ".".to_owned());
     let problem = Problem::new(Reason::NoTree, format!("There is no such species or saved tree{meant}"));
     Ok(problem.at("template", "the name of a species, or the identifier of a saved tree").into())

@@ -2,7 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use axum::{Extension, Json, extract::State, http::StatusCode, response::IntoResponse};
+use axum::{
+    Extension, Json,
+    extract::State,
+    http::StatusCode,
+    response::{IntoResponse, Response},
+};
 use base64::{Engine, engine::general_purpose::URL_SAFE_NO_PAD};
 use espalier_proto::{
     Problem, Reason,
@@ -24,9 +29,10 @@ use super::{
 use crate::{
     access::{Action, Caller},
     name,
+    similar::similar,
     store::{
-        Contents, Deletion, Finding, Library, NewTree, NewVersion, Sort, StoredTree, TreeChange, TreePlace,
-        TreeQuery,
+        Contents, Deletion, Finding, Library, NewTree, NewVersion, Sort, StoreError, StoredTree, TreeChange,
+        TreePlace, TreeQuery,
     },
     time::{Time, now},
 };
@@ -289,6 +295,30 @@ async fn answer(
     let tree = stored(shared, id).await?;
     let favourites = shared.store.favourites(&principal.to_string()).await?;
     Ok((revision::tag(tree.revision), Json(to_proto(shared, tree, &favourites).await?)))
+}
+
+/// Trees that are looked through for one that may have been meant: the newest.
+const LOOKED_THROUGH: u32 = 500;
+
+/// The trees among which one may be that was meant.
+pub(super) async fn mistakable(shared: &Shared) -> Result<Vec<StoredTree>, StoreError> {
+    shared.store.trees(&TreeQuery { limit: LOOKED_THROUGH, ..TreeQuery::default() }).await
+}
+
+/// The question whether another tree was meant, where it was found among these by its identifier or its name.
+pub(super) fn meant(trees: &[StoredTree], found: &str) -> String {
+    let tree = trees.iter().find(|tree| tree.id == found || tree.name == found);
+    let named = tree.map(|StoredTree { id, name, .. }| format!("{id}, which is called {name:?}"));
+    format!("; did you mean {}?", named.as_deref().unwrap_or(found))
+}
+
+/// What whoever names no tree is told: also which one they may have meant, by its identifier or its name. None where
+/// no name is alike, or nobody can say.
+pub(super) async fn no_such(shared: &Shared, id: &str) -> Option<Response> {
+    let trees = mistakable(shared).await.ok()?;
+    let known = trees.iter().flat_map(|tree| [&*tree.id, &*tree.name]);
+    let meant = meant(&trees, similar(id, known)?);
+    Some(Failure::no_tree(&meant).into_response())
 }
 
 pub(super) async fn stored(shared: &Shared, id: &str) -> Result<StoredTree, Failure> {

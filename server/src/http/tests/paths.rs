@@ -121,6 +121,13 @@ async fn what_was_mistyped_is_told_what_may_have_been_meant() {
         (grow(json!({ "template": "oak", "format": "gltf" })), "format is gltf (did you mean glb?)"),
         (grow(json!({ "template": "scots-pien", "format": "glb" })), "; did you mean scots-pine?"),
         (grow(json!({ "template": "ywe", "format": "glb" })), "; did you mean yew, which is called"),
+        (
+            ("GET", "/api/v1/trees/ywe", Value::Null),
+            "There is no such tree; did you mean yew, which is called",
+        ),
+        (("PATCH", "/api/v1/trees/Yeww", json!({ "name": "Oak" })), "; did you mean yew, which is called"),
+        (("GET", "/api/v1/trees/ywe/versions/1/thumbnail", Value::Null), "; did you mean yew"),
+        (("GET", "/api/v1/trees/triffid", Value::Null), "There is no such tree."),
         (grow(json!({ "template": "triffid", "format": "glb" })), "There is no such species or saved tree."),
     ] {
         let answer = ask(&server, &method.parse().unwrap(), path, &body, None).await;
