@@ -30,6 +30,7 @@ pub fn declarations() -> String {
     constant("MAX_NOTE_CHARACTERS", version::MAX_NOTE_CHARACTERS.to_string());
     constant("MAX_THUMBNAIL_BYTES", thumbnail::MAX_THUMBNAIL_BYTES.to_string());
     constant("KEPT_DAYS", version::KEPT_DAYS.to_string());
+    constant("TURNTABLE_PICTURES", version::TURNTABLE_PICTURES.to_string());
     constant("FARTHEST", place::FARTHEST.to_string());
     constant("DEEPEST", place::DEEPEST.to_string());
     constant("MAX_BEND_TOUCHES", version::MAX_BEND_TOUCHES.to_string());

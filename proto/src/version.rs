@@ -32,6 +32,8 @@ pub const MAX_LINK_HOURS: u32 = 365 * 24;
 
 /// Days for which a deleted tree can be taken back (`LB6`).
 pub const KEPT_DAYS: u32 = 30;
+/// Pictures of a turntable, from all around a tree (`LB9`).
+pub const TURNTABLE_PICTURES: u16 = 12;
 
 /// The most touches of one bend (`LM7`).
 pub const MAX_BEND_TOUCHES: usize = 8;

@@ -293,6 +293,16 @@ impl Stored {
         Ok(Self(Document::from_bytes(bytes)?))
     }
 
+    /// Pictures of its plants from all around, side by side, as a PNG file.
+    pub fn strip(&mut self, side: usize, frames: u16) -> Vec<u8> {
+        let Self(document) = self;
+        let (parameters, appearance) = (document.parameters(), *document.appearance());
+        let species = species_of(&parameters, &appearance);
+        let look = Look { appearance, stand: species.map(|species| species.stand).unwrap_or_default() };
+        let style = Style::new(style_options(&parameters));
+        picture::strip(document.portrait(), &style, &look, side, frames).png()
+    }
+
     /// About how many bytes its file has.
     pub fn expected(&self, row: &FormatRow, options: &ExportOptions) -> u64 {
         use espalier_export::Detail;

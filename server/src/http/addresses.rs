@@ -47,6 +47,8 @@ const MAX_IMPORTS: usize = 1;
 const MAX_EXPORTS: usize = 1;
 /// Pictures of species made at once: sessions grow on the same threads.
 const MAX_PICTURES: usize = 1;
+/// Turntables drawn at once, each of a dozen pictures.
+const MAX_TURNTABLES: usize = 1;
 /// Schematics grown at once; each takes some milliseconds.
 const MAX_SCHEMATICS: usize = 4;
 
@@ -227,5 +229,6 @@ pub(super) fn routes() -> Vec<Route> {
         route("GET /api/v1/trees/{tree}/versions/{version}/document", Action::OpenTree, get(versions::document), About::new("The document of a version ([docs/document.md](../docs/document.md)).").gives_parts("application/octet-stream")).noted(EXPORT),
         route("GET /api/v1/trees/{tree}/versions/{version}/exports/{ticket}", Action::OpenTree, get(exports::progress_of_version), About::new("How far a file of a version is that is being made (EX3).").gives::<ExportProgress>(200)),
         route("GET /api/v1/trees/{tree}/versions/{version}/thumbnail", Action::SeeTree, get(versions::thumbnail), About::new("The picture of a version.").gives_parts("image/*")),
+        route("GET /api/v1/trees/{tree}/versions/{version}/turntable", Action::SeeTree, get(versions::turntable).layer(at_once(MAX_TURNTABLES)), About::new("Twelve pictures of a version from all around, side by side (LB9).").gives_parts("image/png")),
     ]
 }

@@ -10,8 +10,9 @@ use espalier_proto::{
     library::{ChangeVersion, RestoreVersion, SaveVersion, TreeVersion},
     text::{Name, Note},
     thumbnail,
+    version::TURNTABLE_PICTURES,
 };
-use espalier_session::Principal;
+use espalier_session::{DocumentError, Principal};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -27,6 +28,8 @@ use super::{
 use crate::{
     SIMULATION_VERSION,
     access::{Action, Caller},
+    document::Stored,
+    pool::Class,
     store::{Contents, Library, NewVersion, Saved, StoredVersion, TreeChange, TreeDocument},
     time::now,
 };
@@ -35,6 +38,9 @@ use crate::{
 const MAX_VERSIONS: u32 = 200;
 /// What is there never changes, and nothing else ever takes its place.
 const FOR_GOOD: (HeaderName, &str) = (header::CACHE_CONTROL, "private, max-age=31536000, immutable");
+
+/// Pixels along a side of the pictures of a turntable: those of a card.
+const TURNTABLE_SIDE: usize = 240;
 
 /// Which versions to list.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -186,6 +192,21 @@ pub(super) async fn thumbnail(
     };
     let headers = [(header::CONTENT_TYPE, picture.media_type), (FOR_GOOD.0, FOR_GOOD.1.to_owned())];
     ranges::answer_with(&asked, headers, picture.bytes)
+}
+
+/// Pictures of a version from all around, side by side (`LB9`).
+pub(super) async fn turntable(
+    State(shared): State<Shared>,
+    caller: Caller,
+    Path((tree, number)): Path<(String, u32)>,
+    asked: HeaderMap,
+) -> Result<Response, Failure> {
+    let saved = sessions::saved_document(&shared, &tree, number).await?;
+    let drawn = shared.pool.run(Class::Whole, caller.person().into(), move |_| {
+        Ok::<_, DocumentError>(Stored::read(&saved.bytes)?.strip(TURNTABLE_SIDE, TURNTABLE_PICTURES))
+    });
+    let png = drawn.await?.map_err(|error| sessions::unreadable(&tree, &error))?;
+    ranges::answer_with(&asked, [(header::CONTENT_TYPE, "image/png"), FOR_GOOD], png)
 }
 
 /// Where the picture of a version is, if it has one.

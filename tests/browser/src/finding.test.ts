@@ -268,6 +268,40 @@ test("a mouse drags a tree without holding it, and Escape leaves it where it is"
   await page.getByText("“Mouse oak” lies in “Mouse wood” now").waitFor();
 });
 
+/** Where the strip of pictures lies that is seen instead of a card's own picture. */
+const turned = (tablet: Tablet) =>
+  tablet.page
+    .locator(".card-turn")
+    .evaluate((picture) => Number.parseFloat(getComputedStyle(picture).backgroundPositionX));
+
+test("LB9: a tree turns below a mouse that stays on it", async () => {
+  const tablet = await library({ ...SCREENS.landscape, mouse: true }, ["Round oak"]);
+  const { page } = tablet;
+  const { x, y, width, height } = (await page.getByRole("button", { name: "Open Round oak" }).boundingBox())!;
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.locator(".card-turn").waitFor();
+  expect(await turned(tablet), "from the front").toBe(0);
+  await page.mouse.move(x + 0.75 * width, y + height / 2);
+  await until("it has turned to the right", async () => Math.round(await turned(tablet)) === Math.round(900 / 11));
+  await page.mouse.move(2, 2);
+  await page.locator(".card-turn").waitFor({ state: "detached" });
+});
+
+test("LB9: a finger that moves across a tree turns it, and opens nothing", async () => {
+  const tablet = await library(SCREENS.phone, ["Turned oak"]);
+  const { page } = tablet;
+  const card = page.getByRole("button", { name: "Open Turned oak" });
+  const from = await middleOf(tablet, card);
+  const { width } = (await card.boundingBox())!;
+  await tablet.touch("touchStart", [from]);
+  for (const point of way(from, { x: from.x + width / 4, y: from.y }, 6)) await tablet.touch("touchMove", [point]);
+  await page.locator(".card-turn").waitFor();
+  expect(Math.round(await turned(tablet))).toBe(Math.round(900 / 11));
+  await tablet.touch("touchEnd", []);
+  await page.locator(".card-turn").waitFor({ state: "detached" });
+  expect(await page.getByRole("dialog").count(), "the library stays").toBe(1);
+});
+
 const SEEDS = join(import.meta.dirname, "../../fuzz/seeds");
 const fileOf = (name: string, as = name) => ({
   name: as,

@@ -81,6 +81,21 @@ async fn a_thumbnail_comes_back_as_it_was() {
 }
 
 #[tokio::test]
+async fn lb9_a_version_is_seen_from_all_around() {
+    let library = Library::new().await;
+    let tree = library.save("Round");
+    let address = format!("/api/v1/trees/{}/versions/1/turntable", tree["id"].as_str().expect("an id"));
+    let strip = library.ask("GET", &address, None);
+    assert_eq!((strip.status, strip.header("content-type")), (200, Some("image/png")));
+    assert!(strip.header("cache-control").is_some_and(|said| said.contains("immutable")));
+    let number = |at: usize| u32::from_be_bytes(strip.body[at..at + 4].try_into().expect("four bytes"));
+    assert_eq!((number(16), number(20)), (12 * 240, 240));
+    assert!(strip.body == library.ask("GET", &address, None).body, "it is the same again");
+    let none = library.ask("GET", &address.replace("versions/1", "versions/7"), None);
+    assert_eq!((none.status, &none.json()["field"]), (404, &json!("version")));
+}
+
+#[tokio::test]
 async fn a_reopened_tree_is_the_same_and_another_document() {
     let mut library = Library::new().await;
     let tree = library.save("Pear");

@@ -11,4 +11,4 @@ mod turntable;
 pub use canvas::Canvas;
 pub use scene::{Look, draw};
 pub use sheet::{Cell, sheet};
-pub use turntable::{Camera, turntable};
+pub use turntable::{Camera, strip, turntable};

@@ -5,7 +5,7 @@ use espalier_plant::Plant;
 use glam::Vec3;
 
 use super::{
-    Look,
+    Canvas, Look,
     scene::{Framing, Stage},
 };
 use crate::{ExportError, Sink, png};
@@ -55,15 +55,62 @@ pub fn turntable(
         let view = stage.framed(camera.eye(), size, &Framing::default());
         return Ok(out.write_all(&stage.seen(&view, size).png())?);
     }
-    let eye = |frame: u16| {
+    let pictures = around(&stage, size, camera, frames).map(|picture| picture.pixels());
+    png::animated(size, [ROUND, frames], pictures, out)
+}
+
+/// So many square pictures from all around, beginning with the front, side by side from the left to the right.
+pub fn strip(plant: &Plant, style: &Style, look: &Look, side: usize, frames: u16) -> Canvas {
+    let stage = Stage::of(plant, style, look);
+    let mut strip = Canvas::new(side * usize::from(frames), side, Vec3::ZERO);
+    for (number, picture) in around(&stage, [side; 2], Camera::default(), frames).enumerate() {
+        strip.paste(&picture, number * side, 0);
+    }
+    strip
+}
+
+/// So many pictures from all around, beginning with the one from this camera, all in one scale.
+fn around(stage: &Stage, size: [usize; 2], camera: Camera, frames: u16) -> impl Iterator<Item = Canvas> {
+    let eye = move |frame: u16| {
         Camera { turn: camera.turn + 360.0 * f32::from(frame) / f32::from(frames), ..camera }.eye()
     };
     let steady = Framing { is_steady: true, ..Framing::default() };
     let most =
         (0..frames).map(|frame| stage.framed(eye(frame), size, &steady).scale()).fold(f32::MAX, f32::min);
-    let pictures = (0..frames).map(|frame| {
+    (0..frames).map(move |frame| {
         let view = stage.framed(eye(frame), size, &Framing { most, ..steady });
-        stage.seen(&view, size).pixels()
-    });
-    png::animated(size, [ROUND, frames], pictures, out)
+        stage.seen(&view, size)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use espalier_plant::{AxisId, Internode};
+
+    use super::*;
+
+    #[test]
+    fn a_strip_shows_a_plant_from_all_sides_in_turn() {
+        let mut plant = Plant::new(Vec3::ZERO);
+        plant.begin_step();
+        // It leans to the right, as seen from the front.
+        for at in 1..=6 {
+            let end = Vec3::new(0.5, 1.0, 0.0) * at as f32;
+            plant.extend(AxisId::new(0), &Internode { end, normal: Vec3::Z, laterals: &[] });
+        }
+        plant.end_step();
+        let strip = strip(&plant, &Style::default(), &Look::default(), 48, 4);
+        assert_eq!((strip.width(), strip.height()), (192, 48));
+        // The leftmost and the rightmost dark pixel of the upper half of each picture, from its middle.
+        let lean = |picture: usize| {
+            let dark = (0..24).flat_map(|y| (0..48).map(move |x| (x, y)));
+            let dark =
+                dark.filter(|&(x, y)| strip.get(48 * picture + x, y).y < 0.3).map(|(x, _)| x as f32 - 23.5);
+            let (sum, count) = dark.fold((0.0, 0), |(sum, count), x| (sum + x, count + 1));
+            assert!(count > 0, "picture {picture} shows the plant");
+            sum / count as f32
+        };
+        assert!(lean(0) > 3.0 && lean(2) < -3.0, "{} {}", lean(0), lean(2));
+        assert!(lean(1).abs() < 3.0 && lean(3).abs() < 3.0, "{} {}", lean(1), lean(3));
+    }
 }

@@ -2,6 +2,7 @@ import { useState } from "preact/hooks";
 import type { SavedTree } from "../../../../wire/generated";
 import { speciesName } from "../../../document/species/species-choice";
 import { isNamed } from "../../../library/species-words";
+import { turntableOf } from "../../../library/turntable";
 import { dateText } from "../../../words/date-text";
 import { language, say } from "../../../words/say";
 import { useSpecies } from "../../panels/architecture/species-list";
@@ -14,6 +15,7 @@ import type { LibraryDesk } from "./library-desk";
 import { MoveForm } from "./move-form";
 import { TagForm } from "./tag-form";
 import { usePress } from "./use-press";
+import { useHover, useTurntable } from "./use-turntable";
 
 /** What of a tree is changed in a row of its card. */
 type Edited = "name" | "note" | "tags" | "collection";
@@ -24,8 +26,8 @@ interface TreeCardProps {
 }
 
 /**
- * A tree of the library: a tap opens it, a finger held on it chooses it, dragged it is moved to a collection, and the
- * rest is in its menu.
+ * A tree of the library: a tap opens it, a finger held on it chooses it, dragged it is moved to a collection, a finger
+ * that moves across it or a mouse that stays on it turns it, and the rest is in its menu.
  */
 export function TreeCard({ desk, tree }: TreeCardProps) {
   const { studio, section } = desk;
@@ -41,7 +43,10 @@ export function TreeCard({ desk, tree }: TreeCardProps) {
   const { mayBegin, mayDelete } = rights;
   const mayChange = rights.mayChange.value;
   const species = useSpecies(studio)?.find(({ slug }) => slug === tree.species);
+  const turntable = useTurntable(turntableOf(tree.id, tree.version));
+  const hover = useHover(turntable);
   const press = usePress({
+    turned: (pushed) => (pushed === null ? turntable.end() : turntable.push(pushed)),
     tapped: () => (chosen === null ? (isTemplate ? begin() : open()) : section.toggle(tree.id)),
     held: () => isChosen || !mayBegin || section.toggle(tree.id),
     dragged:
@@ -96,8 +101,10 @@ export function TreeCard({ desk, tree }: TreeCardProps) {
         aria-label={say(label, { name })}
         aria-pressed={chosen === null ? undefined : isChosen}
         {...press}
+        {...hover}
       >
         <TreePicture url={tree.thumbnail} />
+        {turntable.style && <i class="card-turn" aria-hidden="true" style={turntable.style} />}
         {chosen !== null && <i class="card-tick" aria-hidden="true" />}
       </button>
       {chosen === null && edited === null && (
