@@ -111,11 +111,13 @@ pub(super) async fn ask(
     };
     let response = match asked.await {
         Ok(principal) => {
+            // Guests are told of no tree but theirs.
+            let sees_all = caller.only_tree().is_none();
             parts.extensions.insert(caller);
             parts.extensions.insert(principal);
             let response = next.run(Request::from_parts(parts, body)).await;
             let tree = params.iter().find(|(name, _)| *name == "tree").map(|(_, id)| id);
-            match tree.filter(|_| response.extensions().get::<NoTree>().is_some()) {
+            match tree.filter(|_| sees_all && response.extensions().get::<NoTree>().is_some()) {
                 Some(id) => trees::no_such(&shared, id).await.unwrap_or(response),
                 None => response,
             }

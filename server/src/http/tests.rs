@@ -290,6 +290,22 @@ async fn ac5_a_guest_lists_their_tree_alone() {
 }
 
 #[tokio::test]
+async fn ac5_a_guest_whose_tree_is_gone_is_told_of_no_other() {
+    let (server, store) = server().await;
+    let guest = token(&store, Role::Viewer, Some("ywe")).await;
+    for (asked, expected) in [
+        (request(&Method::GET, "/api/v1/trees/ywe"), "There is no such tree; did you mean yew"),
+        (request_of(&guest, &Method::GET, "/api/v1/trees/ywe"), "There is no such tree."),
+    ] {
+        let answer = server.clone().oneshot(asked.body(Body::empty()).unwrap()).await.unwrap();
+        let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+        let problem: Value = serde_json::from_slice(&bytes).unwrap();
+        let message = problem["message"].as_str().unwrap();
+        assert!(message.starts_with(expected), "{message}");
+    }
+}
+
+#[tokio::test]
 async fn ac8_everybody_is_told_what_they_may() {
     let (server, store) = server().await;
     let guest = token(&store, Role::Viewer, Some("ash")).await;
