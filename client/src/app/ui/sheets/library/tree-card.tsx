@@ -101,7 +101,11 @@ export function TreeCard({ desk, tree }: TreeCardProps) {
         aria-label={say(label, { name })}
         aria-pressed={chosen === null ? undefined : isChosen}
         {...press}
-        {...hover}
+        onPointerMove={(event) => {
+          press.onPointerMove(event);
+          hover.moved(event);
+        }}
+        onPointerLeave={hover.left}
       >
         <TreePicture url={tree.thumbnail} />
         {turntable.style && <i class="card-turn" aria-hidden="true" style={turntable.style} />}

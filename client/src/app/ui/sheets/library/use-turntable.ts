@@ -60,14 +60,18 @@ export function useTurntable(strip: string): Turntable {
   };
 }
 
-/** Handlers that turn it below a mouse which stays on it, as far as the mouse is from its middle. */
+/** Turns it below a mouse that stays on it, as far as the mouse is from its middle. */
 export function useHover({ push, end }: Pick<Turntable, "push" | "end">) {
   const timer = useRef(0);
   const place = useRef(0);
   const turns = useRef(false);
   useEffect(() => () => clearTimeout(timer.current), []);
   return {
-    onMouseMove: (event: MouseEvent) => {
+    moved: (event: PointerEvent) => {
+      // A finger turns it by being moved, and a mouse that drags it turns nothing.
+      if (event.pointerType !== "mouse" || event.buttons !== 0) {
+        return;
+      }
       const { left, width } = (event.currentTarget as HTMLElement).getBoundingClientRect();
       place.current = (event.clientX - left) / width - 0.5;
       if (turns.current) {
@@ -79,7 +83,7 @@ export function useHover({ push, end }: Pick<Turntable, "push" | "end">) {
         }, STAYS);
       }
     },
-    onMouseLeave: () => {
+    left: () => {
       clearTimeout(timer.current);
       [timer.current, turns.current] = [0, false];
       end();
