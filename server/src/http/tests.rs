@@ -290,14 +290,20 @@ async fn ac5_a_guest_lists_their_tree_alone() {
 }
 
 #[tokio::test]
-async fn ac5_a_guest_whose_tree_is_gone_is_told_of_no_other() {
+async fn ac5_a_guest_whose_tree_is_deleted_is_told_of_no_other() {
     let (server, store) = server().await;
-    let guest = token(&store, Role::Viewer, Some("ywe")).await;
+    let guest = token(&store, Role::Editor, Some("ash")).await;
+    let renamed = status(&server, request(&Method::PATCH, "/api/v1/trees/yew"), r#"{"name":"Ashh"}"#).await;
+    assert_eq!(renamed, StatusCode::OK);
+    let deleted = status(&server, request(&Method::DELETE, "/api/v1/trees/ash"), "").await;
+    assert_eq!(deleted, StatusCode::NO_CONTENT);
     for (asked, expected) in [
-        (request(&Method::GET, "/api/v1/trees/ywe"), "There is no such tree; did you mean yew"),
-        (request_of(&guest, &Method::GET, "/api/v1/trees/ywe"), "There is no such tree."),
+        (request(&Method::PATCH, "/api/v1/trees/ash"), "There is no such tree; did you mean yew"),
+        (request_of(&guest, &Method::PATCH, "/api/v1/trees/ash"), "There is no such tree."),
     ] {
-        let answer = server.clone().oneshot(asked.body(Body::empty()).unwrap()).await.unwrap();
+        let asked = asked.header(header::CONTENT_TYPE, "application/json");
+        let asked = asked.body(Body::from(r#"{"name":"Oak"}"#)).unwrap();
+        let answer = server.clone().oneshot(asked).await.unwrap();
         let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
         let problem: Value = serde_json::from_slice(&bytes).unwrap();
         let message = problem["message"].as_str().unwrap();
