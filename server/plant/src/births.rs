@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::{
     edits::Edit,
-    id::AxisId,
+    id::{AxisId, MetamerId},
     parts::{BrokenPlant, check_edit},
 };
 
@@ -71,7 +71,9 @@ where
         let edits = &self.edits[(before[2] - first) as usize..(end[2] - first) as usize];
         let mut grafts = Vec::new();
         for edit in edits {
-            check_edit(edit, before, end, |id| (self.parent)(id.raw()), |axis| (self.bearer)(axis.raw()))?;
+            let (parent, axis) =
+                (|id: MetamerId| (self.parent)(id.raw()), |id: MetamerId| (self.axis)(id.raw()));
+            check_edit(edit, before, end, parent, axis, |axis| (self.bearer)(axis.raw()))?;
             if let Edit::Grafted(axis) = edit {
                 grafts.push(axis.raw());
             }

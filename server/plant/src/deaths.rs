@@ -44,6 +44,15 @@ impl Deaths {
         self.written[row] = step;
     }
 
+    /// Puts another step in place of a row's; returns the one that was. [`Deaths::trim`] follows.
+    pub(crate) fn replace(&mut self, row: usize, step: u32) -> u32 {
+        let was = self.of(row);
+        if was != step {
+            self.set(row, step);
+        }
+        was
+    }
+
     /// Takes out the deaths that come after a step, row by row.
     pub(crate) fn take_after(&mut self, step: u32) -> Vec<(usize, u32)> {
         let mut taken = Vec::new();
@@ -70,7 +79,8 @@ impl Deaths {
         }
     }
 
-    fn trim(&mut self) {
+    /// Leaves out the living at the end, so that equal deaths are equal columns.
+    pub(crate) fn trim(&mut self) {
         let dead = self.written.iter().rposition(|&death| death != ALIVE);
         self.written.truncate(dead.map_or(0, |last| last + 1));
     }

@@ -13,6 +13,7 @@ use crate::{
     metamers::Row,
     motion::Motion,
     plant::Plant,
+    resettled::Resettled,
 };
 
 /// A shorter internode has no direction.
@@ -35,6 +36,8 @@ pub enum Edit {
     Width(MetamerId, Option<f32>),
     /// Radii were given or taken away.
     Given(Box<Given>),
+    /// Wood fell and rose: which of it stands was settled anew.
+    Resettled(Box<Resettled>),
 }
 
 /// Where wood stands on the other side of a step: before it for those who look back, after it for the past.
@@ -50,6 +53,18 @@ pub struct Carried {
     pub axes: Vec<AxisId>,
     /// The directions of those axes' buds when they were laid down.
     pub directions: Vec<Vec3>,
+}
+
+impl Carried {
+    /// Whether the columns fit each other and the metamers and axes that there are.
+    pub(crate) fn is_sound(&self, [metamers, axes]: [u32; 2]) -> bool {
+        let places = self.ends.iter().chain(&self.normals).chain(&self.directions);
+        [self.ends.len(), self.normals.len()] == [self.metamers.len(); 2]
+            && self.directions.len() == self.axes.len()
+            && self.metamers.iter().all(|id| id.raw() < metamers)
+            && self.axes.iter().all(|axis| axis.raw() < axes)
+            && places.into_iter().all(|place| place.is_finite())
+    }
 }
 
 /// What died in one go, in birth order.
@@ -330,17 +345,9 @@ impl Plant {
         self.widths.iter().map(|(&id, &diameter)| (id, diameter)).filter(|&(id, _)| self.is_alive(id))
     }
 
-    /// Where wood was cut off, up to the present.
-    pub(crate) fn cuts(&self) -> impl Iterator<Item = MetamerId> + '_ {
-        let past = &self.timeline.edits[..self.timeline.present().edits as usize];
-        past.iter().filter_map(|edit| if let Edit::Pruned(cut) = edit { Some(*cut) } else { None })
-    }
-
-    /// Tips of shed twigs that metamers of grafts carry, up to the present.
-    pub(crate) fn scars(&self) -> impl Iterator<Item = (MetamerId, u32)> + '_ {
-        let past = &self.timeline.edits[..self.timeline.present().edits as usize];
-        past.iter()
-            .filter_map(|edit| if let Edit::Scarred(id, tips) = edit { Some((*id, *tips)) } else { None })
+    /// The edits up to the present.
+    pub(crate) fn past_edits(&self) -> &[Edit] {
+        &self.timeline.edits[..self.timeline.present().edits as usize]
     }
 
     /// The living metamers of the branch that begins with a living one, in birth order.

@@ -1,13 +1,12 @@
 //! Futures that were gone back from: what lay ahead of the present, kept apart so that another future can be
 //! lived, and this one be taken up again.
 
-use std::collections::BTreeMap;
-
 use glam::Vec3;
 
 use crate::{
     axes::{Axes, stored_order},
     births::Births,
+    chains::check_chains,
     deaths::Deaths,
     edits::Edit,
     given_radius::GivenRadii,
@@ -50,9 +49,10 @@ impl Future {
         self.metamers.parent.len()
     }
 
-    /// Metamers of before it that die in it.
+    /// Metamers of before it that die in it, and those that fall and rise.
     pub fn dying(&self) -> usize {
-        self.deaths.len()
+        let resettled = |edit: &Edit| if let Edit::Resettled(edit) = edit { edit.metamers.len() } else { 0 };
+        self.deaths.len() + self.edits.iter().map(resettled).sum::<usize>()
     }
 }
 
@@ -196,14 +196,6 @@ impl Future {
                 return Err(broken("an axis is borne by nothing before it"));
             }
         }
-        let mut tips = BTreeMap::new();
-        for (at, (&parent, &axis)) in self.metamers.parent.iter().zip(&self.metamers.axis).enumerate() {
-            let so_far = if axis.index() < axes { plant.axes.last(axis) } else { None };
-            let tip = tips.insert(axis, MetamerId::new(rows + at)).or(so_far);
-            if parent != tip.unwrap_or_else(|| bearer(axis)) {
-                return Err(broken("a metamer does not grow from the bud of its axis"));
-            }
-        }
         let is_old = |&(id, _): &(MetamerId, u32)| id.index() < rows;
         if !self.deaths.iter().all(is_old) || !self.axis_deaths.iter().all(|(id, _)| id.index() < axes) {
             return Err(broken("something dies that never was"));
@@ -222,6 +214,10 @@ impl Future {
         if births.laterals()? != self.metamers.lateral {
             return Err(broken("a metamer has the laterals of another"));
         }
+        let ends_of = |axis: usize| [plant.axes.first[axis].raw(), plant.axes.last[axis].raw()];
+        let chains = (0..all_axes).map(|axis| if axis < axes { ends_of(axis) } else { [u32::MAX; 2] });
+        let Births { parent, axis, bearer, .. } = births;
+        check_chains(&ends, &self.edits, chains.collect(), parent, axis, bearer)?;
         Ok(())
     }
 }

@@ -7,6 +7,7 @@ use glam::Vec3;
 use crate::{
     axes::Axes,
     births::Births,
+    chains::check_chains,
     checks,
     deaths::Deaths,
     edits::Edit,
@@ -182,17 +183,6 @@ fn check_shape(parts: &PlantParts) -> Result<Vec<AxisId>, BrokenPlant> {
     if !parts.given_radii.is_sorted_by(|a, b| a.0 < b.0) || !parts.given_radii.iter().all(is_held) {
         return broken("a radius is given to nothing");
     }
-    // Every metamer grows from the bud of its axis: a seed founds it, others follow its last metamer or bearer.
-    let mut last = vec![u32::MAX; axes];
-    for (row, (&parent, &axis)) in parts.parent.iter().zip(&parts.axis).enumerate() {
-        let tip = &mut last[axis as usize];
-        let bearer = parts.bearer[axis as usize];
-        let expected = if *tip == u32::MAX { bearer } else { *tip };
-        if parent != expected {
-            return broken("a metamer does not grow from the bud of its axis");
-        }
-        *tip = row as u32;
-    }
     let ends: Vec<[u32; 4]> = std::iter::once([0; 4]).chain(parts.ends.iter().copied()).collect();
     let births = Births {
         ends: &ends,
@@ -201,15 +191,19 @@ fn check_shape(parts: &PlantParts) -> Result<Vec<AxisId>, BrokenPlant> {
         axis: |row| parts.axis[row as usize],
         bearer: |axis| parts.bearer[axis as usize],
     };
-    births.laterals()
+    let laterals = births.laterals()?;
+    let Births { parent, axis, bearer, .. } = births;
+    check_chains(&ends, &parts.edits, vec![[u32::MAX; 2]; axes], parent, axis, bearer)?;
+    Ok(laterals)
 }
 
-/// Checks that an edit of a step concerns what is there by then; `parent` and `bearer` give raw rows.
+/// Checks that an edit of a step concerns what is there by then; `parent`, `axis` and `bearer` give raw rows.
 pub(crate) fn check_edit(
     edit: &Edit,
     before: [u32; 4],
     end: [u32; 4],
     parent: impl Fn(MetamerId) -> u32,
+    axis: impl Fn(MetamerId) -> u32,
     bearer: impl Fn(AxisId) -> u32,
 ) -> Result<(), BrokenPlant> {
     let is_wood = |id: MetamerId| id.raw() < before[0];
@@ -220,19 +214,15 @@ pub(crate) fn check_edit(
             let is_new = (before[1]..end[1]).contains(&axis.raw());
             is_new && bearer(*axis) != u32::MAX
         }
-        Edit::Carried(carried) => {
-            let places = carried.ends.iter().chain(&carried.normals).chain(&carried.directions);
-            let counts = [carried.ends.len(), carried.normals.len()];
-            counts == [carried.metamers.len(); 2]
-                && carried.directions.len() == carried.axes.len()
-                && carried.metamers.iter().all(|&id| is_wood(id))
-                && carried.axes.iter().all(|axis| axis.raw() < before[1])
-                && places.into_iter().all(|place| place.is_finite())
-        }
+        Edit::Carried(carried) => carried.is_sound([before[0], before[1]]),
         // A graft brings scars and constraints along.
         Edit::Scarred(id, _) => (before[0]..end[0]).contains(&id.raw()),
         Edit::Width(id, diameter) => id.raw() < end[0] && diameter.is_none_or(is_radius),
         Edit::Given(given) => given.is_sound(end[0]),
+        Edit::Resettled(resettled) => {
+            let is_alone = [end[0], end[1], end[2]] == [before[0], before[1], before[2] + 1];
+            is_alone && resettled.is_sound([before[0], before[1]], parent, axis)
+        }
     };
     if holds { Ok(()) } else { Err(BrokenPlant("an edit concerns what is not there".to_owned())) }
 }

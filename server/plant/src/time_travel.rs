@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use crate::{
-    edits::Edit,
+    edits::{Carried, Edit},
     id::{AxisId, MetamerId},
     plant::Plant,
     timeline::StepEnd,
@@ -26,18 +26,18 @@ pub struct TimeShift {
 
 /// A move in time as it happens.
 #[derive(Default)]
-struct Journey {
-    came: Vec<MetamerId>,
-    went: Vec<MetamerId>,
+pub(crate) struct Journey {
+    pub(crate) came: Vec<MetamerId>,
+    pub(crate) went: Vec<MetamerId>,
     /// What moved and where it was, the first move first.
     moved: Vec<(MetamerId, Vec3)>,
-    axes: Vec<AxisId>,
+    pub(crate) axes: Vec<AxisId>,
     is_edited: bool,
 }
 
 impl Journey {
     /// Notes an axis, once for all metamers of a shoot: they follow each other.
-    fn note_axis(&mut self, axis: AxisId) {
+    pub(crate) fn note_axis(&mut self, axis: AxisId) {
         if self.axes.last() != Some(&axis) {
             self.axes.push(axis);
         }
@@ -72,6 +72,7 @@ impl Plant {
                 Edit::Carried(carried) => self.swap(carried),
                 Edit::Width(id, diameter) => *diameter = self.replace_width(*id, *diameter),
                 Edit::Given(given) => self.swap_given(given),
+                Edit::Resettled(resettled) => self.forget(resettled),
                 Edit::Shed(_) | Edit::Pruned(_) | Edit::Grafted(_) | Edit::Scarred(..) => {}
             }
         }
@@ -105,7 +106,7 @@ impl Plant {
         self.living = self.living.wrapping_add(lost.len() as u32);
         journey.came.extend(lost);
         let mut edits = std::mem::take(&mut self.timeline.edits);
-        for edit in edits[range].iter_mut().rev() {
+        for edit in edits[range.clone()].iter_mut().rev() {
             journey.is_edited |= !matches!(edit, Edit::Width(..) | Edit::Given(_));
             match edit {
                 Edit::Shed(_) | Edit::Scarred(..) => {}
@@ -114,8 +115,12 @@ impl Plant {
                     self.add_tips(self.metamers.parent[cut.index()], tips);
                 }
                 Edit::Grafted(axis) => self.ungraft(*axis),
+                Edit::Resettled(resettled) => self.resettled(resettled, now, true, journey),
                 Edit::Carried(_) | Edit::Width(..) | Edit::Given(_) => self.exchange(edit, journey),
             }
+        }
+        if resettles(&edits[range.clone()]) {
+            self.recount_tips(&edits[..range.start], before.metamers as usize);
         }
         self.timeline.edits = edits;
     }
@@ -142,8 +147,12 @@ impl Plant {
                 Edit::Grafted(axis) => {
                     self.grafts.entry(self.axes.bearer[axis.index()]).or_default().push(*axis);
                 }
+                Edit::Resettled(resettled) => self.resettled(resettled, now, false, journey),
                 Edit::Carried(_) | Edit::Width(..) | Edit::Given(_) => self.exchange(edit, journey),
             }
+        }
+        if resettles(&edits[range.clone()]) {
+            self.recount_tips(&edits[..range.end], before.metamers as usize);
         }
         self.timeline.edits = edits;
         for index in before.metamers..end.metamers {
@@ -162,16 +171,19 @@ impl Plant {
     /// Changes what an edit keeps for what is in force.
     fn exchange(&mut self, edit: &mut Edit, journey: &mut Journey) {
         match edit {
-            Edit::Carried(carried) => {
-                self.swap(carried);
-                journey.moved.extend(carried.metamers.iter().copied().zip(carried.ends.iter().copied()));
-                journey.axes.extend(&carried.axes);
-                journey.axes.extend(carried.metamers.iter().map(|&id| self.metamers.axis(id)));
-            }
+            Edit::Carried(carried) => self.carry_over(carried, journey),
             Edit::Width(id, diameter) => *diameter = self.replace_width(*id, *diameter),
             Edit::Given(given) => self.swap_given(given),
-            Edit::Shed(_) | Edit::Pruned(_) | Edit::Grafted(_) | Edit::Scarred(..) => {}
+            Edit::Shed(_) | Edit::Pruned(_) | Edit::Grafted(_) | Edit::Scarred(..) | Edit::Resettled(_) => {}
         }
+    }
+
+    /// Swaps where wood stands with where it stood, and notes it.
+    pub(crate) fn carry_over(&mut self, carried: &mut Carried, journey: &mut Journey) {
+        self.swap(carried);
+        journey.moved.extend(carried.metamers.iter().copied().zip(carried.ends.iter().copied()));
+        journey.axes.extend(&carried.axes);
+        journey.axes.extend(carried.metamers.iter().map(|&id| self.metamers.axis(id)));
     }
 
     fn ungraft(&mut self, axis: AxisId) {
@@ -230,6 +242,11 @@ impl Plant {
         moved.retain(|&(id, _)| stayed(id));
         TimeShift { metamers_in: came, metamers_out, moved, axes, is_edited }
     }
+}
+
+/// Whether one of the edits settles anew which wood stands.
+fn resettles(edits: &[Edit]) -> bool {
+    edits.iter().any(|edit| matches!(edit, Edit::Resettled(_)))
 }
 
 /// Those who came more often than they went, and those who went more often than they came.

@@ -1,4 +1,5 @@
-//! An axis is one chain of metamers from its bearer to its bud.
+//! An axis is one chain of metamers from its bearer to its bud, and what lives of it is part of that chain. Rows that
+//! fell when it was settled anew which wood stands may hang beside it.
 
 use super::{Failure, require};
 use crate::{
@@ -7,27 +8,37 @@ use crate::{
 };
 
 pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
-    let mut tip = vec![None; plant.axis_count()];
-    for index in 0..plant.metamer_count() {
-        let id = MetamerId::new(index);
+    let count = plant.metamer_count();
+    // The first row of the chain that each row is part of.
+    let mut founders: Vec<MetamerId> = Vec::with_capacity(count);
+    for id in (0..count).map(MetamerId::new) {
         let axis = plant.metamers().axis(id);
         let from = plant.metamers().parent(id);
-        let expected = tip[axis.index()].or(plant.axes().bearer(axis));
-        require("axis_continuity", from == expected, || {
-            format!("metamer {index} does not continue its axis")
-        })?;
-        if tip[axis.index()].is_none() {
-            let first = plant.axes().first(axis);
-            require("axis_continuity", first == Some(id), || {
-                format!("axis {} lost its first metamer", axis.index())
-            })?;
-        }
-        tip[axis.index()] = Some(id);
+        let continued = from.filter(|&from| from < id && plant.metamers().axis(from) == axis);
+        let holds = continued.is_some() || from == plant.axes().bearer(axis);
+        require("axis_continuity", holds, || format!("metamer {} does not continue its axis", id.index()))?;
+        founders.push(continued.map_or(id, |from| founders[from.index()]));
     }
-    for (index, tip) in tip.into_iter().enumerate() {
-        let last = plant.axes().last(AxisId::new(index));
-        require("axis_continuity", last == tip, || {
-            format!("axis {index} ends elsewhere than its last metamer")
+    let mut is_in_chain = vec![false; count];
+    for axis in (0..plant.axis_count()).map(AxisId::new) {
+        let (first, last) = (plant.axes().first(axis), plant.axes().last(axis));
+        let is_here = |last: MetamerId| last.index() < count && plant.metamers().axis(last) == axis;
+        let holds = match last {
+            Some(last) => is_here(last) && first == Some(founders[last.index()]),
+            None => first.is_none(),
+        };
+        require("axis_continuity", holds, || {
+            format!("axis {} ends elsewhere than at its last metamer", axis.index())
+        })?;
+        last.into_iter().for_each(|last| is_in_chain[last.index()] = true);
+    }
+    for id in (0..count).rev().map(MetamerId::new) {
+        let Some(from) = plant.metamers().parent(id).filter(|_| is_in_chain[id.index()]) else { continue };
+        is_in_chain[from.index()] |= plant.metamers().axis(from) == plant.metamers().axis(id);
+    }
+    for id in (0..count).map(MetamerId::new).filter(|&id| plant.is_alive(id)) {
+        require("axis_continuity", is_in_chain[id.index()], || {
+            format!("metamer {} lives beside its axis", id.index())
         })?;
     }
     Ok(())

@@ -1,31 +1,35 @@
-//! Each metamer carries as many tips as axes with wood begin on it or above, the shed ones included and those
-//! pruned left out.
+//! Each metamer carries the tips of all wood that grows from it, the shed included and the cut left out, and one of its
+//! own where its axis does not go on.
 
 use super::{Failure, require};
-use crate::{id::MetamerId, plant::Plant};
+use crate::{
+    id::MetamerId,
+    plant::Plant,
+    tips::{scars, severed},
+};
 
 pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
-    let mut carried = vec![0u32; plant.metamer_count()];
-    let mut is_cut = vec![false; plant.metamer_count()];
-    plant.cuts().for_each(|cut| is_cut[cut.index()] = true);
-    for (id, tips) in plant.scars() {
-        carried[id.index()] = carried[id.index()].wrapping_add(tips);
+    let severed = severed(plant.past_edits(), plant.metamer_count());
+    // What each metamer carries for others is taken off, so that its own is left.
+    let mut own: Vec<i64> =
+        (0..plant.metamer_count()).map(|row| i64::from(plant.metamers.tips[row])).collect();
+    let mut going_on = vec![0u32; plant.metamer_count()];
+    for (id, tips) in scars(plant.past_edits()) {
+        own[id.index()] -= i64::from(tips);
     }
-    for index in (0..plant.metamer_count()).rev() {
-        let id = MetamerId::new(index);
-        let m = plant.metamers();
-        if plant.axes().last(m.axis(id)) == Some(id) && !plant.is_seed(id) {
-            carried[index] = carried[index].wrapping_add(1);
-        }
-        if let Some(parent) = m.parent(id) {
-            // Where an axis was cut its end is a tip again.
-            let kept = if is_cut[index] { u32::from(m.axis(parent) == m.axis(id)) } else { carried[index] };
-            let kept = if is_cut[index] && plant.is_seed(parent) { 0 } else { kept };
-            carried[parent.index()] = carried[parent.index()].wrapping_add(kept);
-        }
-        require("tips_add_up", carried[index] == m.tips(id), || {
-            format!("metamer {index} carries {} tips, not {}", carried[index], m.tips(id))
+    let attached = (0..plant.metamer_count()).filter(|&row| !severed[row]).map(MetamerId::new);
+    for id in attached {
+        let Some(parent) = plant.metamers().parent(id) else { continue };
+        own[parent.index()] -= i64::from(plant.metamers().tips(id));
+        going_on[parent.index()] += u32::from(plant.metamers().axis(parent) == plant.metamers().axis(id));
+    }
+    for (row, own) in own.into_iter().enumerate() {
+        let (id, going_on) = (MetamerId::new(row), going_on[row]);
+        let wanted = i64::from(going_on == 0 && !plant.is_seed(id));
+        require("tips_add_up", own == wanted, || {
+            format!("metamer {row} carries {own} tips of its own, not {wanted}")
         })?;
+        require("tips_add_up", going_on <= 1, || format!("the axis of metamer {row} goes on twice"))?;
     }
     Ok(())
 }

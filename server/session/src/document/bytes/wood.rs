@@ -1,7 +1,9 @@
 //! Plants and their futures as bytes.
 
 use espalier_growth::WORLD_EXTENT;
-use espalier_plant::{AxisId, Carried, Edit, Future, FutureParts, Given, GivenRadii, MetamerId, PlantParts};
+use espalier_plant::{
+    AxisEnds, AxisId, Carried, Edit, Future, FutureParts, Given, GivenRadii, MetamerId, PlantParts, Resettled,
+};
 use glam::Vec3;
 
 use super::{
@@ -144,11 +146,7 @@ fn write_edits(out: &mut Writer, edits: &[Edit]) {
         Edit::Grafted(axis) => out.tagged(2, axis.raw()),
         Edit::Carried(carried) => {
             out.tagged(3, carried.metamers.len() as u32);
-            out.list(&carried.metamers, |out, id| out.u32(id.raw()));
-            out.vectors(&carried.ends);
-            out.vectors(&carried.normals);
-            out.list(&carried.axes, |out, id| out.u32(id.raw()));
-            out.vectors(&carried.directions);
+            write_carried(out, carried);
         }
         Edit::Scarred(id, tips) => {
             out.tagged(5, id.raw());
@@ -160,11 +158,53 @@ fn write_edits(out: &mut Writer, edits: &[Edit]) {
         }
         Edit::Given(given) => {
             out.tagged(6, given.metamers.len() as u32);
-            out.list(&given.metamers, |out, id| out.u32(id.raw()));
-            // Some are not numbers.
-            out.list(&given.radii.0, |out, radius| out.u32(radius.to_bits()));
+            write_given(out, given);
+        }
+        Edit::Resettled(resettled) => {
+            out.tagged(7, resettled.metamers.len() as u32);
+            write_resettled(out, resettled);
         }
     });
+}
+
+fn write_carried(out: &mut Writer, carried: &Carried) {
+    out.list(&carried.metamers, |out, id| out.u32(id.raw()));
+    out.vectors(&carried.ends);
+    out.vectors(&carried.normals);
+    out.list(&carried.axes, |out, id| out.u32(id.raw()));
+    out.vectors(&carried.directions);
+}
+
+fn write_given(out: &mut Writer, given: &Given) {
+    out.list(&given.metamers, |out, id| out.u32(id.raw()));
+    // Some are not numbers.
+    out.list(&given.radii.0, |out, radius| out.u32(radius.to_bits()));
+}
+
+fn write_resettled(out: &mut Writer, resettled: &Resettled) {
+    let Resettled { metamers, axes, ends, severed, carried, widths, given } = resettled;
+    out.list(metamers, |out, &(id, death)| {
+        out.u32(id.raw());
+        out.u32(death);
+    });
+    out.list(axes, |out, &(axis, death)| {
+        out.u32(axis.raw());
+        out.u32(death);
+    });
+    out.list(ends, |out, ends| {
+        out.u32(ends.axis.raw());
+        for side in [ends.before, ends.after] {
+            out.option(side.map(|(first, _)| first.raw()));
+            out.option(side.map(|(_, last)| last.raw()));
+        }
+    });
+    out.list(severed, |out, id| out.u32(id.raw()));
+    write_carried(out, carried);
+    out.list(widths, |out, &(id, diameter)| {
+        out.u32(id.raw());
+        out.option(diameter.map(f32::to_bits));
+    });
+    write_given(out, given);
 }
 
 fn read_edit(reader: &mut Reader<'_>) -> Result<Edit, DocumentError> {
@@ -178,19 +218,55 @@ fn read_edit(reader: &mut Reader<'_>) -> Result<Edit, DocumentError> {
         0 => Edit::Shed(axis(row)),
         1 => Edit::Pruned(metamer(row)),
         2 => Edit::Grafted(axis(row)),
-        3 => Edit::Carried(Box::new(Carried {
-            metamers: reader.list(|r| r.row().map(metamer))?,
-            ends: read_places(reader)?,
-            normals: reader.vectors()?,
-            axes: reader.list(|r| r.row().map(axis))?,
-            directions: reader.vectors()?,
-        })),
+        3 => Edit::Carried(Box::new(read_carried(reader)?)),
         4 => Edit::Width(metamer(row), reader.option()?.map(f32::from_bits)),
         5 => Edit::Scarred(metamer(row), reader.u32()?),
-        6 => Edit::Given(Box::new(Given {
-            metamers: reader.list(|r| r.row().map(metamer))?,
-            radii: GivenRadii(reader.numbers()?.into_iter().map(f32::from_bits).collect()),
-        })),
+        6 => Edit::Given(Box::new(read_given(reader)?)),
+        7 => Edit::Resettled(Box::new(read_resettled(reader)?)),
         _ => return Err(damaged("an edit of unknown kind")),
+    })
+}
+
+fn read_metamer(reader: &mut Reader<'_>) -> Result<MetamerId, DocumentError> {
+    reader.row().map(|raw| MetamerId::new(raw as usize))
+}
+
+fn read_axis(reader: &mut Reader<'_>) -> Result<AxisId, DocumentError> {
+    reader.row().map(|raw| AxisId::new(raw as usize))
+}
+
+fn read_carried(reader: &mut Reader<'_>) -> Result<Carried, DocumentError> {
+    Ok(Carried {
+        metamers: reader.list(read_metamer)?,
+        ends: read_places(reader)?,
+        normals: reader.vectors()?,
+        axes: reader.list(read_axis)?,
+        directions: reader.vectors()?,
+    })
+}
+
+fn read_given(reader: &mut Reader<'_>) -> Result<Given, DocumentError> {
+    Ok(Given {
+        metamers: reader.list(read_metamer)?,
+        radii: GivenRadii(reader.numbers()?.into_iter().map(f32::from_bits).collect()),
+    })
+}
+
+fn read_resettled(reader: &mut Reader<'_>) -> Result<Resettled, DocumentError> {
+    let side = |r: &mut Reader<'_>| match (r.option()?, r.option()?) {
+        (None, None) => Ok(None),
+        (Some(first), Some(last)) if first.max(last) < u32::MAX => {
+            Ok(Some((MetamerId::new(first as usize), MetamerId::new(last as usize))))
+        }
+        _ => Err(damaged("an axis has one end")),
+    };
+    Ok(Resettled {
+        metamers: reader.list(|r| Ok((read_metamer(r)?, r.u32()?)))?,
+        axes: reader.list(|r| Ok((read_axis(r)?, r.u32()?)))?,
+        ends: reader.list(|r| Ok(AxisEnds { axis: read_axis(r)?, before: side(r)?, after: side(r)? }))?,
+        severed: reader.list(read_metamer)?,
+        carried: read_carried(reader)?,
+        widths: reader.list(|r| Ok((read_metamer(r)?, r.option()?.map(f32::from_bits))))?,
+        given: read_given(reader)?,
     })
 }
