@@ -1,0 +1,21 @@
+//! How a plant sways, from its rows as clients have them.
+//!
+//! [`Limbs`] says which rows are one limb, [`Wood`] what they weigh and how far they bend, and [`Joints`] which limbs
+//! move, how fast and how far. All of that is made with + − × ÷ and square roots in a fixed order, so that clients find
+//! the same joints bit by bit. Lengths of this crate are in metres, Y is up, angles are in radians.
+
+mod frequency;
+mod joints;
+mod limbs;
+mod radii;
+mod rides;
+mod rows;
+mod siblings;
+pub mod statics;
+mod wood;
+
+pub use joints::{Joint, Joints, MAX_JOINTS};
+pub use limbs::{Limb, Limbs};
+pub use rides::Ride;
+pub use rows::{BrokenRows, NONE, Row, Rows};
+pub use wood::{Scale, Wood};

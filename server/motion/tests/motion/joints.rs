@@ -1,0 +1,125 @@
+//! Which limbs are joints, how they swing, and how rows ride on them.
+
+use std::f64::consts::TAU;
+
+use espalier_motion::{NONE, statics::in_even_wind};
+use glam::DVec3;
+
+use crate::trees::{Tree, pole, unlike};
+
+#[test]
+fn a_pole_swings_as_theory_has_it_once_its_modulus_is_calibrated() {
+    for radius in [0.3, 2.0] {
+        let tree = pole(60, [0, 256, 0], |_| radius);
+        let joint = tree.joints.all()[0];
+        let radius = 0.1 * f64::from(espalier_mesh::radius_code::decode(crate::trees::code(radius)));
+        let believed = 3.516 * (7e9 * 0.25 * radius * radius / 950.0).sqrt() / 36.0 / TAU;
+        let observed = 2.4 / 6.0f64.sqrt();
+        let expected = observed.clamp(believed / 3.0, believed);
+        assert!((joint.frequency / expected - 1.0).abs() < 5e-3, "{} Hz for {expected}", joint.frequency);
+    }
+}
+
+#[test]
+fn calibration_makes_stout_trees_softer_and_none_stiffer() {
+    for tree in unlike() {
+        let trunk = tree.joints.all()[0];
+        let height = (0..tree.rows.len()).map(|row| tree.wood.place(row as u32).y).fold(0.0, f64::max);
+        let observed = 2.4 / height.sqrt();
+        println!(
+            "{}: {height:.1} m, {} joints of {} limbs, trunk {:.2} Hz for {observed:.2}",
+            tree.name,
+            tree.joints.all().len(),
+            tree.limbs.all().len(),
+            trunk.frequency
+        );
+        assert_eq!((trunk.level, trunk.parent), (0, None));
+        assert!(trunk.frequency < 3.0 * observed, "{}", tree.name);
+    }
+}
+
+#[test]
+fn suppleness_bends_further_and_swings_slower() {
+    let tree = &unlike()[0];
+    let supple = espalier_motion::Joints::of(&tree.rows, &tree.limbs, &tree.wood, 4.0);
+    assert_eq!(supple.all().len(), tree.joints.all().len());
+    for (supple, plain) in supple.all().iter().zip(tree.joints.all()) {
+        assert!((2.0 * supple.frequency / plain.frequency - 1.0).abs() < 1e-12);
+        assert!((supple.compliance - 4.0 * plain.compliance).to_cols_array().iter().all(|d| d.abs() < 1e-12));
+    }
+}
+
+#[test]
+fn slow_limbs_are_joints_and_each_hangs_on_the_nearest_below() {
+    for Tree { name, limbs, joints, .. } in unlike() {
+        let all = joints.all();
+        assert!(all.len() > 10 && all.len() < limbs.all().len(), "{name} has {} joints", all.len());
+        for (at, joint) in all.iter().enumerate() {
+            let limb = limbs.all()[joint.limb as usize];
+            assert_eq!((limb.first, limb.node), (joint.first, joint.node));
+            let below = joints.rides()[joint.node as usize].joint;
+            assert_eq!(joint.parent, (below != NONE).then_some(below), "{name} joint {at}");
+            assert!(joint.parent.is_none_or(|parent| (parent as usize) < at));
+            assert!(joint.frequency > 0.0 && joint.drag > 0.0 && joint.compliance.is_finite(), "{joint:?}");
+            assert!(joint.damping >= 0.04 && joint.damping < 0.06);
+        }
+        for (limb, _) in limbs.all().iter().enumerate().filter(|(_, at)| at.bearer.is_some()) {
+            if limbs.rows(limb as u32).len() == 1 {
+                assert!(all.iter().all(|joint| joint.limb != limb as u32), "one row is no joint");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_joint_turns_its_tip_as_statics_does() {
+    let pressure = DVec3::new(0.4, 0.1, -0.3);
+    for Tree { name, limbs, wood, joints, .. } in unlike() {
+        let exact = in_even_wind(&wood, pressure);
+        let trunk = joints.all()[0];
+        let rows = limbs.rows(trunk.limb);
+        // How much softer this plant is than its modulus says.
+        let softer = (trunk.compliance * pressure).length()
+            / exact[*rows.last().expect("rows") as usize].turn.length();
+        for joint in joints.all() {
+            let tip = *limbs.rows(joint.limb).last().expect("a limb has rows") as usize;
+            let turn = softer * (exact[tip].turn - exact[joint.node as usize].turn);
+            assert!(turn.distance(joint.compliance * pressure) < 1e-6 * turn.length(), "{name} {joint:?}");
+            let ride = joints.rides()[tip];
+            assert!((ride.weight - 1.0).abs() < 1e-9, "the tip has all of the rotation: {}", ride.weight);
+        }
+    }
+}
+
+#[test]
+fn limbs_in_company_are_damped_more() {
+    let damped = |tree: &Tree| tree.joints.all().iter().filter(|joint| joint.damping > 0.05).count();
+    let trees = unlike();
+    assert!(trees.iter().any(|tree| damped(tree) > 0));
+    for tree in &trees {
+        for joint in tree.joints.all() {
+            let bearer = |limb: u32| tree.limbs.all()[limb as usize].bearer;
+            let alike = tree.joints.all().iter().filter(|other| {
+                let (a, b) = (joint.frequency, other.frequency);
+                bearer(other.limb) == bearer(joint.limb) && a.max(b) <= 1.2 * a.min(b)
+            });
+            let is_crowded = bearer(joint.limb).is_some() && alike.count() >= 3;
+            assert_eq!(joint.damping > 0.05, is_crowded, "{} {joint:?}", tree.name);
+        }
+    }
+}
+
+#[test]
+fn a_straight_pole_rides_along_an_arc_of_its_own_length() {
+    let tree = pole(40, [0, 256, 0], |at| 0.5 * (1.1 - at));
+    let bend = DVec3::new(0.0, 0.0, -0.4);
+    let mut below = DVec3::ZERO;
+    for row in 1..=40u32 {
+        let ride = tree.joints.rides()[row as usize];
+        let place = tree.wood.place(row) + ride.shift(bend);
+        assert!((place.distance(below) / 0.1 - 1.0).abs() < 4e-3, "row {row}");
+        below = place;
+    }
+    // Bent towards +x, and lower for it.
+    assert!(below.x > 0.1 && below.y < 4.0 && below.y > 3.5, "{below}");
+}

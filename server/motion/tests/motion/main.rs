@@ -1,0 +1,6 @@
+//! How grown trees and plain beams are made of limbs, bend, swing and sway.
+
+mod joints;
+mod limbs;
+mod statics;
+mod trees;
