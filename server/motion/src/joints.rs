@@ -7,6 +7,7 @@ use crate::{
     limbs::Limbs,
     rides::{Ride, rides},
     rows::{NONE, Rows},
+    shapes::Shape,
     siblings::damping_by_company,
     statics::Borne,
     wood::{Scale, Wood},
@@ -44,13 +45,15 @@ pub struct Joint {
     pub damping: f64,
     /// Σ A y² / Σ m y², m²/kg: times dq/dU / 2ω it is the damping by air.
     pub drag: f64,
-    /// By how much its tip turns against its node, in radians for each Pa of wind pressure along x, y and z.
+    /// How much softer its wood is than uncalibrated.
+    pub softness: f64,
+    /// By how much it turns where it turns most, in radians for each Pa of wind pressure along x, y and z.
     pub compliance: DMat3,
     /// Where the drag of all it bears acts on average, m.
     pub centre: DVec3,
     /// Drag area of all it bears, m².
     pub area: f64,
-    /// The lowest row that rides on it and no other joint further out.
+    /// The lowest row that rides on it at rest.
     pub lowest: u32,
 }
 
@@ -75,15 +78,14 @@ impl Joints {
         chosen.iter().enumerate().for_each(|(joint, &limb)| joint_of_limb[limb] = joint as u32);
         let carriers = carriers(limbs, &joint_of_limb);
         let mut joints = Vec::with_capacity(chosen.len());
+        let mut shapes = Vec::with_capacity(chosen.len());
         for &limb in &chosen {
             let Plant { softer, .. } = *of_plant(limb);
             let (at, mode) = (limbs.all()[limb], modes[limb]);
             let first = at.first as usize;
             let parent = at.bearer.map_or(NONE, |bearer| carriers[bearer as usize]);
             let softness = suppleness / softer;
-            let bend = |&row: &u32| drag.bend(wood, &wood.drag_area, row as usize);
-            let compliance =
-                limbs.rows(limb as u32).iter().map(bend).fold(DMat3::ZERO, |sum, turn| sum + turn);
+            let shape = Shape::of(wood, &drag, limbs.rows(limb as u32));
             joints.push(Joint {
                 limb: limb as u32,
                 first: at.first,
@@ -93,21 +95,17 @@ impl Joints {
                 frequency: (mode.rate / softness).sqrt() / TAU,
                 damping: 0.0,
                 drag: mode.drag,
-                compliance: compliance * softness,
+                softness,
+                compliance: shape.compliance * softness,
                 centre: drag.moment[first] / drag.weight[first],
                 area: drag.weight[first],
                 lowest: at.first,
             });
+            shapes.push(shape);
         }
         damping_by_company(&mut joints, limbs);
-        let rides = rides(limbs, wood, &drag, &joint_of_limb);
-        for (row, ride) in rides.iter().enumerate() {
-            if let Some(joint) = joints.get_mut(ride.joint as usize)
-                && wood.place[row].y < wood.place[joint.lowest as usize].y
-            {
-                joint.lowest = row as u32;
-            }
-        }
+        let rides = rides(limbs, wood, &joint_of_limb, &shapes);
+        find_lowest(&mut joints, wood, &rides);
         Self { joints, rides }
     }
 
@@ -132,6 +130,17 @@ impl Joints {
 
 fn level(joints: &[Joint], joint: u32) -> u32 {
     joints[joint as usize].level
+}
+
+/// Makes the lowest row that rides on a joint known to it; of two as low the first.
+fn find_lowest(joints: &mut [Joint], wood: &Wood, rides: &[Ride]) {
+    for (row, ride) in rides.iter().enumerate() {
+        if let Some(joint) = joints.get_mut(ride.joint as usize)
+            && wood.place[row].y < wood.place[joint.lowest as usize].y
+        {
+            joint.lowest = row as u32;
+        }
+    }
 }
 
 /// How each limb swings by itself, uncalibrated.

@@ -2,7 +2,8 @@
 //!
 //! [`Limbs`] says which rows are one limb, [`Wood`] what they weigh and how far they bend, and [`Joints`] which limbs
 //! move, how fast and how far. All of that is made with + − × ÷ and square roots in a fixed order, so that clients find
-//! the same joints bit by bit. Lengths of this crate are in metres, Y is up, angles are in radians.
+//! the same joints bit by bit.
+//! Lengths of this crate are in metres, Y is up, angles are in radians.
 
 mod frequency;
 mod joints;
@@ -10,6 +11,7 @@ mod limbs;
 mod radii;
 mod rides;
 mod rows;
+mod shapes;
 mod siblings;
 pub mod statics;
 mod wood;

@@ -1,14 +1,15 @@
 //! How rows move with the joint they ride on.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
-use crate::{limbs::Limbs, rows::NONE, statics::Borne, wood::Wood};
+use crate::{limbs::Limbs, rows::NONE, shapes::Shape, wood::Wood};
 
-/// How one row rides: by the rotation Θ of its joint, its node moves by Θ × `first` + ½ Θ × (Θ × `second`) and turns
-/// by `weight` Θ.
+/// How one row rides: by the rotation Θ of its joint, θ = |Θ|, its node turns by `weight` Θ and moves by
+/// sin θ / θ · Θ × `first` + (1 − cos θ) / θ² · Θ × (Θ × `second`).
 ///
-/// That is the integral of exp(wΘ) along the way from the joint's node, up to the second order. Internodes keep their
-/// length up to the fourth.
+/// That is the integral of exp(wΘ) along the way from the joint's node up to the second order, and exact where w is 1.
+/// Internodes are too short by (1 − cos θ)² w² (1 − w²) / 2: by 2 % at most where θ is 0.9. With the factors 1 and ½ of
+/// the bare second order they would be too long by θ⁴/8, which is 8 %.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ride {
     /// The joint, or [`NONE`] where nothing moves the row.
@@ -26,7 +27,15 @@ impl Ride {
 
     /// How far the row's node moves when its joint turns, in m.
     pub fn shift(&self, bend: DVec3) -> DVec3 {
-        bend.cross(self.first) + 0.5 * bend.cross(bend.cross(self.second))
+        let squared = bend.length_squared();
+        // Below, the factors are 1 and ½ to the last bit.
+        let (across, back) = if squared < 1e-16 {
+            (1.0, 0.5)
+        } else {
+            let (sin, cos) = libm::sincos(squared.sqrt());
+            (sin / squared.sqrt(), (1.0 - cos) / squared)
+        };
+        across * bend.cross(self.first) + back * bend.cross(bend.cross(self.second))
     }
 
     /// The ride at the end of a way from a row that rides like this, with another weight there.
@@ -37,40 +46,20 @@ impl Ride {
     }
 }
 
-/// The rides of all rows, whose joints are given by limb.
-///
-/// Along a limb the weight is the share of its rotation at the tip that best describes the rotation there, over winds
-/// along x and z. What is no joint goes on as stiffly as the node it stands on.
-pub(crate) fn rides(limbs: &Limbs, wood: &Wood, drag: &Borne, joint_of_limb: &[u32]) -> Vec<Ride> {
+/// The rides of all rows. What is no joint goes on as stiffly as the node it stands on.
+pub(crate) fn rides(limbs: &Limbs, wood: &Wood, joint_of_limb: &[u32], shapes: &[Shape]) -> Vec<Ride> {
     let mut rides = vec![Ride::STILL; wood.len()];
     for (limb, at) in limbs.all().iter().enumerate() {
-        let mut below = match joint_of_limb[limb] {
+        let joint = joint_of_limb[limb];
+        let mut below = match joint {
             NONE => rides[at.node as usize],
             joint => Ride { joint, ..Ride::STILL },
         };
-        let rows = limbs.rows(limb as u32);
-        let bend = |row: u32| drag.bend(wood, &wood.drag_area, row as usize);
-        let whole = match joint_of_limb[limb] {
-            NONE => DMat3::ZERO,
-            _ => rows.iter().map(|&row| bend(row)).fold(DMat3::ZERO, |sum, turn| sum + turn),
-        };
-        let size = level_product(&whole, &whole);
-        let mut turned = DMat3::ZERO;
-        for &row in rows {
-            let weight = if size > 0.0 {
-                turned += bend(row);
-                level_product(&turned, &whole) / size
-            } else {
-                below.weight
-            };
+        for (at, &row) in limbs.rows(limb as u32).iter().enumerate() {
+            let weight = if joint == NONE { below.weight } else { shapes[joint as usize].weights[at] };
             below = below.extended(wood.way(row as usize), weight);
             rides[row as usize] = below;
         }
     }
     rides
-}
-
-/// The inner product of rotations under winds along x and z.
-fn level_product(a: &DMat3, b: &DMat3) -> f64 {
-    a.x_axis.dot(b.x_axis) + a.z_axis.dot(b.z_axis)
 }
