@@ -3,8 +3,11 @@
 //! [`Limbs`] says which rows are one limb, [`Wood`] what they weigh and how far they bend, and [`Joints`] which limbs
 //! move, how fast and how far. All of that is made with + − × ÷ and square roots in a fixed order, so that clients find
 //! the same joints bit by bit.
-//! Lengths of this crate are in metres, Y is up, angles are in radians.
+//!
+//! [`Wind`] is a function of place and time. Lengths of this crate are in metres, Y is up,
+//! angles are in radians.
 
+mod exposure;
 mod frequency;
 mod joints;
 mod limbs;
@@ -12,12 +15,17 @@ mod radii;
 mod rides;
 mod rows;
 mod shapes;
+pub mod shelter;
 mod siblings;
+mod spectrum;
 pub mod statics;
+mod wind;
 mod wood;
 
+pub use exposure::Exposure;
 pub use joints::{Joint, Joints, MAX_JOINTS};
 pub use limbs::{Limb, Limbs};
 pub use rides::Ride;
 pub use rows::{BrokenRows, NONE, Row, Rows};
+pub use wind::{Direction, LIVE_PERIOD, Line, Weather, Wind, profile};
 pub use wood::{Scale, Wood};

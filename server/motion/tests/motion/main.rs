@@ -2,5 +2,7 @@
 
 mod joints;
 mod limbs;
+mod shelter;
 mod statics;
 mod trees;
+mod wind;
