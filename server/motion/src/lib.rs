@@ -4,13 +4,16 @@
 //! move, how fast and how far. All of that is made with + − × ÷ and square roots in a fixed order, so that clients find
 //! the same joints bit by bit.
 //!
-//! [`Wind`] is a function of place and time. Lengths of this crate are in metres, Y is up,
+//! [`Wind`] is a function of place and time, and so is how joints answer it ([`Answers`], [`Sway`], [`Pose`]): nothing is
+//! integrated, so whoever looks sees the same gust, and loops close. Lengths of this crate are in metres, Y is up,
 //! angles are in radians.
 
+pub mod answers;
 mod exposure;
 mod frequency;
 mod joints;
 mod limbs;
+mod pose;
 mod radii;
 mod rides;
 mod rows;
@@ -19,13 +22,17 @@ pub mod shelter;
 mod siblings;
 mod spectrum;
 pub mod statics;
+mod sway;
 mod wind;
 mod wood;
 
+pub use answers::{Answer, Answers};
 pub use exposure::Exposure;
 pub use joints::{Joint, Joints, MAX_JOINTS};
 pub use limbs::{Limb, Limbs};
+pub use pose::{Node, Pose, Stand};
 pub use rides::Ride;
 pub use rows::{BrokenRows, NONE, Row, Rows};
+pub use sway::{Pluck, Sway};
 pub use wind::{Direction, LIVE_PERIOD, Line, Weather, Wind, profile};
 pub use wood::{Scale, Wood};

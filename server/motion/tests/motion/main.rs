@@ -1,8 +1,11 @@
 //! How grown trees and plain beams are made of limbs, bend, swing and sway.
 
+mod answers;
 mod joints;
 mod limbs;
+mod poses;
 mod shelter;
 mod statics;
+mod sway;
 mod trees;
 mod wind;
