@@ -146,8 +146,8 @@ fn find_lowest(joints: &mut [Joint], wood: &Wood, rides: &[Ride]) {
 /// How each limb swings by itself, uncalibrated.
 fn modes(limbs: &Limbs, wood: &Wood, drag: &Borne) -> Vec<Mode> {
     let mass = Borne::of(wood, &wood.mass);
-    let mut mass_spread = spread(wood, &wood.mass);
-    let mut drag_spread = spread(wood, &wood.drag_area);
+    let mass_spread = spread(wood, &wood.mass);
+    let drag_spread = spread(wood, &wood.drag_area);
     let mut modes = Modes::default();
     let mut stations = Vec::new();
     let of_limb = |limb: usize| {
@@ -156,7 +156,7 @@ fn modes(limbs: &Limbs, wood: &Wood, drag: &Borne) -> Vec<Mode> {
         for (at, &row) in rows.iter().enumerate() {
             let onward = rows.get(at + 1).map(|&row| row as usize);
             let row = row as usize;
-            let borne = |of: &Borne, weights: &[f64], spread: &mut [f64]| {
+            let borne = |of: &Borne, weights: &[f64], spread: &[f64]| {
                 let rest = |all: f64, own: f64, onward: f64| (all - own - onward).max(0.0);
                 let middle = wood.middle(row);
                 let beyond = |column: &[f64]| onward.map_or(0.0, |onward| column[onward]);
@@ -171,8 +171,8 @@ fn modes(limbs: &Limbs, wood: &Wood, drag: &Borne) -> Vec<Mode> {
                 let about_node = about_origin - 2.0 * node.dot(moment) + weight * node.length_squared();
                 (weight, ACROSS * about_node.max(0.0))
             };
-            let (borne_mass, borne_inertia) = borne(&mass, &wood.mass, &mut mass_spread);
-            let (borne_area, borne_spread) = borne(drag, &wood.drag_area, &mut drag_spread);
+            let (borne_mass, borne_inertia) = borne(&mass, &wood.mass, &mass_spread);
+            let (borne_area, borne_spread) = borne(drag, &wood.drag_area, &drag_spread);
             stations.push(Station {
                 length: wood.length[row],
                 softness: wood.softness(row),

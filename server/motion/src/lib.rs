@@ -9,6 +9,7 @@
 //! angles are in radians.
 
 pub mod answers;
+pub mod bodies;
 mod exposure;
 mod frequency;
 mod joints;

@@ -1,6 +1,7 @@
 //! How grown trees and plain beams are made of limbs, bend, swing and sway.
 
 mod answers;
+mod bodies;
 mod joints;
 mod limbs;
 mod poses;
