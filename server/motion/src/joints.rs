@@ -143,6 +143,9 @@ fn find_lowest(joints: &mut [Joint], wood: &Wood, rides: &[Ride]) {
     }
 }
 
+/// In place of the mode of a twig of one row, which is never a joint.
+const RIGID: Mode = Mode { rate: f64::INFINITY, drag: 0.0 };
+
 /// How each limb swings by itself, uncalibrated.
 fn modes(limbs: &Limbs, wood: &Wood, drag: &Borne) -> Vec<Mode> {
     let mass = Borne::of(wood, &wood.mass);
@@ -153,6 +156,9 @@ fn modes(limbs: &Limbs, wood: &Wood, drag: &Borne) -> Vec<Mode> {
     let of_limb = |limb: usize| {
         stations.clear();
         let rows = limbs.rows(limb as u32);
+        if rows.len() == 1 && limbs.all()[limb].bearer.is_some() {
+            return RIGID;
+        }
         for (at, &row) in rows.iter().enumerate() {
             let onward = rows.get(at + 1).map(|&row| row as usize);
             let row = row as usize;

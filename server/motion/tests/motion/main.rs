@@ -2,6 +2,7 @@
 
 mod answers;
 mod bodies;
+mod golden;
 mod joints;
 mod limbs;
 mod poses;
