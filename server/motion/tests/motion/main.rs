@@ -3,6 +3,8 @@
 mod answers;
 mod bodies;
 mod golden;
+mod gusts;
+mod hostile;
 mod joints;
 mod limbs;
 mod poses;
