@@ -1,8 +1,8 @@
 //! Settling anew which wood stands, when some steps no longer count, or count again.
 //!
 //! Nothing is grown again and no row gets another number. Whoever settles says of each step whether it is in force, and
-//! whether a hand drew what was born in it. From that follows which wood stands ([`standing`]), where ([`places`]), and
-//! which widths and radii hold ([`fields`]). The difference to the present is one edit in a step of its own.
+//! whether a hand drew what was born in it. From that follows which wood stands (`standing`), where (`places`), and
+//! which widths and radii hold (`fields`). The difference to the present is one edit in a step of its own.
 
 mod fields;
 mod places;
