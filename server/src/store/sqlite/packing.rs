@@ -31,7 +31,7 @@ impl Packing {
 pub(super) struct Packer(Compressor<'static>);
 
 impl Packer {
-    /// Numbers packed further take longer and gain 0.3 % (docs/performance.md).
+    /// Higher levels take longer and save 0.3 % (docs/performance.md).
     const LEVEL: i32 = 1;
 
     pub(super) fn new() -> io::Result<Self> {
