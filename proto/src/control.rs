@@ -162,6 +162,20 @@ pub struct DocumentState {
     pub pending_steps: u32,
     /// Clients connected, this one included.
     pub people: u32,
+    /// Why growth rests though there is something to grow (`LM19`, `OP5`); absent where it does not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub paused: Option<Pause>,
+}
+
+/// Why growth rests.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum Pause {
+    /// The server has no memory for it now; it goes on when there is some (`LM19`).
+    Memory,
+    /// The server did not outlive it twice; it goes on when an owner says so (`OP5`).
+    Crashes,
 }
 
 /// What everybody in a session is notified of once: how it was opened (`OP`).

@@ -54,6 +54,8 @@ table! {
     JoinSession: Viewer, Library;
     /// Does a command in a session, uploads included.
     EditSession: Editor, Library;
+    /// Lets go on what the server did not outlive.
+    ResumeSession: Owner, Library;
     /// Takes the tree of a session, as a file or into the library.
     TakeTree: Viewer, Library;
     /// Takes the mesh of an obstacle.

@@ -164,6 +164,8 @@ reasons! {
         AnswerNotKept,
         /// The server stopped while the request with this key was under way.
         OutcomeUnknown,
+        /// Nothing waits to go on.
+        NothingWaits,
         /// A newer program wrote this.
         NewerProgram,
         /// What is stored of a session is damaged.
@@ -214,6 +216,8 @@ reasons! {
         Failed,
         /// The server is busy growing.
         Busy,
+        /// The server has no memory left for this now.
+        MemoryFull,
         /// The request took too long.
         Late,
         /// The obstacle was not placed.

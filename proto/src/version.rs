@@ -94,6 +94,8 @@ pub enum CloseCode {
     MessageTooBig = 1009,
     /// The server failed to keep the session; reconnect with backoff.
     InternalError = 1011,
+    /// The server has no memory for this now; reconnect with backoff.
+    TryAgainLater = 1013,
     /// The client speaks another protocol version: load the page again.
     VersionMismatch = 4000,
     /// The first message was not a hello, or none came in time.

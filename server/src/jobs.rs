@@ -21,6 +21,7 @@ pub use self::job::{Grown, Job, Order, Progress, State};
 use self::{place::Place, queue::Queue};
 use crate::{
     access::{Action, Caller},
+    memory::Memory,
     name,
     pool::SimulationPool,
     store::AnyStore,
@@ -52,6 +53,7 @@ struct Inner {
     table: Mutex<Table>,
     added: Notify,
     pool: SimulationPool,
+    memory: Memory,
     stop: CancellationToken,
 }
 
@@ -106,8 +108,8 @@ pub enum NotTaken {
 
 impl Jobs {
     /// No jobs. Somebody has to [`run`](Self::run) them.
-    pub fn new(pool: SimulationPool, stop: CancellationToken) -> Self {
-        Self(Arc::new(Inner { table: Mutex::default(), added: Notify::new(), pool, stop }))
+    pub fn new(pool: SimulationPool, memory: Memory, stop: CancellationToken) -> Self {
+        Self(Arc::new(Inner { table: Mutex::default(), added: Notify::new(), pool, memory, stop }))
     }
 
     /// Does what is ordered until the server stops; then all files go. The store says who is still let in.
@@ -238,9 +240,9 @@ impl Jobs {
             return true;
         }
         job.begin(seed);
-        let (this, pool) = (Arc::clone(job), self.0.pool.clone());
+        let (this, pool, memory) = (Arc::clone(job), self.0.pool.clone(), self.0.memory.clone());
         let bytes_left = self.bytes_left(&job.order.by.person());
-        let made = tokio::task::spawn_blocking(move || this.make(seed, &pool, bytes_left)).await;
+        let made = tokio::task::spawn_blocking(move || this.make(seed, &pool, &memory, bytes_left)).await;
         let made = made.unwrap_or_else(|error| {
             tracing::error!(%error, seed, "a tree of a job failed");
             Err(Problem::new(Reason::Failed, "The server failed to compute this."))
@@ -295,7 +297,7 @@ mod tests {
 
     fn jobs() -> Jobs {
         let pool = SimulationPool::new(NonZeroUsize::new(1)).unwrap();
-        Jobs::new(pool, CancellationToken::new())
+        Jobs::new(pool, Memory::of(1 << 40), CancellationToken::new())
     }
 
     fn added(jobs: &Jobs, order: Order) -> String {
@@ -443,7 +445,7 @@ mod tests {
         }
         assert!(job.open(8).unwrap().is_none());
 
-        let problem = job.make(9, &jobs.0.pool, 10).unwrap_err();
+        let problem = job.make(9, &jobs.0.pool, &jobs.0.memory, 10).unwrap_err();
         assert_eq!(problem.reason, Reason::JobsDiskFull);
         assert!(!job.path(9).unwrap().exists(), "what was begun is gone");
 

@@ -18,6 +18,7 @@ mod live;
 mod logging;
 mod maintenance;
 mod manual;
+mod memory;
 mod name;
 mod output;
 mod people;

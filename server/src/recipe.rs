@@ -45,6 +45,9 @@ pub enum GrowError {
     /// Nobody wants it any more.
     #[error("The tree was given up.")]
     GivenUp,
+    /// There is no memory for it.
+    #[error("The server has no memory left to grow the tree on; order it again later.")]
+    NoMemory,
 }
 
 impl From<Problem> for GrowError {
@@ -121,7 +124,7 @@ impl Recipe {
                 return Err(stalled);
             }
             gardener.act(&step).map_err(|error| match error {
-                GrowError::GivenUp => error,
+                GrowError::GivenUp | GrowError::NoMemory => error,
                 _ => stalled,
             })?;
         }

@@ -22,6 +22,7 @@ use crate::{
     listener::{self, Answers, Limits},
     live::Sessions,
     logging, maintenance,
+    memory::Memory,
     pool::SimulationPool,
     portrait::Portraits,
     store::{AnyStore, Audit, Event, OpenError, SqliteStore, Store, StoreError, Users},
@@ -98,8 +99,9 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     };
 
     let stop = CancellationToken::new();
-    let sessions = Sessions::new(Arc::clone(&store), pool.clone(), stop.clone());
-    let jobs = Jobs::new(pool.clone(), stop.clone());
+    let memory = Memory::found(options.memory);
+    let sessions = Sessions::new(Arc::clone(&store), pool.clone(), memory.clone(), stop.clone());
+    let jobs = Jobs::new(pool.clone(), memory.clone(), stop.clone());
     let under_way = http::UnderWay::new(stop.clone());
     let proxies = http::Proxies::new(&options.trusted_proxies);
     let shared = Shared {
@@ -107,6 +109,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         store: Arc::clone(&store),
         sessions: sessions.clone(),
         pool,
+        memory,
         metamer_budget: options.metamer_budget,
         portraits: Portraits::default(),
         hosts: Hosts::new(&options.host_names),

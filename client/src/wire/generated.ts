@@ -56,6 +56,7 @@ export const CloseCode = {
   NotText: 1007,
   MessageTooBig: 1009,
   InternalError: 1011,
+  TryAgainLater: 1013,
   VersionMismatch: 4000,
   HelloExpected: 4001,
   TooSlow: 4002,
@@ -84,6 +85,7 @@ export const LEAST_ROLES = {
   SeeSession: "viewer",
   JoinSession: "viewer",
   EditSession: "editor",
+  ResumeSession: "owner",
   TakeTree: "viewer",
   SeeObstacle: "viewer",
   ListTrees: "viewer",
@@ -1428,7 +1430,7 @@ appearance: Appearance, };
 
 export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "stale" | "unavailable";
 
-export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
+export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
 
 export type Problem = { 
 /**
@@ -1627,7 +1629,13 @@ pending_steps: number,
 /**
  * Clients connected, this one included.
  */
-people: number, };
+people: number, 
+/**
+ * Why growth rests though there is something to grow (`LM19`, `OP5`); absent where it does not.
+ */
+paused?: Pause, };
+
+export type Pause = "memory" | "crashes";
 
 export type ClientMessage = { "type": "hello", 
 /**

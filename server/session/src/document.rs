@@ -49,7 +49,7 @@ pub(crate) use self::{
     obstacles::ObstaclesMark,
     pruning::prune as prune_simulation,
 };
-use crate::{cause::Cause, form, principal::Principal, schedule::GrowthSchedule};
+use crate::{cause::Cause, form, principal::Principal, room, schedule::GrowthSchedule};
 
 /// A scene, the generators that grow it, and every operation done so far.
 ///
@@ -227,6 +227,13 @@ impl Document {
     /// Living metamers.
     pub fn metamers(&self) -> u32 {
         self.simulation.plant().living_count()
+    }
+
+    /// What it takes of memory, in rows: metamers, dead ones and those of its futures included, and as many triangles of
+    /// obstacles as [`Document::held_triangles`] said last.
+    pub(crate) fn held_rows(&self, triangles: u64) -> u64 {
+        let rows = self.simulation.plant().metamer_count() + self.futures.metamers();
+        room::as_rows(rows as u64, triangles)
     }
 
     /// The parameters in force.

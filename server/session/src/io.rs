@@ -56,6 +56,8 @@ pub enum Input {
     /// all commands are done there is a snapshot that contains them.
     /// It can be dropped when nothing it asked for is under way any more.
     Stopping,
+    /// An owner wants that to be done which the server did not outlive (`OP5`).
+    GoOn,
 }
 
 /// Something to do.

@@ -17,6 +17,7 @@ mod obstacle;
 mod prediction;
 mod principal;
 mod rights;
+mod room;
 mod schedule;
 mod schematic;
 mod session;
@@ -35,8 +36,9 @@ pub use io::{ActId, ClientId, Input, JournalEntry, Output, ReadDocument, ReadId}
 pub use prediction::PredictionRun;
 pub use principal::Principal;
 pub use rights::{Access, forbidden};
+pub use room::HasRoom;
 pub use schematic::schematic;
-pub use session::Session;
+pub use session::{Session, Tail};
 pub use snapshot::RestoreError;
 pub use species_script::{script, wire_species};
 pub use to_proto::{delta, style_options};

@@ -9,7 +9,7 @@ use std::sync::{
 
 use espalier_growth::{NoObserver, Simulation};
 use espalier_mesh::{RingTable, Style};
-use espalier_proto::{GhostFrame, Problem};
+use espalier_proto::{GhostFrame, Problem, Reason};
 
 use crate::{
     document::{Generators, Step, prune_simulation},
@@ -73,6 +73,26 @@ impl PredictionRun {
             style,
             answer: None,
         }
+    }
+
+    /// A prediction for which there is no memory (`LM19`).
+    pub(crate) fn refused(question: Question, style: Style, epoch: u32) -> Self {
+        let (simulation, is_cut, left) = (None, false, 0);
+        let mut run = Self { question, epoch, simulation, is_cut, left, style, answer: None };
+        run.refuse();
+        run
+    }
+
+    /// There is no memory for the rest of it (`LM19`): it goes back as [`crate::Input::Predicted`].
+    pub fn refuse(&mut self) {
+        let problem = Problem::new(Reason::MemoryFull, "the server has no memory for a prediction now");
+        self.simulation = None;
+        self.answer = Some(Err(problem.at("steps", "a prediction while there is memory for it")));
+    }
+
+    /// What its plants take of memory, in rows.
+    pub fn held_rows(&self) -> u64 {
+        self.simulation.as_ref().map_or(0, |simulation| simulation.plant().metamer_count() as u64)
     }
 
     /// Does one slice, which ends after the step at which `is_over` says so; true when the prediction is done and goes

@@ -5,7 +5,9 @@ mod bending;
 mod commands;
 mod delivery;
 mod greeting;
+mod pausing;
 mod predicting;
+mod restoring;
 mod upkeep;
 
 use std::{
@@ -21,23 +23,22 @@ use espalier_proto::{
 use espalier_settings::{Appearance, ParameterValues};
 
 use crate::{
-    author::{Authors, LastCommand, note_last},
+    author::Authors,
     clients::{Client, Clients},
     document::{Document, Figures, ObstaclesMark},
-    form::read_command,
-    io::{ClientId, Input, JournalEntry, Output, ReadId},
+    io::{ClientId, Input, Output, ReadId},
     journal::Journal,
     obstacle::Mesh,
     prediction::Prediction,
     principal::Principal,
-    snapshot::{self, RestoreError, Snapshot},
-    stops::Stops,
+    snapshot::{self, RestoreError},
     to_proto::Held,
     window::MAX_UNREAD,
     work::{BendUpdate, Work},
 };
 
-use self::{acts::Act, commands::Queue, upkeep::Upkeep};
+pub use self::restoring::Tail;
+use self::{acts::Act, commands::Queue, pausing::Pausing, restoring::Restored, upkeep::Upkeep};
 
 /// One shared document with its clients. Feed it with [`Session::handle`], then drain [`Session::poll_output`].
 #[derive(Debug)]
@@ -73,6 +74,7 @@ pub struct Session {
     /// Predictions that are being made.
     predictions: usize,
     upkeep: Upkeep,
+    pausing: Pausing,
     /// What everybody here is notified of.
     notices: Vec<Notice>,
     failed: bool,
@@ -120,47 +122,6 @@ impl Scenery {
 }
 
 impl Session {
-    /// Loads a session: its last snapshot, if there is one, and the journal entries behind it.
-    ///
-    /// Without a snapshot the document starts from `seed`; without entries either, the session is new.
-    /// `epoch` must differ from load to load (`RS2`). Entries the snapshot contains are skipped.
-    /// The snapshot may be that of an earlier simulation: what stands in it stays as it is, and only the entries
-    /// behind it are done by the present one.
-    pub fn restore(
-        name: impl Into<String>,
-        epoch: u32,
-        snapshot: Option<&[u8]>,
-        seed: u32,
-        entries: impl IntoIterator<Item = JournalEntry>,
-    ) -> Result<Self, RestoreError> {
-        let Snapshot { through, mut last_commands, mut document } = match snapshot {
-            Some(bytes) => snapshot::from_bytes(bytes)?,
-            None => Snapshot { through: 0, last_commands: BTreeMap::new(), document: Document::new(seed) },
-        };
-        let mut last = through;
-        let mut orders = Vec::new();
-        let mut stops = Stops::default();
-        for entry in entries.into_iter().skip_while(|entry| entry.number <= through) {
-            if entry.number != last + 1 {
-                return Err(RestoreError::Gap { expected: last + 1, found: entry.number });
-            }
-            last = entry.number;
-            let command = read_command(&entry.command)
-                .map_err(|problem| RestoreError::Entry { number: entry.number, problem })?;
-            stops.note(entry.number, &command.action);
-            orders.push((entry.number, entry.principal, entry.id, command));
-        }
-        for (number, principal, id, command) in orders {
-            stops.forget_through(number);
-            document.stop_at(stops.end_of(number));
-            // Under the same simulation, what the document refuses now it refused the first time as well; under a
-            // later one a row may be gone, and the notice of a replayed tail says so (OP2).
-            let _refused_again = document.apply(&principal, &command);
-            note_last(&mut last_commands, &principal, LastCommand { id, entry: number });
-        }
-        Ok(Self::with_document(name.into(), epoch, document, through, last, last_commands))
-    }
-
     /// The first snapshot of a session that starts from a seed and may hold so many metamers (`LM4`).
     /// Keep it with `through` 0 and restore the session from it.
     pub fn seedling(seed: u32, metamer_budget: u32) -> Vec<u8> {
@@ -182,7 +143,7 @@ impl Session {
         // Strokes and bends in progress go on in the session that the tree was saved from.
         document.end_gestures();
         let snapshot = snapshot::to_bytes(0, &BTreeMap::new(), &document);
-        Ok((Self::with_document(name.into(), epoch, document, 0, 0, BTreeMap::new()), snapshot))
+        Ok((Self::with_document(name.into(), epoch, Restored::new(document)), snapshot))
     }
 
     /// Makes the frame of the whole tree before anybody comes who waits for it.
@@ -192,19 +153,17 @@ impl Session {
         }
     }
 
-    fn with_document(
-        name: String,
-        epoch: u32,
-        document: Document,
-        snapshotted: u64,
-        last: u64,
-        last_commands: BTreeMap<Principal, LastCommand>,
-    ) -> Self {
+    fn with_document(name: String, epoch: u32, restored: Restored) -> Self {
+        let Restored { document, snapshotted, applied, done_by, last, taken_by, rest, .. } = restored;
         let mut authors = Authors::default();
         if last > 0 {
-            authors = Authors::restored(&last_commands);
+            authors = Authors::restored(&taken_by);
         }
-        let mut work = Box::new(Work::new(document, epoch, last, last_commands));
+        let mut work = Box::new(Work::new(document, epoch, applied, done_by));
+        let mut queue = Queue::default();
+        queue.came_back(&rest.orders);
+        let pausing = Pausing::new(rest.hold);
+        work.resume(rest);
         let bends = work.take_report().bends;
         Self {
             name,
@@ -213,7 +172,7 @@ impl Session {
             clients: Clients::new(),
             authors,
             journal: Journal::new(last),
-            queue: Queue::default(),
+            queue,
             reads: Vec::new(),
             acts: Vec::new(),
             newest: (work.sequence, work.table.rows() as u32),
@@ -231,6 +190,7 @@ impl Session {
             predictions: 0,
             home: Some(work),
             upkeep: Upkeep::new(snapshotted),
+            pausing,
             notices: Vec::new(),
             failed: false,
             outputs: VecDeque::new(),
@@ -269,9 +229,11 @@ impl Session {
             Input::SnapshotKept(through) => self.upkeep.snapshot_kept(through),
             Input::SnapshotFailed => self.upkeep.snapshot_failed(self.now),
             Input::Stopping => self.stop(),
+            Input::GoOn => self.go_on(),
         }
         if !self.failed {
             self.answer_acts();
+            self.look_for_room();
             self.keep_up();
             self.dispatch();
             self.ask_to_be_woken();

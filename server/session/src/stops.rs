@@ -17,6 +17,13 @@ pub(crate) struct Stops {
 }
 
 impl Stops {
+    /// The same where it may have been noted already.
+    pub(crate) fn note_once(&mut self, entry: u64, action: &Action) {
+        if self.ends.back().is_none_or(|(last, _)| *last < entry) {
+            self.note(entry, action);
+        }
+    }
+
     /// Notes an action if it is a stop.
     pub(crate) fn note(&mut self, entry: u64, action: &Action) {
         if let &Action::Stop { tick: Some(tick) } = action {

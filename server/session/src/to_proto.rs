@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use espalier_mesh::{Changes, RingTable, StyleOptions, radius_code, ring_table};
 use espalier_proto::{
-    ChunkChange, DocumentState, Frame, Resume, Rows, Values,
+    ChunkChange, DocumentState, Frame, Pause, Resume, Rows, Values,
     frame::{self, CHUNK_ROWS},
 };
 use espalier_settings::ParameterValues;
@@ -98,7 +98,13 @@ pub(crate) fn catch_up(table: &RingTable, held: &Held, epoch: u32, sequence: u32
 }
 
 /// The document's figures for clients; `queued` steps belong to commands not begun yet.
-pub(crate) fn state(figures: &Figures, leaves: u32, queued: u32, people: usize) -> DocumentState {
+pub(crate) fn state(
+    figures: &Figures,
+    leaves: u32,
+    queued: u32,
+    people: usize,
+    paused: Option<Pause>,
+) -> DocumentState {
     DocumentState {
         step: figures.step,
         age: figures.age,
@@ -111,6 +117,7 @@ pub(crate) fn state(figures: &Figures, leaves: u32, queued: u32, people: usize) 
         can_redo: figures.can_redo,
         pending_steps: figures.pending_steps.saturating_add(queued),
         people: people as u32,
+        paused,
     }
 }
 

@@ -6,7 +6,7 @@ use std::{
 };
 
 use espalier_mesh::{RingTable, Style};
-use espalier_proto::{Action, BendFrame, Command, Hint, PlacedObstacle, Position, Problem, RowMotion};
+use espalier_proto::{Action, BendFrame, Command, Hint, Pause, PlacedObstacle, Position, Problem, RowMotion};
 
 use crate::{
     author::{LastCommand, note_last},
@@ -14,6 +14,7 @@ use crate::{
     io::{ActId, ClientId, ReadDocument, ReadId},
     prediction::{PredictionRun, Question},
     principal::Principal,
+    room::{self, HasRoom},
     snapshot,
     stops::Stops,
     to_proto::{self, Held},
@@ -57,6 +58,17 @@ pub(crate) struct Order {
     pub(crate) bytes: usize,
     /// Who waits for its outcome, if it came from outside.
     pub(crate) act: Option<ActId>,
+}
+
+/// What was not done when a document was restored.
+#[derive(Debug, Default)]
+pub(crate) struct Rest {
+    pub(crate) orders: VecDeque<Order>,
+    pub(crate) stops: Stops,
+    /// Why it was not done.
+    pub(crate) hold: Option<Pause>,
+    /// The command that was begun and is not done: whose, its number, what it asks for.
+    pub(crate) doing: Option<(Principal, u32, Action)>,
 }
 
 /// A client that needs a frame of its own.
@@ -134,6 +146,10 @@ pub struct Work {
     pub(crate) delta_wanted: bool,
     /// Whether a command is still being done.
     pub(crate) busy: bool,
+    /// Why commands rest.
+    pub(crate) hold: Option<Pause>,
+    /// Triangles of its obstacles.
+    triangles: u64,
     /// Whose command was taken on last, and its number.
     doing: Option<(Principal, u32)>,
     /// Whether the tree grows by it alone, without a hand.
@@ -175,6 +191,8 @@ impl Work {
             snapshot_wanted: false,
             delta_wanted: false,
             busy,
+            hold: None,
+            triangles: 0,
             doing: None,
             doing_alone: true,
             complete: None,
@@ -182,15 +200,31 @@ impl Work {
             bend_sequence: 0,
             report: Report::default(),
         };
+        work.triangles = work.document.held_triangles() as u64;
         work.sync();
         work.report_bends();
         work
     }
 
+    /// Goes on with orders that were not done when the document was restored. The first of them was begun where
+    /// somebody is named for whom.
+    pub(crate) fn resume(&mut self, tail: Rest) {
+        let Rest { orders, stops, hold, doing } = tail;
+        if let Some((author, id, action)) = doing {
+            (self.busy, self.doing, self.doing_alone) = (true, Some((author, id)), grows_alone(&action));
+        }
+        (self.orders, self.stops, self.hold) = (orders, stops, hold);
+    }
+
     /// Does one slice of what is to be done, which ends after the step or command at which `is_over` says so. Takes a
     /// while; the result goes back as [`crate::Input::Worked`].
     pub fn run(&mut self, is_over: impl Fn() -> bool) {
-        self.simulate(is_over);
+        self.run_within(is_over, &mut |_, _| true);
+    }
+
+    /// The same where there may be no room for what grows: then it rests, and the session asks again after a while.
+    pub fn run_within(&mut self, is_over: impl Fn() -> bool, has_room: HasRoom<'_>) {
+        self.simulate(is_over, has_room);
         self.sync();
         self.report_bends();
         for CatchUp { client, held } in std::mem::take(&mut self.catch_ups) {
@@ -211,12 +245,16 @@ impl Work {
 
     /// Whether there is something to run.
     pub(crate) fn is_needed(&self) -> bool {
-        self.busy
-            || self.snapshot_wanted
-            || !self.orders.is_empty()
-            || !self.catch_ups.is_empty()
-            || !self.reads.is_empty()
-            || !self.questions.is_empty()
+        let is_read = self.snapshot_wanted || !self.reads.is_empty() || !self.questions.is_empty();
+        let is_done = self.busy || !self.orders.is_empty();
+        // What rests in the midst of a command cannot be read.
+        let rests = self.hold.is_some();
+        !self.catch_ups.is_empty() || is_done && !rests || is_read && !(rests && self.busy)
+    }
+
+    /// What the document takes of memory, in rows.
+    pub fn held_rows(&self) -> u64 {
+        self.document.held_rows(self.triangles)
     }
 
     /// What the next slice is for.
@@ -241,13 +279,23 @@ impl Work {
         doing.or_else(|| self.orders.front().map(|order| &order.author))
     }
 
-    fn simulate(&mut self, is_over: impl Fn() -> bool) {
+    fn simulate(&mut self, is_over: impl Fn() -> bool, has_room: HasRoom<'_>) {
         let mut steps = 0;
         let mut commands = 0;
         let start = self.document.metamers();
         self.document.stop_at(self.stops.end_of(self.applied));
+        if self.hold.is_some() {
+            if !self.busy {
+                self.hand_out(has_room);
+            }
+            return;
+        }
         loop {
             if self.busy {
+                if !self.may_step(has_room) {
+                    self.hold = Some(Pause::Memory);
+                    return;
+                }
                 if self.document.advance() {
                     self.report_hints();
                     steps += 1;
@@ -261,14 +309,28 @@ impl Work {
                 }
                 self.busy = false;
             }
-            self.hand_out();
+            self.hand_out(has_room);
             if commands == SLICE_COMMANDS || commands > 0 && is_over() {
+                return;
+            }
+            let Some(order) = self.orders.front() else { return };
+            let held = self.held_rows();
+            let taken_on = room::after_taking_on(&order.command.action, held);
+            if taken_on > held && !has_room(taken_on, self.urgency()) {
+                self.hold = Some(Pause::Memory);
                 return;
             }
             let Some(order) = self.orders.pop_front() else { return };
             commands += 1;
             self.begin(order);
         }
+    }
+
+    /// Whether there is room for the next step. Growth that is stopped has a few steps left, which it always takes.
+    fn may_step(&self, has_room: HasRoom<'_>) -> bool {
+        let is_stopped = self.stops.end_of(self.applied).is_some();
+        let grows = self.document.pending_steps() > 0 && !is_stopped;
+        !grows || has_room(room::after_step(self.held_rows()), self.urgency())
     }
 
     fn begin(&mut self, order: Order) {
@@ -279,6 +341,9 @@ impl Work {
         self.doing = Some((order.author.clone(), order.id));
         self.doing_alone = grows_alone(&order.command.action);
         let begun = self.document.begin(&order.author, &order.command);
+        if room::changes_triangles(&order.command.action) {
+            self.triangles = self.document.held_triangles() as u64;
+        }
         if let Some(act) = order.act {
             let placed = begun.clone().map(|()| self.document.obstacles().pop());
             self.report.acts.push((act, placed));
@@ -299,10 +364,16 @@ impl Work {
     }
 
     /// Between two commands the document is whole: now it can be read.
-    fn hand_out(&mut self) {
-        for question in self.questions.drain(..) {
-            let simulation = self.document.fork();
-            self.report.runs.push(PredictionRun::new(question, simulation, self.style.clone(), self.epoch));
+    fn hand_out(&mut self, has_room: HasRoom<'_>) {
+        for question in std::mem::take(&mut self.questions) {
+            // A prediction grows a copy.
+            let held = self.held_rows();
+            let run = if has_room(held + room::after_step(held), Urgency::Growing) {
+                PredictionRun::new(question, self.document.fork(), self.style.clone(), self.epoch)
+            } else {
+                PredictionRun::refused(question, self.style.clone(), self.epoch)
+            };
+            self.report.runs.push(run);
         }
         if self.snapshot_wanted {
             self.snapshot_wanted = false;

@@ -31,7 +31,7 @@ pub struct Invite {
     #[arg(long, value_name = "URL", value_parser = parse_url)]
     pub url: Option<String>,
     /// The server's port.
-    #[arg(long, env = "ESPALIER_PORT", default_value_t = super::PORT)]
+    #[arg(long, env = "ESPALIER_PORT", default_value_t = super::serve::PORT)]
     pub port: u16,
     #[command(flatten)]
     pub database: Database,

@@ -34,6 +34,7 @@ use super::{
 use crate::{
     document::{FORMATS, FileError, FormatRow, Stored},
     export_options::{ExportOptions, NotOfFormat},
+    memory::{self, Use},
     spool::Spool,
 };
 
@@ -161,6 +162,7 @@ impl Wanted {
         asked: &HeaderMap,
     ) -> Result<Response, Failure> {
         let Self { row, options, progress, held } = self;
+        let claim = shared.memory.take_soon(Use::Export, memory::export(bytes.as_ref().len())).await?;
         // The same program makes the same file of the same document.
         let said = format!("{options:?}");
         let program = env!("CARGO_PKG_VERSION");
@@ -174,7 +176,7 @@ impl Wanted {
             let file = make(bytes.as_ref(), row, &options, &progress, |written| {
                 Ok(Spool::new(tempfile::tempfile()?, pool, stop, written))
             });
-            drop((bytes, held));
+            drop((bytes, held, claim));
             // Fails when nobody waits any more.
             drop(made.send(file));
         });

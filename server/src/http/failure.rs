@@ -20,6 +20,7 @@ use crate::{
     access::{self, Unknown},
     document::FormatRow,
     live::{Ended, OpenError},
+    memory::{AGAIN, Full},
     pool::Panicked,
     similar::asked_for,
     store::{Missing, StoreError},
@@ -176,12 +177,20 @@ impl From<OpenError> for Failure {
                 tracing::error!(%error, "a session could not be opened");
                 Self::new(Reason::NotOpened, "The session cannot be opened now.")
             }
+            OpenError::Memory(full) => full.into(),
             OpenError::Stopping => error.problem().into(),
             error => {
                 tracing::error!(%error, "a session cannot be opened");
                 error.problem().into()
             }
         }
+    }
+}
+
+impl From<Full> for Failure {
+    fn from(Full: Full) -> Self {
+        let sentence = "The server has no memory left for this now; nothing was changed. Try again.";
+        Self::new(Reason::MemoryFull, sentence).after(AGAIN)
     }
 }
 

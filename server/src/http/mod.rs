@@ -29,7 +29,7 @@ mod versions;
 use std::{net::IpAddr, sync::Arc, time::Duration};
 
 use axum::{
-    Router,
+    Extension, Router,
     extract::{MatchedPath, State},
     middleware::{from_fn, from_fn_with_state, map_response},
     routing::{MethodRouter, any, get},
@@ -57,6 +57,7 @@ use crate::{
     hosts::Hosts,
     jobs::Jobs,
     live::Sessions,
+    memory::Memory,
     pool::SimulationPool,
     portrait::Portraits,
     store::{AnyStore, Store},
@@ -74,6 +75,8 @@ pub struct Shared {
     pub sessions: Sessions,
     /// For what takes long.
     pub pool: SimulationPool,
+    /// What there is of memory.
+    pub memory: Memory,
     /// Metamers that each session begun here may hold.
     pub metamer_budget: u32,
     /// Pictures of the species.
@@ -153,6 +156,7 @@ pub fn router(shared: Shared) -> Router {
         })
         .layer(
             ServiceBuilder::new()
+                .layer(Extension(shared.memory.clone()))
                 .layer(map_response(guard::headers))
                 .layer(from_fn_with_state(shared.proxies.clone(), proxies::believe))
                 .layer(from_fn_with_state(shared.hosts.clone(), origin::known_host))

@@ -33,6 +33,7 @@ use crate::{
     SIMULATION_VERSION,
     access::{self, Action, Caller, Peer, Rate, SecretHash},
     live::{self, OpenError, SessionHandle},
+    memory::{self, Full, Growing, Need, Use},
     name,
     pool::Class,
     store::{self, Library, Store, StoreError, StoredTree, TreeDocument},
@@ -92,7 +93,7 @@ pub(super) async fn create(
     count(&shared, &caller)?;
     let version = new.version.unwrap_or(stored.head.number);
     let name = name::unguessable();
-    let (mut session, snapshot) = planted(&shared, &name, &tree, version).await?;
+    let (mut session, snapshot, room) = planted(&shared, &name, &tree, version).await?;
     let of = (!new.template).then_some((tree.clone(), version));
     // It is drawn while it is made durable.
     let drawing = shared.pool.run(Class::Whole, tree.as_str().into(), move |_| {
@@ -102,7 +103,7 @@ pub(super) async fn create(
     let begun = begin(&shared, &principal, name.clone(), 0, snapshot, of);
     let (begun, session) = tokio::join!(begun, drawing);
     let begun = begun?;
-    shared.sessions.seat(&name, session?).await;
+    shared.sessions.seat(&name, session?, room).await;
     Ok((StatusCode::CREATED, begun))
 }
 
@@ -181,6 +182,18 @@ pub(super) async fn find(
     }
 }
 
+/// Has that go on which the server did not outlive (`OP5`).
+pub(super) async fn resume(
+    State(shared): State<Shared>,
+    Path(session): Path<String>,
+) -> Result<StatusCode, Failure> {
+    if open(&shared, &session).await?.go_on().await? {
+        return Ok(StatusCode::NO_CONTENT);
+    }
+    let problem = Problem::new(Reason::NothingWaits, "Nothing in this session waits to go on.");
+    Err(problem.at("session", "one whose `state` is paused by crashes").into())
+}
+
 pub(super) async fn socket(
     State(shared): State<Shared>,
     Path(name): Path<String>,
@@ -201,9 +214,12 @@ pub(super) async fn socket(
     };
     let admitted = match admit(&shared, caller, &name).await.map_err(Failure::final_problem) {
         Ok(admitted) => Ok(admitted),
-        Err(Ok(problem)) => Err(problem),
+        Err(Ok(problem)) => Err((CloseCode::CannotOpen, problem.in_close())),
         Err(Err(failure)) => return failure.into_response(),
     };
+    let claim = shared.memory.take(Use::Socket, Need::Other, memory::SOCKET);
+    let admitted =
+        admitted.and_then(|admitted| claim.map(|claim| (admitted, claim)).map_err(|full| no_memory(&full)));
     upgrade
         .read_buffer_size(READ_BUFFER)
         .max_message_size(MAX_MESSAGE_BYTES)
@@ -212,14 +228,18 @@ pub(super) async fn socket(
         .on_upgrade(async move |socket| {
             let connected = async {
                 match admitted {
-                    Ok(admitted) => connect(socket, &shared, &name, admitted).await,
-                    Err(problem) => {
-                        live::turn_away(socket, CloseCode::CannotOpen, &problem.in_close()).await;
-                    }
+                    Ok((admitted, _claim)) => connect(socket, &shared, &name, admitted).await,
+                    Err((code, sentence)) => live::turn_away(socket, code, &sentence).await,
                 }
             };
             shared.sessions.run_socket(place, connected).await;
         })
+}
+
+/// How a socket closes for which there is no memory.
+fn no_memory(full: &Full) -> (CloseCode, String) {
+    let problem = OpenError::Memory(*full).problem();
+    (CloseCode::TryAgainLater, problem.in_close())
 }
 
 /// What somebody may do in a session that they may join.
@@ -238,6 +258,10 @@ async fn connect(socket: WebSocket, shared: &Shared, name: &str, (caller, access
     let (code, sentence) = match shared.sessions.open(name).await {
         Ok(Some(session)) => return live::serve(socket, session, access, let_out(shared, &caller)).await,
         Ok(None) => (CloseCode::UnknownSession, "There is no such session."),
+        Err(OpenError::Memory(full)) => {
+            let (code, sentence) = no_memory(&full);
+            return live::turn_away(socket, code, &sentence).await;
+        }
         Err(OpenError::Stopping) => (CloseCode::GoingAway, "The server is stopping."),
         Err(error) => {
             tracing::error!(session = name, %error, "a session could not be opened");
@@ -286,13 +310,15 @@ async fn planted(
     name: &str,
     tree: &str,
     version: u32,
-) -> Result<(Session, Vec<u8>), Failure> {
+) -> Result<(Session, Vec<u8>, Growing), Failure> {
     let document = saved_document(shared, tree, version).await?;
+    let room =
+        Growing::new(shared.memory.take_soon(Use::Session, memory::restore(document.bytes.len())).await?);
     let (name, epoch, budget) = (name.to_owned(), rand::random(), shared.metamer_budget);
     let planted = shared
         .pool
         .run(Class::Whole, tree.into(), move |_| Session::of_tree(name, epoch, &document.bytes, budget));
-    let planted = planted.await?;
+    let planted = planted.await?.map(|(session, snapshot)| (session, snapshot, room));
     planted.map_err(|error| match error {
         error @ RestoreError::Document(DocumentError::Later(_)) => OpenError::from(error).into(),
         RestoreError::Document(error) => unreadable(tree, &error),

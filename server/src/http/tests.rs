@@ -50,11 +50,13 @@ async fn shared() -> Shared {
     let wood = Collection { id: "wood".into(), name: "Wood".into(), parent: None, trees: 0 };
     store.add_collection(wood).await.unwrap();
     // Nobody does jobs here.
-    let jobs = Jobs::new(pool.clone(), CancellationToken::new());
+    let memory = Memory::of(1 << 40);
+    let jobs = Jobs::new(pool.clone(), memory.clone(), CancellationToken::new());
     jobs.add_named(JOB.into(), order(Caller::local())).unwrap();
     Shared {
         jobs,
-        sessions: Sessions::new(Arc::clone(&store), pool.clone(), CancellationToken::new()),
+        sessions: Sessions::new(Arc::clone(&store), pool.clone(), memory.clone(), CancellationToken::new()),
+        memory,
         store: Arc::clone(&store),
         pool,
         metamer_budget: 1000,

@@ -25,6 +25,7 @@ use tokio::{
 use super::failure::{BODY, Failure, MostBytes};
 use crate::{
     access::{self, Peer},
+    memory::{self, Claim, Memory, Use},
     places::Places,
 };
 
@@ -65,7 +66,12 @@ pub(super) struct File(pub(super) Bytes, pub(super) Turn);
 pub(super) struct FileOnDisk(pub(super) OnDisk, pub(super) Turn);
 
 /// The right to read a file.
-pub(super) type Turn = OwnedSemaphorePermit;
+#[derive(Debug)]
+pub(super) struct Turn {
+    _permit: OwnedSemaphorePermit,
+    /// What reading it takes.
+    _claim: Option<Claim>,
+}
 
 impl<S: Send + Sync> FromRequest<S> for File {
     type Rejection = Failure;
@@ -85,12 +91,18 @@ impl<S: Send + Sync> FromRequest<S> for FileOnDisk {
             return Err(failed(&io::Error::other("this address takes no files")));
         };
         let from = access::address(request.extensions().get::<Peer>());
-        uploads.take(from, request).await
+        let memory = request.extensions().get::<Memory>().cloned();
+        uploads.take(from, memory, request).await
     }
 }
 
 impl Uploads {
-    async fn take(self, from: IpAddr, request: Request) -> Result<FileOnDisk, Failure> {
+    async fn take(
+        self,
+        from: IpAddr,
+        memory: Option<Memory>,
+        request: Request,
+    ) -> Result<FileOnDisk, Failure> {
         let most = MostBytes::of(&request);
         if most.are_exceeded(request.headers()) {
             return Err(too_large(most));
@@ -99,9 +111,16 @@ impl Uploads {
         let place = place.ok_or_else(|| Failure::too_often(BODY, "Too many files arrive already.", AGAIN))?;
         let file = self.arrive(request, most).await?;
         drop(place);
-        let turn = self.reading.acquire_owned().await;
-        let turn = turn.map_err(|error| failed(&io::Error::other(error)))?;
-        Ok(FileOnDisk(file, turn))
+        let permit = self.reading.acquire_owned().await;
+        let permit = permit.map_err(|error| failed(&io::Error::other(error)))?;
+        let claim = match memory {
+            Some(memory) => {
+                let bytes = file.metadata().map_err(|error| failed(&error))?.len();
+                Some(memory.take_soon(Use::Upload, memory::upload(bytes)).await?)
+            }
+            None => None,
+        };
+        Ok(FileOnDisk(file, Turn { _permit: permit, _claim: claim }))
     }
 
     /// A file on disk, when all of it has come.
@@ -228,7 +247,7 @@ mod tests {
     async fn lm18_a_file_of_which_nothing_arrives_is_given_up() {
         let Extension(uploads) = uploads(1);
         let uploads = Uploads { patience: Duration::from_millis(10), ..uploads };
-        let failure = uploads.take([10, 0, 0, 1].into(), sent(begun())).await.unwrap_err();
+        let failure = uploads.take([10, 0, 0, 1].into(), None, sent(begun())).await.unwrap_err();
         assert_eq!(failure, Failure::new(Reason::Late, "The file takes too long to arrive."));
     }
 
@@ -242,5 +261,25 @@ mod tests {
         assert_eq!(answer.status(), StatusCode::BAD_REQUEST);
         let whole = address().oneshot(sent(Body::from("abcdefghij"))).await.unwrap();
         assert_eq!(whole.status(), StatusCode::OK);
+    }
+
+    #[tokio::test]
+    async fn lm19_a_file_is_read_when_there_is_memory_for_it() {
+        let memory = Memory::with_patience(100, Duration::from_millis(1));
+        let with = |body| {
+            let mut request = sent(body);
+            request.extensions_mut().insert(memory.clone());
+            request
+        };
+        let address = address();
+        // Ten bytes take forty, and 85 of 100 may be taken.
+        let other = memory.take(Use::Session, memory::Need::Other, 50).unwrap();
+        let refused = address.clone().oneshot(with(Body::from("abcdefghij"))).await.unwrap();
+        assert_eq!(refused.status(), StatusCode::SERVICE_UNAVAILABLE);
+        assert_eq!(refused.headers()[header::RETRY_AFTER], "5");
+        drop(other);
+        let taken = address.oneshot(with(Body::from("abcdefghij"))).await.unwrap();
+        assert_eq!(taken.status(), StatusCode::OK);
+        assert_eq!(memory.budget().taken(), 0);
     }
 }

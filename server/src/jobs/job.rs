@@ -8,7 +8,8 @@ use std::{
         Arc, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicU32, AtomicU64, Ordering},
     },
-    time::Instant,
+    thread,
+    time::{Duration, Instant},
 };
 
 use espalier_export::ExportError;
@@ -23,6 +24,7 @@ use crate::{
     access::Caller,
     document::{self, FileError, FormatRow},
     export_options::ExportOptions,
+    memory::{self, Claim, Memory, Need, Use},
     pool::{Class, Person, SimulationPool},
     recipe::{Gardener, GrowError, Recipe},
     spool::Spool,
@@ -31,6 +33,10 @@ use crate::{
 
 /// Bytes read from the disk at once.
 const PIECE: usize = 256 * 1024;
+/// How long a tree waits for memory before it is given up,
+const ROOM_PATIENCE: Duration = Duration::from_mins(1);
+/// and how often it asks.
+const ROOM_PAUSE: Duration = Duration::from_millis(200);
 
 /// What is to be grown, and written.
 #[derive(Clone, Debug)]
@@ -232,10 +238,16 @@ impl Job {
     }
 
     /// Grows a tree and writes its file, which may have so many bytes.
-    pub(super) fn make(&self, seed: u32, pool: &SimulationPool, bytes_left: u64) -> Result<Grown, Problem> {
+    pub(super) fn make(
+        &self,
+        seed: u32,
+        pool: &SimulationPool,
+        memory: &Memory,
+        bytes_left: u64,
+    ) -> Result<Grown, Problem> {
         self.metamers.store(0, Ordering::Relaxed);
         self.written.store(0, Ordering::Relaxed);
-        let made = self.grow(seed, pool, bytes_left);
+        let made = self.grow(seed, pool, memory, bytes_left);
         if made.is_err()
             && let Some(path) = self.path(seed)
         {
@@ -246,11 +258,19 @@ impl Job {
         made.map_err(|error| if self.is_given_up() { given_up() } else { problem_of(&error, seed) })
     }
 
-    fn grow(&self, seed: u32, pool: &SimulationPool, bytes_left: u64) -> Result<Grown, JobError> {
+    fn grow(
+        &self,
+        seed: u32,
+        pool: &SimulationPool,
+        memory: &Memory,
+        bytes_left: u64,
+    ) -> Result<Grown, JobError> {
         let Order { recipe, species, row, options, .. } = &self.order;
-        let mut plot = Plot { document: recipe.seedling(seed).map_err(GrowError::from)?, job: self, pool };
+        let claim = memory.take(Use::Job, Need::Other, 0).map_err(|_| GrowError::NoMemory)?;
+        let mut plot =
+            Plot { document: recipe.seedling(seed).map_err(GrowError::from)?, claim, job: self, pool };
         recipe.grow(&mut plot)?;
-        let mut document = plot.document;
+        let Plot { mut document, claim: _claim, .. } = plot;
         let path = self.path(seed).ok_or(GrowError::GivenUp)?;
         let file = File::create_new(&path)?;
         let stop = self.given_up.clone();
@@ -300,6 +320,7 @@ fn problem_of(error: &JobError, seed: u32) -> Problem {
             Problem::new(Reason::StoppedGrowing, error.to_string())
         }
         JobError::Grow(GrowError::GivenUp) => given_up(),
+        JobError::Grow(error @ GrowError::NoMemory) => Problem::new(Reason::MemoryFull, error.to_string()),
         JobError::File(error) if kind_of(error) == Some(ErrorKind::QuotaExceeded) => {
             let [one, all] = [BYTES_OF_ONE, MOST_BYTES].map(|bytes| bytes >> 30);
             let sentence = format!(
@@ -333,8 +354,34 @@ fn kind_of(error: &FileError) -> Option<ErrorKind> {
 /// A document that grows beneath those who draw, until it is given up.
 struct Plot<'a> {
     document: Document,
+    /// What is taken of memory for it.
+    claim: Claim,
     job: &'a Job,
     pool: &'a SimulationPool,
+}
+
+impl Plot<'_> {
+    /// Takes what the next step may need, and waits a while where there is none left.
+    fn take_room(&mut self) -> Result<(), GrowError> {
+        let rows = self.document.plant().metamer_count() as u64;
+        let needed = memory::job(rows + rows / 8 + memory::STRIDE);
+        if needed <= self.claim.bytes() {
+            return Ok(());
+        }
+        let wanted = memory::job(rows + rows / 4 + 2 * memory::STRIDE);
+        let begun = Instant::now();
+        while self.claim.become_of(Need::Other, wanted).is_err() {
+            if self.is_given_up() || begun.elapsed() >= ROOM_PATIENCE {
+                return Err(GrowError::NoMemory);
+            }
+            thread::sleep(ROOM_PAUSE);
+        }
+        Ok(())
+    }
+
+    fn is_given_up(&self) -> bool {
+        self.job.given_up.is_cancelled()
+    }
 }
 
 impl Gardener for Plot<'_> {
@@ -345,9 +392,10 @@ impl Gardener for Plot<'_> {
     fn act(&mut self, command: &Command) -> Result<(), GrowError> {
         self.document.begin(&Principal::visitor(), command)?;
         loop {
-            if self.job.given_up.is_cancelled() {
+            if self.is_given_up() {
                 return Err(GrowError::GivenUp);
             }
+            self.take_room()?;
             if !self.pool.hold(Class::Upkeep, Person::default(), || self.document.advance()) {
                 return Ok(());
             }

@@ -7,12 +7,10 @@ use std::{
     time::Duration,
 };
 
-use espalier_proto::{Command, Mesh, PlacedObstacle, Problem, version::CloseCode};
+use espalier_proto::{Pause, version::CloseCode};
 use espalier_session::{
-    Access, ActId, ClientId, Input, JournalEntry, Output, PredictionRun, Principal, ReadDocument, ReadId,
-    Session, Work,
+    ActId, ClientId, Input, JournalEntry, Output, PredictionRun, ReadDocument, ReadId, Session, Work,
 };
-use espalier_settings::ParameterValues;
 use tokio::{
     sync::{mpsc, oneshot},
     time::{Instant, sleep_until, timeout},
@@ -20,11 +18,14 @@ use tokio::{
 use tokio_util::sync::CancellationToken;
 
 use super::{
+    handle::{Outcome, Request, SessionHandle},
     outbox::{Outbox, Outgoing},
+    restoring::Opened,
     turn::turn_of,
 };
 use crate::{
     SIMULATION_VERSION,
+    memory::{self, Growing, Memory, Need, Use},
     pool::{Class, Person, SimulationPool},
     store::{AnyStore, Lease, NewSnapshot, Store},
 };
@@ -35,28 +36,10 @@ const MAILBOX: usize = 256;
 const IDLE: Duration = Duration::from_secs(60);
 /// and one that nobody has asked for anything yet after so long.
 const UNVISITED: Duration = Duration::from_secs(10);
+/// After so long a session that was opened lives, though there may be more to do.
+const LIVES: Duration = Duration::from_secs(30);
 /// How long a session that ends waits for its journal, its last commands and a snapshot that contains them.
 const LAST_WRITES: Duration = Duration::from_secs(8);
-
-#[derive(Debug)]
-pub(super) enum Request {
-    Join(Outbox, Access, oneshot::Sender<ClientId>),
-    Text(ClientId, String),
-    Binary(ClientId),
-    /// So many control messages have gone out.
-    Written(ClientId, usize),
-    Leave(ClientId),
-    Read(oneshot::Sender<ReadDocument>),
-    Act(Principal, Box<Command>, oneshot::Sender<Outcome>),
-    Parameters(oneshot::Sender<ParameterValues>),
-    Mesh(u32, oneshot::Sender<Option<Arc<Mesh>>>),
-    People(oneshot::Sender<Vec<Principal>>),
-    /// Nothing can be kept any more, for this reason.
-    StoreFailed(String),
-}
-
-/// What became of a command from outside: the obstacle it placed, if it placed one.
-pub type Outcome = Result<Option<PlacedObstacle>, Problem>;
 
 /// What the actor's own tasks bring back.
 #[derive(Debug)]
@@ -68,75 +51,7 @@ enum ActorTask {
     WorkFailed,
     SnapshotKept(u64),
     SnapshotFailed,
-    NoticesForgotten,
-}
-
-/// Reaches a live session.
-#[derive(Clone, Debug)]
-pub struct SessionHandle {
-    requests: mpsc::Sender<Request>,
-    /// The session has left the memory and may be loaded again.
-    pub(super) gone: CancellationToken,
-}
-
-/// The session has ended meanwhile.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ended;
-
-impl SessionHandle {
-    pub(super) fn is_ended(&self) -> bool {
-        self.requests.is_closed()
-    }
-
-    pub(super) async fn send(&self, request: Request) -> Result<(), Ended> {
-        self.requests.send(request).await.map_err(|_| Ended)
-    }
-
-    pub(super) async fn join(&self, outbox: Outbox, access: Access) -> Result<ClientId, Ended> {
-        let (answer, answered) = oneshot::channel();
-        self.send(Request::Join(outbox, access, answer)).await?;
-        answered.await.map_err(|_| Ended)
-    }
-
-    /// The document as it is now.
-    pub async fn read(&self) -> Result<ReadDocument, Ended> {
-        let (answer, answered) = oneshot::channel();
-        self.send(Request::Read(answer)).await?;
-        answered.await.map_err(|_| Ended)
-    }
-
-    /// Does a command that comes over no socket; answers when it is durable.
-    pub async fn act(&self, principal: Principal, command: Command) -> Result<Outcome, Ended> {
-        let (answer, answered) = oneshot::channel();
-        self.send(Request::Act(principal, Box::new(command), answer)).await?;
-        answered.await.map_err(|_| Ended)
-    }
-
-    /// Who is here, once for each of their clients.
-    pub async fn people(&self) -> Result<Vec<Principal>, Ended> {
-        let (answer, answered) = oneshot::channel();
-        self.send(Request::People(answer)).await?;
-        answered.await.map_err(|_| Ended)
-    }
-
-    /// Ends the session: what is done in it can no longer be kept.
-    pub(super) async fn fail(&self, reason: &str) -> Result<(), Ended> {
-        self.send(Request::StoreFailed(reason.to_owned())).await
-    }
-
-    /// The parameters in force.
-    pub async fn parameters(&self) -> Result<ParameterValues, Ended> {
-        let (answer, answered) = oneshot::channel();
-        self.send(Request::Parameters(answer)).await?;
-        answered.await.map_err(|_| Ended)
-    }
-
-    /// The mesh of an obstacle in the scene, if it is one and has one.
-    pub async fn mesh(&self, obstacle: u32) -> Result<Option<Arc<Mesh>>, Ended> {
-        let (answer, answered) = oneshot::channel();
-        self.send(Request::Mesh(obstacle, answer)).await?;
-        answered.await.map_err(|_| Ended)
-    }
+    Forgotten,
 }
 
 /// Everything a session needs from the server.
@@ -144,6 +59,7 @@ impl SessionHandle {
 pub(super) struct Services {
     pub(super) store: Arc<AnyStore>,
     pub(super) pool: SimulationPool,
+    pub(super) memory: Memory,
     pub(super) stop: CancellationToken,
     pub(super) started: Instant,
 }
@@ -151,6 +67,11 @@ pub(super) struct Services {
 pub(super) struct Actor {
     name: String,
     session: Session,
+    /// What is taken of memory for it.
+    room: Growing,
+    /// Whether the store counts that it was tried to be opened.
+    is_counted: bool,
+    opened_at: Instant,
     /// The right to write to the session.
     lease: Lease,
     services: Services,
@@ -176,6 +97,8 @@ pub(super) struct Actor {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum End {
     Idle,
+    /// With growth that rests, and goes on when somebody comes.
+    Resting,
     Stopping,
     Failed,
 }
@@ -183,16 +106,20 @@ enum End {
 impl Actor {
     pub(super) fn new(
         name: String,
-        session: Session,
+        Opened { session, room, is_counted }: Opened,
         lease: Lease,
         services: Services,
     ) -> (Self, SessionHandle) {
+        room.settle(session.held_rows().unwrap_or(0));
         let (sender, requests) = mpsc::channel(MAILBOX);
         let (task, tasks) = mpsc::unbounded_channel();
-        let handle = SessionHandle { requests: sender, gone: CancellationToken::new() };
+        let handle = SessionHandle::new(sender);
         let actor = Self {
             name,
             session,
+            room,
+            is_counted,
+            opened_at: Instant::now(),
             lease,
             services,
             requests,
@@ -221,6 +148,7 @@ impl Actor {
         self.requests.close();
         match end {
             End::Idle => tracing::info!(session = self.name, "nobody is here any more"),
+            End::Resting => tracing::info!(session = self.name, "nobody waits for what rests"),
             End::Stopping => self.close_all(CloseCode::GoingAway, "The server is stopping."),
             End::Failed => {
                 tracing::error!(session = self.name, "the session failed and will be loaded again");
@@ -230,8 +158,10 @@ impl Actor {
                 );
             }
         }
-        let finished = end != End::Failed && matches!(timeout(LAST_WRITES, self.finish()).await, Ok(Ok(())));
-        if end != End::Failed && !(finished && self.session.is_kept()) {
+        let is_finished = matches!(end, End::Idle | End::Stopping);
+        let finished = is_finished && matches!(timeout(LAST_WRITES, self.finish()).await, Ok(Ok(())));
+        let rests = self.session.paused().is_some();
+        if is_finished && !(finished && (rests || self.session.is_kept())) {
             tracing::warn!(
                 session = self.name,
                 "the last commands may not have been kept, or are in no snapshot"
@@ -245,7 +175,10 @@ impl Actor {
         loop {
             let wake_at = self.wake_at;
             let was_empty = self.clients.is_empty();
-            let idle_at = self.may_leave().then(|| self.empty_since + self.patience);
+            let (may_leave, rests) = (self.may_leave(), self.rests());
+            let idle_at = (may_leave || rests).then(|| self.empty_since + self.patience);
+            // With a snapshot that is made as it leaves.
+            let may_hurry = self.is_alone() && self.session.is_settled();
             let input = tokio::select! {
                 biased;
                 () = self.services.stop.cancelled() => return Ok(End::Stopping),
@@ -255,7 +188,10 @@ impl Actor {
                     self.wake_at = None;
                     Some(Input::Woken)
                 }
-                () = until(idle_at) => return Ok(End::Idle),
+                () = until(idle_at) => return Ok(if rests { End::Resting } else { End::Idle }),
+                // Where nobody is, others are served first.
+                () = self.services.memory.short(), if rests => return Ok(End::Resting),
+                () = self.services.memory.short(), if may_hurry => return Ok(End::Idle),
             };
             if let Some(input) = input {
                 self.handle(input)?;
@@ -266,9 +202,19 @@ impl Actor {
         }
     }
 
+    /// Whether nobody is here, and nothing is under way.
+    fn is_alone(&self) -> bool {
+        self.clients.is_empty() && self.under_way == 0 && self.reads.is_empty() && self.acts.is_empty()
+    }
+
     /// Whether nobody is here, and a snapshot holds everything that was done.
     fn may_leave(&self) -> bool {
-        self.clients.is_empty() && self.under_way == 0 && self.session.is_idle()
+        self.is_alone() && self.session.is_idle()
+    }
+
+    /// Whether nobody is here, and what is to be done rests. The journal holds it for whoever comes.
+    fn rests(&self) -> bool {
+        self.clients.is_empty() && self.under_way == 0 && self.session.paused().is_some()
     }
 
     /// Sees to it that what was accepted is durable, done, and in a snapshot, so that nothing is left to be replayed.
@@ -327,6 +273,10 @@ impl Actor {
                 let _ = answer.send(self.session.mesh(obstacle));
                 return None;
             }
+            Request::GoOn(answer) => {
+                let _ = answer.send(self.session.paused() == Some(Pause::Crashes));
+                Input::GoOn
+            }
             Request::StoreFailed(reason) => Input::JournalFailed(reason),
             Request::People(answer) => {
                 let _ = answer.send(self.session.people().cloned().collect());
@@ -340,12 +290,15 @@ impl Actor {
         match task {
             ActorTask::Journaled(through) => Ok(Some(Input::Journaled(through))),
             ActorTask::JournalFailed(reason) => Ok(Some(Input::JournalFailed(reason))),
-            ActorTask::Worked(work) => Ok(Some(Input::Worked(work))),
+            ActorTask::Worked(work) => {
+                self.room.settle(work.held_rows());
+                Ok(Some(Input::Worked(work)))
+            }
             ActorTask::Predicted(prediction) => Ok(Some(Input::Predicted(prediction))),
             ActorTask::WorkFailed => Err(Failed),
             ActorTask::SnapshotKept(through) => Ok(Some(Input::SnapshotKept(through))),
             ActorTask::SnapshotFailed => Ok(Some(Input::SnapshotFailed)),
-            ActorTask::NoticesForgotten => Ok(None),
+            ActorTask::Forgotten => Ok(None),
         }
     }
 
@@ -361,6 +314,10 @@ impl Actor {
             catch_unwind(AssertUnwindSafe(|| self.session.poll_output())).map_err(|_| Failed)?
         {
             self.fulfil(output);
+        }
+        if self.is_counted && self.lives() {
+            self.is_counted = false;
+            self.forget_tries();
         }
         if self.session.has_failed() { Err(Failed) } else { Ok(()) }
     }
@@ -418,12 +375,12 @@ impl Actor {
     }
 
     fn work(&mut self, mut work: Box<Work>) {
-        let (pool, task) = (self.services.pool.clone(), self.task.clone());
+        let (pool, task, room) = (self.services.pool.clone(), self.task.clone(), self.room.clone());
         self.under_way += 1;
         tokio::spawn(async move {
             let (class, person) = turn_of(&work);
             let done = pool.run(class, person, move |turn| {
-                work.run(|| turn.is_over());
+                work.run_within(|| turn.is_over(), &mut |rows, urgency| room.has_room(rows, urgency));
                 work
             });
             let _ = task.send(done.await.map_or(ActorTask::WorkFailed, ActorTask::Worked));
@@ -434,9 +391,16 @@ impl Actor {
     fn start_prediction(&mut self, mut prediction: Box<PredictionRun>) {
         let (pool, task) = (self.services.pool.clone(), self.task.clone());
         let person: Person = self.name.as_str().into();
+        let memory = self.services.memory.clone();
         self.under_way += 1;
         tokio::spawn(async move {
+            let mut claim = memory.take(Use::Prediction, Need::Other, 0);
             loop {
+                let rows = prediction.held_rows();
+                let needed = memory::prediction(rows + rows / 8 + memory::STRIDE);
+                if !claim.as_mut().is_ok_and(|claim| claim.become_of(Need::Other, needed).is_ok()) {
+                    prediction.refuse();
+                }
                 let slice = pool.run(Class::Growing, Arc::clone(&person), move |turn| {
                     let is_done = prediction.run(|| turn.is_over());
                     (prediction, is_done)
@@ -466,6 +430,25 @@ impl Actor {
         });
     }
 
+    /// Whether opening it came to an end: the journal is done, or the server has outlived the beginning of it.
+    fn lives(&self) -> bool {
+        let has_lived = self.opened_at.elapsed() >= LIVES && self.session.paused() != Some(Pause::Crashes);
+        has_lived || self.session.is_settled()
+    }
+
+    fn forget_tries(&mut self) {
+        let (store, lease, task) = (Arc::clone(&self.services.store), self.lease.clone(), self.task.clone());
+        let session = self.name.clone();
+        self.under_way += 1;
+        tokio::spawn(async move {
+            // If this fails, it waits for an owner's word the sooner.
+            if let Err(error) = store.forget_tries(&lease).await {
+                tracing::warn!(session, %error, "that the session lives is not kept");
+            }
+            let _ = task.send(ActorTask::Forgotten);
+        });
+    }
+
     fn forget_notices(&mut self) {
         let (store, lease, task) = (Arc::clone(&self.services.store), self.lease.clone(), self.task.clone());
         let session = self.name.clone();
@@ -475,7 +458,7 @@ impl Actor {
             if let Err(error) = store.forget_notices(&lease).await {
                 tracing::warn!(session, %error, "notices that were delivered could not be forgotten");
             }
-            let _ = task.send(ActorTask::NoticesForgotten);
+            let _ = task.send(ActorTask::Forgotten);
         });
     }
 

@@ -1,13 +1,14 @@
 //! Sessions that are in memory: an actor for each, and the sockets connected to it.
 
 mod actor;
+mod handle;
 mod outbox;
 mod registry;
 mod restoring;
 mod socket;
 mod turn;
 
-pub use actor::{Ended, SessionHandle};
+pub use handle::{Ended, SessionHandle};
 pub use registry::Sessions;
 pub use restoring::OpenError;
 pub use socket::{serve, turn_away};

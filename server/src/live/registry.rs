@@ -11,10 +11,12 @@ use tokio::{sync::OnceCell, time::Instant};
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
 
 use super::{
-    actor::{Actor, Services, SessionHandle},
-    restoring::{self, OpenError},
+    actor::{Actor, Services},
+    handle::SessionHandle,
+    restoring::{self, OpenError, Opened},
 };
 use crate::{
+    memory::{Growing, Memory},
     places::{self, Places},
     pool::{Panicked, SimulationPool},
     store::{AnyStore, Lease, Store, StoreError},
@@ -42,8 +44,8 @@ struct Inner {
 
 impl Sessions {
     /// None are loaded yet. When `stop` is cancelled all of them end.
-    pub fn new(store: Arc<AnyStore>, pool: SimulationPool, stop: CancellationToken) -> Self {
-        let services = Services { store, pool, stop, started: Instant::now() };
+    pub fn new(store: Arc<AnyStore>, pool: SimulationPool, memory: Memory, stop: CancellationToken) -> Self {
+        let services = Services { store, pool, memory, stop, started: Instant::now() };
         Self(Arc::new(Inner {
             services,
             slots: Mutex::default(),
@@ -83,11 +85,11 @@ impl Sessions {
 
     /// Puts a session that was just begun and kept into memory, for whoever comes next, so that it need not be read
     /// again. It leaves soon if nobody does.
-    pub async fn seat(&self, name: &str, session: Session) {
+    pub async fn seat(&self, name: &str, session: Session, room: Growing) {
         let slot = Arc::clone(self.0.slots().entry(name.to_owned()).or_default());
         let seated = slot.get_or_try_init(|| async {
             let lease = self.0.services.store.acquire(name).await?;
-            Ok::<_, StoreError>(self.start(name, &slot, session, lease))
+            Ok::<_, StoreError>(self.start(name, &slot, Opened { session, room, is_counted: false }, lease))
         });
         if let Err(error) = seated.await {
             // Whoever comes loads it, or hears why not.
@@ -135,21 +137,21 @@ impl Sessions {
         let services = &self.0.services;
         let lease = services.store.acquire(name).await?;
         let restored = restoring::restored(services, name, &lease).await;
-        let session =
-            match restored.map_err(Unloaded::Error).and_then(|session| session.ok_or(Unloaded::Unknown)) {
-                Ok(session) => session,
+        let opened =
+            match restored.map_err(Unloaded::Error).and_then(|opened| opened.ok_or(Unloaded::Unknown)) {
+                Ok(opened) => opened,
                 Err(unloaded) => {
                     services.store.release(lease).await;
                     return Err(unloaded);
                 }
             };
-        Ok(self.start(name, slot, session, lease))
+        Ok(self.start(name, slot, opened, lease))
     }
 
     /// Runs a session in this slot.
-    fn start(&self, name: &str, slot: &Arc<Slot>, session: Session, lease: Lease) -> SessionHandle {
+    fn start(&self, name: &str, slot: &Arc<Slot>, opened: Opened, lease: Lease) -> SessionHandle {
         let Inner { services, tasks, .. } = &*self.0;
-        let (actor, handle) = Actor::new(name.to_owned(), session, lease, services.clone());
+        let (actor, handle) = Actor::new(name.to_owned(), opened, lease, services.clone());
         let place = Place {
             sessions: Arc::downgrade(&self.0),
             name: name.to_owned(),

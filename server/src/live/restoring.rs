@@ -1,14 +1,18 @@
 //! Restoring a session from what is stored of it: which snapshot, what was damaged, what people are notified of.
 
 use espalier_proto::{Notice, Problem, Reason};
-use espalier_session::{DocumentError, JournalEntry, RestoreError, Session};
+use espalier_session::{DocumentError, JournalEntry, RestoreError, Session, Tail};
 
 use super::actor::Services;
 use crate::{
     SIMULATION_VERSION,
+    memory::{self, Full, Growing, Use},
     pool::{Class, Panicked},
     store::{Damage, Lease, Store, StoreError, StoredSession},
 };
+
+/// After so many tries that came to no end what the journal holds waits (`OP5`).
+const MOST_TRIES: u32 = 2;
 
 /// A session exists but cannot be opened.
 #[derive(Debug, thiserror::Error)]
@@ -28,9 +32,21 @@ pub enum OpenError {
     /// Restoring it panicked.
     #[error("The session cannot be restored: {0}.")]
     Panicked(#[from] Panicked),
+    /// There is no memory for it.
+    #[error("The server has no memory left to open this now; it is tried again.")]
+    Memory(#[from] Full),
     /// The server is stopping.
     #[error("The server is stopping.")]
     Stopping,
+}
+
+/// A session that was opened, and what was taken of memory for it.
+#[derive(Debug)]
+pub(super) struct Opened {
+    pub(super) session: Session,
+    pub(super) room: Growing,
+    /// Whether the store counts that it was tried.
+    pub(super) is_counted: bool,
 }
 
 impl OpenError {
@@ -45,6 +61,7 @@ impl OpenError {
             Self::Store(_) => Reason::NotOpened,
             Self::Damaged(_) | Self::Restore(_) | Self::Panicked(_) => Reason::SessionDamaged,
             Self::Later(_) => Reason::NewerProgram,
+            Self::Memory(_) => Reason::MemoryFull,
             Self::Stopping => Reason::Stopping,
         };
         Problem::new(reason, self.to_string())
@@ -52,7 +69,7 @@ impl OpenError {
 
     /// Whether asking again is of no use.
     pub fn is_final(&self) -> bool {
-        !matches!(self, Self::Store(_) | Self::Stopping)
+        !matches!(self, Self::Store(_) | Self::Memory(_) | Self::Stopping)
     }
 }
 
@@ -77,16 +94,17 @@ impl From<StoreError> for OpenError {
 
 /// Makes a session of its name, epoch, snapshot, seed and entries.
 pub(super) type Make =
-    fn(String, u32, Option<&[u8]>, u32, Vec<JournalEntry>) -> Result<Session, RestoreError>;
+    fn(String, u32, Option<&[u8]>, u32, Vec<JournalEntry>, Tail<'_>) -> Result<Session, RestoreError>;
 
 /// Restores a session, if there is one, from its newest snapshot, or from the one before if that is of no use.
 pub(super) async fn restored(
     services: &Services,
     name: &str,
     lease: &Lease,
-) -> Result<Option<Session>, OpenError> {
-    let make: Make =
-        |name, epoch, snapshot, seed, entries| Session::restore(name, epoch, snapshot, seed, entries);
+) -> Result<Option<Opened>, OpenError> {
+    let make: Make = |name, epoch, snapshot, seed, entries, tail| {
+        Session::restore_with(name, epoch, snapshot, seed, entries, tail)
+    };
     restored_by(make, services, name, lease).await
 }
 
@@ -95,10 +113,11 @@ pub(super) async fn restored_by(
     services: &Services,
     name: &str,
     lease: &Lease,
-) -> Result<Option<Session>, OpenError> {
+) -> Result<Option<Opened>, OpenError> {
     let Some(stored) = services.store.load_session(name, None).await? else { return Ok(None) };
     let (through, passed_over) = (stored.through, stored.damage.clone());
-    let error = match restore(make, services, name, lease, stored).await {
+    let tries = tries(services, name, lease, &stored).await;
+    let error = match restore(make, services, name, lease, stored, tries).await {
         Err(error) if error.is_of_snapshot() => error,
         restored => return restored.map(Some),
     };
@@ -110,7 +129,30 @@ pub(super) async fn restored_by(
     // The checksum of its row is right, but no session can be made of it.
     older.damage.push(Damage::Snapshot(through));
     older.damage.extend(passed_over.into_iter().filter(|damage| matches!(damage, Damage::Snapshot(_))));
-    restore(make, services, name, lease, older).await.map(Some).map_err(|_| error)
+    restore(make, services, name, lease, older, tries).await.map(Some).map_err(|_| error)
+}
+
+/// Counts that the session is tried to be opened, if there is anything that the server might not outlive; how often it
+/// was.
+async fn tries(services: &Services, name: &str, lease: &Lease, stored: &StoredSession) -> u32 {
+    if stored.entries.is_empty() {
+        return 0;
+    }
+    // Durable before it is begun. On a full disk a session opens all the same.
+    let tries = services.store.count_try(lease).await.unwrap_or_else(|error| {
+        tracing::warn!(%error, session = name, "that the session is opened is not counted");
+        0
+    });
+    if tries > MOST_TRIES {
+        let entries = stored.entries.len();
+        tracing::error!(
+            session = name,
+            entries,
+            tries = tries - 1,
+            "opening this session was tried and never came to an end; what its journal holds rests until an owner lets it go on"
+        );
+    }
+    tries
 }
 
 /// Makes a session of what was read of it, sets aside what was damaged, and logs that.
@@ -120,7 +162,8 @@ async fn restore(
     name: &str,
     lease: &Lease,
     stored: StoredSession,
-) -> Result<Session, OpenError> {
+    tries: u32,
+) -> Result<Opened, OpenError> {
     let last = stored.through + stored.entries.len() as u64;
     tracing::info!(session = name, entries = stored.entries.len(), last, "loading");
     let fresh = notices(&stored);
@@ -136,9 +179,17 @@ async fn restore(
     }
     let StoredSession { seed, snapshot, entries, damage, notices, written_by, .. } = stored;
     let epoch = rand::random();
+    let waits = tries > MOST_TRIES;
+    let bytes =
+        snapshot.as_ref().map_or(0, Vec::len) + entries.iter().map(|e| e.command.len()).sum::<usize>();
+    let room = Growing::new(services.memory.take_soon(Use::Session, memory::restore(bytes)).await?);
     let made = services.pool.run(Class::Whole, name.into(), {
-        let name = name.to_owned();
-        move |_| make(name, epoch, snapshot.as_deref(), seed, entries)
+        let (name, room) = (name.to_owned(), room.clone());
+        move |_| {
+            let mut has_room = |rows, urgency| room.has_room(rows, urgency);
+            let tail = if waits { Tail::Waits } else { Tail::Done(&mut has_room) };
+            make(name, epoch, snapshot.as_deref(), seed, entries, tail)
+        }
     });
     let mut session = made.await?.map_err(|error| match error {
         // Its row is sealed, so this is what was written.
@@ -157,7 +208,7 @@ async fn restore(
     if !all.is_empty() {
         session.notify(all);
     }
-    Ok(session)
+    Ok(Opened { session, room, is_counted: tries > 0 })
 }
 
 /// What everybody who comes into the session is notified of.

@@ -16,7 +16,7 @@ use tokio::time::{Instant, MissedTickBehavior, interval, sleep, sleep_until, tim
 use tokio_tungstenite::tungstenite::{self, error::ProtocolError};
 
 use super::{
-    actor::{Request, SessionHandle},
+    handle::{Request, SessionHandle},
     outbox::{self, Closing, Farewell, Outgoing, Outgoings},
 };
 

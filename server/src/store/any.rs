@@ -41,6 +41,14 @@ impl Store for AnyStore {
         delegate!(self.create_session(new))
     }
 
+    async fn count_try(&self, lease: &Lease) -> Result<u32, StoreError> {
+        delegate!(self.count_try(lease))
+    }
+
+    async fn forget_tries(&self, lease: &Lease) -> Result<(), StoreError> {
+        delegate!(self.forget_tries(lease))
+    }
+
     async fn has_session(&self, name: &str) -> Result<bool, StoreError> {
         delegate!(self.has_session(name))
     }

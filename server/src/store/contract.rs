@@ -89,6 +89,7 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         versions_are_covered,
         a_session_row_is_covered,
         notices_are_kept_until_somebody_has_had_them,
+        tries_to_open_are_counted_until_one_lives,
         sessions_go_that_nobody_enters,
         trees_are_listed_newest_first,
         pages_hold_each_tree_once,
@@ -386,6 +387,21 @@ async fn notices_are_kept_until_somebody_has_had_them(store: &impl Store) {
     assert_eq!(load(store).await.notices, [damaged, regrown]);
     store.forget_notices(&lease).await.unwrap();
     assert_eq!(load(store).await.notices, []);
+}
+
+async fn tries_to_open_are_counted_until_one_lives(store: &impl Store) {
+    let lease = with_oak(store).await;
+    assert_eq!(store.count_try(&lease).await.unwrap(), 1);
+    assert_eq!(store.count_try(&lease).await.unwrap(), 2);
+    // What is drawn meanwhile changes nothing of it, and nobody who has lost the session counts.
+    store.append(&lease, 3, &entries(1..=2)).await.unwrap();
+    let later = store.acquire("oak").await.unwrap();
+    assert!(matches!(store.count_try(&lease).await, Err(StoreError::Fenced)));
+    assert!(matches!(store.forget_tries(&lease).await, Err(StoreError::Fenced)));
+    assert_eq!(store.count_try(&later).await.unwrap(), 3);
+    store.forget_tries(&later).await.unwrap();
+    assert_eq!(store.count_try(&later).await.unwrap(), 1);
+    assert_eq!(load(store).await.entries, entries(1..=2));
 }
 
 async fn sessions_go_that_nobody_enters(store: &(impl Store + Library)) {

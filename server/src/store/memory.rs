@@ -60,6 +60,7 @@ struct Session {
     tree: Option<(String, u32)>,
     saved_through: u64,
     entered_at: String,
+    tries: u32,
 }
 
 impl Session {
@@ -131,9 +132,26 @@ impl Store for MemoryStore {
             tree.session = Some(new.name.clone());
         }
         let (tree, saved_through) = (new.tree, 0);
-        let (journal, aside, entered_at) = (Vec::new(), 0, now());
-        let session = Session { row, journal, snapshots, aside, tree, saved_through, entered_at };
+        let (journal, aside, entered_at, tries) = (Vec::new(), 0, now(), 0);
+        let session = Session { row, journal, snapshots, aside, tree, saved_through, entered_at, tries };
         kept.sessions.insert(new.name, session);
+        Ok(())
+    }
+
+    async fn count_try(&self, lease: &Lease) -> Result<u32, StoreError> {
+        let mut kept = self.writing()?;
+        self.leases.check(lease)?;
+        let Some(session) = kept.sessions.get_mut(&lease.session) else { return Ok(0) };
+        session.tries += 1;
+        Ok(session.tries)
+    }
+
+    async fn forget_tries(&self, lease: &Lease) -> Result<(), StoreError> {
+        let mut kept = self.writing()?;
+        self.leases.check(lease)?;
+        if let Some(session) = kept.sessions.get_mut(&lease.session) {
+            session.tries = 0;
+        }
         Ok(())
     }
 

@@ -53,6 +53,13 @@ pub trait Store {
     /// Makes a session, which may start from a snapshot before its first entry.
     async fn create_session(&self, new: NewSession) -> Result<(), StoreError>;
 
+    /// Counts a try to open a session, before it is begun; how many there were since [`Store::forget_tries`], this one
+    /// included.
+    async fn count_try(&self, lease: &Lease) -> Result<u32, StoreError>;
+
+    /// The session was opened and lives: tries to open it count from none again.
+    async fn forget_tries(&self, lease: &Lease) -> Result<(), StoreError>;
+
     /// Whether there is such a session.
     async fn has_session(&self, name: &str) -> Result<bool, StoreError>;
 

@@ -137,3 +137,37 @@ async fn hs5_a_server_that_stops_closes_with_1001_and_keeps_everything() {
     let wanted = reference(&server, grown.into_iter()).await;
     client.until_form(&wanted.table.form()).await;
 }
+
+#[tokio::test]
+async fn hs5_pages_go_on_where_they_were_on_the_next_process() {
+    let scratch = Scratch::new();
+    let database = scratch.path("trees.db");
+    let server = Server::start(&database);
+    let (port, session) = (server.port(), server.new_session(SEED));
+    let mut drawer = Client::connect(port, &session, "browser-1").await;
+    let mut viewer = Client::connect(port, &session, "browser-2").await;
+    let commands = stroke(1, &line([0.0, 2.0, 0.0], [3.0, 12.0, 0.0], 24), 1.0, 2);
+    // In the midst of a stroke.
+    let (before, after) = commands.split_at(commands.len() / 2);
+    for command in before {
+        drawer.send(command.clone()).await;
+    }
+    let ending = tokio::task::spawn_blocking(move || server.terminate());
+    while drawer.take_in().await {}
+    while viewer.take_in().await {}
+    for client in [&drawer, &viewer] {
+        assert_eq!(client.closed.as_ref().map(|frame| u16::from(frame.code)), Some(1001));
+    }
+    assert_eq!(ending.await.expect("the wait ends").code(), Some(0));
+
+    let server = Server::start_on(&database, port);
+    drawer.reconnect(server.port()).await;
+    viewer.reconnect(server.port()).await;
+    for command in after {
+        drawer.send(command.clone()).await;
+    }
+    drawer.until_settled().await;
+    assert_eq!((drawer.acknowledged as usize, drawer.refused.len()), (commands.len(), 0));
+    assert!(drawer.state.metamers > 5, "the stroke grew on: {:?}", drawer.state);
+    viewer.until_form(&drawer.table.form()).await;
+}

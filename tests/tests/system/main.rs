@@ -16,6 +16,7 @@ mod later_programs;
 mod library;
 mod library_commands;
 mod logging;
+mod memory;
 mod obstacles;
 mod people;
 mod python;

@@ -37,6 +37,11 @@ export class Rights {
     return may(this.me.value?.role ?? "owner", "ShareTree") && this.onlyTree.value === null;
   }
 
+  /** Whether they may let go on what the server did not outlive (`OP5`). */
+  get mayResume(): boolean {
+    return may(this.me.value?.role ?? "owner", "ResumeSession");
+  }
+
   /** Whether they may have trees grown into files. */
   get mayOrder(): boolean {
     return may(this.me.value?.role ?? "owner", "GrowTrees") && this.onlyTree.value === null;

@@ -16,6 +16,16 @@ export const CHIPS = {
   "tools.growing": ["Growing…", "Wächst…"],
   "tools.growing.steps": ["Growing… {count} steps to go", "Wächst… noch {count} Schritte"],
   "tools.growing.outline": ["Growing into the outline…", "Wächst in den Umriss…"],
+  "chips.paused.memory": [
+    "Growth waits for memory on the server, then goes on",
+    "Das Wachstum wartet auf Speicher im Server und geht dann weiter",
+  ],
+  "chips.paused.crashes": [
+    "The server failed twice while growing this. What was drawn is kept and waits",
+    "Der Server ist hieran zweimal gescheitert. Was gezeichnet wurde, ist behalten und wartet",
+  ],
+  "chips.paused.owner": ["; an owner can let it go on", "; ein Eigentümer kann es weitergehen lassen"],
+  "chips.paused.go-on": ["Go on", "Weitermachen"],
   "tools.growing.stop": ["Stop", "Anhalten"],
   "tools.growing.stop.title": ["Stop growing (Esc)", "Wachstum anhalten (Esc)"],
 } as const;

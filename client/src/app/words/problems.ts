@@ -196,6 +196,7 @@ export const REFUSALS = {
     "The server stopped while it did this; look whether it was done.",
     "Der Server hielt währenddessen an; sieh nach, ob es getan wurde.",
   ],
+  "problems.nothing-waits": ["Nothing waits to go on here.", "Hier wartet nichts darauf weiterzugehen."],
   "problems.newer-program": [
     "This tree was made by a newer Espalier; the server must be updated to open it.",
     "Diesen Baum hat ein neueres Espalier gemacht; um ihn zu öffnen, muss der Server aktualisiert werden.",
@@ -260,6 +261,10 @@ export const REFUSALS = {
   "problems.busy": [
     "The server is busy growing trees; the sketch comes later.",
     "Der Server lässt gerade Bäume wachsen; die Skizze kommt später.",
+  ],
+  "problems.memory-full": [
+    "The server has no memory left for this now; nothing was changed. Try again soon.",
+    "Der Server hat dafür gerade keinen Speicher frei; nichts wurde verändert. Versuche es gleich noch einmal.",
   ],
   "problems.late": ["The server took too long.", "Der Server hat zu lange gebraucht."],
   "problems.not-placed": ["The obstacle was not placed.", "Das Hindernis wurde nicht aufgestellt."],

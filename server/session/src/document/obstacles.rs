@@ -176,7 +176,11 @@ impl Document {
         self.change_setting(Kind::Obstacle, cause, setting);
     }
 
-    fn held_triangles(&self) -> usize {
+    /// Triangles of all meshes, those that undo needs included. Goes through the whole history.
+    pub(crate) fn held_triangles(&self) -> usize {
+        if self.obstacles.placed == 0 {
+            return 0;
+        }
         let futures = self.futures.all.iter().flat_map(|future| &future.operations);
         let operations = self.history.operations.iter().chain(futures);
         let history = operations.map(|operation| &operation.after.obstacles);

@@ -58,6 +58,7 @@ impl Session {
         }
         self.queue.came_back(&work.orders);
         self.take_figures(&work);
+        self.came_home(work.hold);
         self.home = Some(work);
         // Steps that were expected and not taken count as well: a refused command leaves no other trace.
         self.upkeep.state_changed |= self.state() != self.upkeep.sent;
@@ -124,7 +125,8 @@ impl Session {
             self.outputs.push_back(Output::Journal(batch));
         }
         let Some(mut work) = self.home.take() else { return };
-        self.queue.orders.iter().for_each(|order| work.stops.note(order.number, &order.command.action));
+        let queued = self.queue.orders.iter();
+        queued.for_each(|order| work.stops.note_once(order.number, &order.command.action));
         self.queue.send_along(&mut work.orders);
         work.reads.append(&mut self.reads);
         self.ask_questions(&mut work);
@@ -161,7 +163,8 @@ impl Session {
 
     /// The document's figures as they are sent to clients.
     pub(super) fn state(&self) -> DocumentState {
-        to_proto::state(&self.figures, self.leaves, self.queue.least_steps(), self.people().count())
+        let people = self.people().count();
+        to_proto::state(&self.figures, self.leaves, self.queue.least_steps(), people, self.paused())
     }
 
     pub(super) fn connected_mut(&mut self, client: ClientId) -> Option<&mut ConnectedClient> {

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use espalier_proto::{Action, DocumentState, ServerMessage, version::CloseCode};
+use espalier_proto::{Action, DocumentState, Pause, ServerMessage, version::CloseCode};
 
 use super::{Session, text_of};
 use crate::{
@@ -166,6 +166,10 @@ impl Session {
 
     /// The session is to be put away: what would take long ends, and what was done is kept.
     pub(super) fn stop(&mut self) {
+        if self.paused() == Some(Pause::Crashes) {
+            // What waits goes on waiting.
+            return;
+        }
         for connected in self.clients.values_mut().filter_map(|client| client.connected.as_mut()) {
             connected.prediction_view.cancel();
             connected.prediction_view.wanted = None;
@@ -286,11 +290,14 @@ impl Session {
         let state = upkeep.state_changed.then_some(upkeep.state_due);
         let timeline = upkeep.timeline_changed.then_some(upkeep.timeline_due);
         let widths = upkeep.widths_changed.then_some(upkeep.widths_due);
-        let unkept = self.journal.last() > upkeep.snapshotted && !upkeep.snapshot_asked;
-        let pause = (unkept && self.home.is_some()).then(|| upkeep.next_snapshot());
+        // What waits in the journal cannot be kept yet.
+        let applied = self.home.as_ref().map_or(0, |work| work.applied);
+        let unkept = applied > upkeep.snapshotted && !upkeep.snapshot_asked;
+        let pause = unkept.then(|| upkeep.next_snapshot());
         let hello = upkeep.hellos.front().map(|(due, _)| *due);
         let absence = upkeep.absences.front().map(|(due, _)| *due);
-        let earliest = [state, timeline, widths, pause, hello, absence].into_iter().flatten().min();
+        let room = self.pausing.due.filter(|_| self.home.is_some());
+        let earliest = [state, timeline, widths, pause, hello, absence, room].into_iter().flatten().min();
         if earliest != upkeep.wake_at {
             self.upkeep.wake_at = earliest;
             self.outputs.extend(earliest.map(Output::WakeAt));

@@ -26,6 +26,7 @@ mod obstacles;
 #[expect(dead_code, reason = "the bench alone prints all columns")]
 #[path = "../../benches/guidance/overlaps.rs"]
 mod overlaps;
+mod pausing;
 mod refusals;
 mod rights;
 mod rows;

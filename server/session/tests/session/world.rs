@@ -9,7 +9,7 @@ use espalier_proto::{
 };
 use espalier_session::{
     Access, ActId, ClientId, Document, Input, JournalEntry, Output, PredictionRun, Principal, ReadDocument,
-    ReadId, Session, Work,
+    ReadId, Session, Tail, Urgency, Work,
 };
 use serde_json::{Value, json};
 
@@ -63,6 +63,8 @@ pub struct World {
     wake_at: Option<u64>,
     /// How long the disk and a slice of work take.
     pub write_ms: u64,
+    /// Rows that there is memory for: for growth, and for those who draw.
+    pub room: [u64; 2],
     pub work_ms: u64,
     next_client: u64,
     next_epoch: u32,
@@ -98,6 +100,7 @@ impl World {
             predictions: Vec::new(),
             wake_at: None,
             write_ms: 5,
+            room: [u64::MAX; 2],
             work_ms: 3,
             next_client: 1,
             next_epoch: 2,
@@ -106,10 +109,16 @@ impl World {
 
     /// The process dies and the session is loaded from what the disk holds.
     pub fn crash(&mut self) {
+        let room = self.room;
+        self.crash_to(Tail::Done(&mut |rows, urgency| rows <= room_for(room, urgency)));
+    }
+
+    /// The same where it is said what becomes of the journal.
+    pub fn crash_to(&mut self, tail: Tail<'_>) {
         let snapshot = self.snapshot.as_ref().map(|(_, bytes)| bytes.as_slice()).or(self.origin.as_deref());
+        let entries = self.disk.iter().cloned();
         self.session =
-            Session::restore("plane-tree", self.next_epoch, snapshot, SEED, self.disk.iter().cloned())
-                .unwrap();
+            Session::restore_with("plane-tree", self.next_epoch, snapshot, SEED, entries, tail).unwrap();
         self.next_epoch += 1;
         self.peers.clear();
         (self.writing, self.working, self.wake_at) = (None, None, None);
@@ -223,7 +232,8 @@ impl World {
                 self.handle(Input::Journaled(through));
             } else if work == Some(due) {
                 let (_, mut work) = self.working.take().unwrap();
-                work.run(|| false);
+                let room = self.room;
+                work.run_within(|| false, &mut |rows, urgency| rows <= room_for(room, urgency));
                 self.handle(Input::Worked(work));
             } else {
                 self.wake_at = None;
@@ -429,6 +439,10 @@ fn last_state(texts: &[ServerMessage]) -> Option<DocumentState> {
         ServerMessage::State { state } | ServerMessage::Welcome { state, .. } => Some(state.clone()),
         _ => None,
     })
+}
+
+fn room_for([growing, drawing]: [u64; 2], urgency: Urgency) -> u64 {
+    if urgency == Urgency::Drawing { drawing } else { growing }
 }
 
 /// The client with this key.

@@ -1,5 +1,8 @@
 //! Sessions from the store to clients and back, without sockets.
 
+mod crashes;
+mod memory;
+
 use std::time::Duration;
 
 use espalier_proto::{Notice, ServerMessage, version::CloseCode};
@@ -10,13 +13,14 @@ use tokio::time::timeout;
 
 use super::{
     super::{
-        actor::Request,
+        handle::Request,
         outbox::{self, Outgoing, Outgoings},
     },
     *,
 };
 use crate::{
     SIMULATION_VERSION,
+    memory::{Need, Use},
     pool::{Class, Person, Turn},
     store::{Breakable, Lease, MemoryStore, NewSession, NewSnapshot},
 };
@@ -26,6 +30,7 @@ const HELLO: &str = r#"{"type":"hello","protocol":1,"client":"test-client"}"#;
 struct House {
     store: Arc<AnyStore>,
     stop: CancellationToken,
+    memory: Memory,
     sessions: Sessions,
 }
 
@@ -37,9 +42,14 @@ impl House {
     }
 
     fn at(store: Arc<AnyStore>) -> Self {
+        Self::with(store, Memory::of(1 << 40))
+    }
+
+    /// A server that may take so much memory.
+    fn with(store: Arc<AnyStore>, memory: Memory) -> Self {
         let (pool, stop) = (SimulationPool::new(None).unwrap(), CancellationToken::new());
-        let sessions = Sessions::new(Arc::clone(&store), pool, stop.clone());
-        Self { store, stop, sessions }
+        let sessions = Sessions::new(Arc::clone(&store), pool, memory.clone(), stop.clone());
+        Self { store, stop, memory, sessions }
     }
 
     async fn begin(&self, name: &str, simulation_version: u32, snapshot: Option<Vec<u8>>) {
@@ -66,6 +76,11 @@ impl House {
         visitor.say(HELLO).await;
         visitor
     }
+}
+
+/// What is taken for a session that is seated.
+fn room(house: &House) -> Growing {
+    Growing::new(house.memory.take(Use::Session, Need::Other, 0).unwrap())
 }
 
 /// A client without a socket.
@@ -205,13 +220,13 @@ async fn a_session_that_was_begun_is_in_memory_for_whoever_comes_and_leaves_if_n
     let tree = Document::new(7).to_bytes();
     let (session, snapshot) = Session::of_tree("elm", 3, &tree, 1_000_000).unwrap();
     house.begin("elm", SIMULATION_VERSION, Some(snapshot)).await;
-    house.sessions.seat("elm", session).await;
+    house.sessions.seat("elm", session, room(&house)).await;
     let (epoch, ..) = house.visit_to("elm").await.welcome().await;
     assert_eq!(epoch, 3, "it was not loaded again");
 
     let (session, snapshot) = Session::of_tree("ash", 4, &tree, 1_000_000).unwrap();
     house.begin("ash", SIMULATION_VERSION, Some(snapshot)).await;
-    house.sessions.seat("ash", session).await;
+    house.sessions.seat("ash", session, room(&house)).await;
     let seated = house.sessions.0.slots().get("ash").cloned().unwrap();
     seated.get().unwrap().gone.cancelled().await;
     assert!(!house.sessions.0.slots().contains_key("ash"));
@@ -341,12 +356,13 @@ async fn op4_a_panic_while_restoring_falls_back_to_the_snapshot_before() {
     let bytes = b"deadly".to_vec();
     let deadly = NewSnapshot { through: 1, simulation_version: SIMULATION_VERSION, bytes };
     house.store.keep_snapshot(&lease, deadly).await.unwrap();
-    let make: restoring::Make = |name, epoch, snapshot, seed, entries| {
+    let make: restoring::Make = |name, epoch, snapshot, seed, entries, tail| {
         assert_ne!(snapshot, Some(b"deadly".as_slice()), "on purpose, for a test");
-        Session::restore(name, epoch, snapshot, seed, entries)
+        Session::restore_with(name, epoch, snapshot, seed, entries, tail)
     };
     let session = restoring::restored_by(make, &house.sessions.0.services, "elm", &lease).await;
-    assert_eq!(session.unwrap().unwrap().document().unwrap().figures().step, 2);
+    let Opened { session, .. } = session.unwrap().unwrap();
+    assert_eq!(session.document().unwrap().figures().step, 2);
     let stored = house.store.load_session("elm", None).await.unwrap().unwrap();
     assert_eq!((stored.through, stored.damage), (0, vec![]), "it is put aside");
 }

@@ -69,6 +69,15 @@ impl Store for SqliteStore {
         Ok(lease)
     }
 
+    async fn count_try(&self, lease: &Lease) -> Result<u32, StoreError> {
+        let tries = self.writer.write(Write::Session(SessionWrite::CountTry(lease.clone()))).await?;
+        Ok(u32::try_from(tries).unwrap_or(u32::MAX))
+    }
+
+    async fn forget_tries(&self, lease: &Lease) -> Result<(), StoreError> {
+        self.writer.write(Write::Session(SessionWrite::ForgetTries(lease.clone()))).await.map(drop)
+    }
+
     async fn release(&self, lease: Lease) {
         self.writer.leases().release(&lease);
     }

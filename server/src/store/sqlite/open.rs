@@ -19,7 +19,7 @@ use sqlx::{
 use super::{finding, identity, in_words, parts::Keeping, place::Place, shrinking, writer::Writer};
 
 /// The schema: one file of `migrations/` for each change, in order.
-const MIGRATIONS: [(&str, &str); 13] = [
+const MIGRATIONS: [(&str, &str); 14] = [
     ("0001_sessions_and_trees", include_str!("../../../../migrations/0001_sessions_and_trees.sql")),
     ("0002_checksums", include_str!("../../../../migrations/0002_checksums.sql")),
     ("0003_whole_sessions", include_str!("../../../../migrations/0003_whole_sessions.sql")),
@@ -33,6 +33,7 @@ const MIGRATIONS: [(&str, &str); 13] = [
     ("0011_answers", include_str!("../../../../migrations/0011_answers.sql")),
     ("0012_counted_events", include_str!("../../../../migrations/0012_counted_events.sql")),
     ("0013_parts_packed_faster", include_str!("../../../../migrations/0013_parts_packed_faster.sql")),
+    ("0014_tries_to_open", include_str!("../../../../migrations/0014_tries_to_open.sql")),
 ];
 
 /// Releases before this one can lose a committed transaction when the write-ahead log starts over.

@@ -22,7 +22,14 @@ pub(super) enum SessionWrite {
     SetAside(Lease, Vec<Damage>, Vec<Notice>),
     ForgetNotices(Lease),
     Enter(String),
-    Purge { saved: String, unsaved: String, limit: u32 },
+    /// Answers with how often the session was tried to be opened.
+    CountTry(Lease),
+    ForgetTries(Lease),
+    Purge {
+        saved: String,
+        unsaved: String,
+        limit: u32,
+    },
 }
 
 pub(super) async fn exists(readers: &SqlitePool, name: &str) -> Result<bool, StoreError> {
@@ -144,6 +151,15 @@ impl SessionWrite {
         let (lease, change) = match self {
             Self::Create(new, snapshot) => return create(connection, new, snapshot.as_ref()).await,
             Self::Enter(name) => return enter(connection, name).await,
+            Self::CountTry(lease) => {
+                leases.check(lease)?;
+                return count_try(connection, &lease.session).await;
+            }
+            Self::ForgetTries(lease) => {
+                leases.check(lease)?;
+                let sql = "UPDATE sessions SET tries = 0 WHERE name = ?";
+                return Ok(sqlx::query(sql).bind(&*lease.session).execute(connection).await?.rows_affected());
+            }
             Self::Purge { saved, unsaved, limit } => {
                 return purge(connection, leases, [saved, unsaved], *limit).await;
             }
@@ -246,6 +262,13 @@ async fn create(
 async fn enter(connection: &mut SqliteConnection, name: &str) -> Result<u64, StoreError> {
     let sql = "UPDATE sessions SET entered_at = strftime('%Y-%m-%dT%H:%M:%fZ', 'now') WHERE name = ?";
     Ok(sqlx::query(sql).bind(name).execute(connection).await?.rows_affected())
+}
+
+async fn count_try(connection: &mut SqliteConnection, name: &str) -> Result<u64, StoreError> {
+    // The count is not sealed: what is wrong with it costs a click at most.
+    let sql = "UPDATE sessions SET tries = max(0, min(tries, 1000)) + 1 WHERE name = ? RETURNING tries";
+    let tries: Option<i64> = sqlx::query_scalar(sql).bind(name).fetch_optional(connection).await?;
+    Ok(tries.map_or(0, i64::cast_unsigned))
 }
 
 /// What a version holds is saved, and so is a seedling to which nothing was done.

@@ -9,6 +9,7 @@ import { descriptorOf } from "../../tools/tools";
 import { say } from "../../words/say";
 import { CloseIcon, StopIcon } from "../icons";
 import { JobsChip } from "./jobs-chip";
+import { PausedChip } from "./paused-chip";
 import { TransferChip } from "./transfer-chip";
 import { useLasting } from "./use-lasting";
 
@@ -17,6 +18,7 @@ export function Chips({ studio }: { studio: Studio }) {
   const placing = studio.branches.held.placing.value;
   return (
     <>
+      <PausedChip studio={studio} />
       <GrowthChip studio={studio} />
       <TransferChip transfer={studio.exports.transfer} name="export" />
       <TransferChip transfer={studio.exports.picture} name="picture" />
@@ -90,7 +92,7 @@ function GrowthChip({ studio }: { studio: Studio }) {
   const outline = studio.outline.shown.value?.stage === "growing";
   const shown = useLasting(isGrowing(studio) && studio.link.phase.value === "connected");
   const share = useRef(new GrowthShare()).current.of(pending);
-  if (!shown) {
+  if (!shown || studio.document.value?.paused !== undefined) {
     return null;
   }
   const text = say(outline ? "tools.growing.outline" : pending > 1 ? "tools.growing.steps" : "tools.growing", {

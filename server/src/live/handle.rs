@@ -1,0 +1,113 @@
+//! What can be asked of a live session, and who asks.
+
+use std::sync::Arc;
+
+use espalier_proto::{Command, Mesh, PlacedObstacle, Problem};
+use espalier_session::{Access, ClientId, Principal, ReadDocument};
+use espalier_settings::ParameterValues;
+use tokio::sync::{mpsc, oneshot};
+use tokio_util::sync::CancellationToken;
+
+use super::outbox::Outbox;
+
+/// What is asked of a session.
+#[derive(Debug)]
+pub(super) enum Request {
+    Join(Outbox, Access, oneshot::Sender<ClientId>),
+    Text(ClientId, String),
+    Binary(ClientId),
+    /// So many control messages have gone out.
+    Written(ClientId, usize),
+    Leave(ClientId),
+    Read(oneshot::Sender<ReadDocument>),
+    Act(Principal, Box<Command>, oneshot::Sender<Outcome>),
+    Parameters(oneshot::Sender<ParameterValues>),
+    Mesh(u32, oneshot::Sender<Option<Arc<Mesh>>>),
+    People(oneshot::Sender<Vec<Principal>>),
+    /// What rests because the server did not outlive it is to go on; whether anything does.
+    GoOn(oneshot::Sender<bool>),
+    /// Nothing can be kept any more, for this reason.
+    StoreFailed(String),
+}
+
+/// What became of a command from outside: the obstacle it placed, if it placed one.
+pub type Outcome = Result<Option<PlacedObstacle>, Problem>;
+
+/// Reaches a live session.
+#[derive(Clone, Debug)]
+pub struct SessionHandle {
+    requests: mpsc::Sender<Request>,
+    /// The session has left the memory and may be loaded again.
+    pub(super) gone: CancellationToken,
+}
+
+/// The session has ended meanwhile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ended;
+
+impl SessionHandle {
+    pub(super) fn new(requests: mpsc::Sender<Request>) -> Self {
+        Self { requests, gone: CancellationToken::new() }
+    }
+
+    pub(super) fn is_ended(&self) -> bool {
+        self.requests.is_closed()
+    }
+
+    pub(super) async fn send(&self, request: Request) -> Result<(), Ended> {
+        self.requests.send(request).await.map_err(|_| Ended)
+    }
+
+    pub(super) async fn join(&self, outbox: Outbox, access: Access) -> Result<ClientId, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Join(outbox, access, answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// The document as it is now.
+    pub async fn read(&self) -> Result<ReadDocument, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Read(answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// Does a command that comes over no socket; answers when it is durable.
+    pub async fn act(&self, principal: Principal, command: Command) -> Result<Outcome, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Act(principal, Box::new(command), answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// Who is here, once for each of their clients.
+    pub async fn people(&self) -> Result<Vec<Principal>, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::People(answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// Has that go on which the server did not outlive; false if nothing rests for that (`OP5`).
+    pub async fn go_on(&self) -> Result<bool, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::GoOn(answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// Ends the session: what is done in it can no longer be kept.
+    pub(super) async fn fail(&self, reason: &str) -> Result<(), Ended> {
+        self.send(Request::StoreFailed(reason.to_owned())).await
+    }
+
+    /// The parameters in force.
+    pub async fn parameters(&self) -> Result<ParameterValues, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Parameters(answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// The mesh of an obstacle in the scene, if it is one and has one.
+    pub async fn mesh(&self, obstacle: u32) -> Result<Option<Arc<Mesh>>, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Mesh(obstacle, answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+}

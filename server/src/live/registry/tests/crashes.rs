@@ -1,0 +1,61 @@
+//! Sessions that the server does not outlive (`OP5`).
+
+use espalier_proto::Pause;
+
+use super::*;
+
+/// A session whose journal asks for growth that is in no snapshot.
+async fn with_growth(house: &House) -> Lease {
+    let lease = house.store.acquire("oak").await.unwrap();
+    house.store.append(&lease, SIMULATION_VERSION, &[grown(1), grown(2)]).await.unwrap();
+    lease
+}
+
+#[tokio::test]
+async fn op5_what_was_tried_twice_and_came_to_no_end_waits_for_an_owner() {
+    let house = House::new().await;
+    let lease = with_growth(&house).await;
+    for tried in 1..=2 {
+        let make: restoring::Make = |_, _, _, _, _, _| panic!("on purpose, for a test");
+        let opened = restoring::restored_by(make, &house.sessions.0.services, "oak", &lease).await;
+        assert!(matches!(opened, Err(OpenError::Panicked(_))), "{tried}");
+    }
+    let mut visitor = house.visit().await;
+    let (_, acknowledged, metamers) = visitor.welcome().await;
+    assert_eq!((acknowledged, metamers), (2, 0), "it is kept and not done");
+    let paused = |message| match message {
+        ServerMessage::State { state } => Some(state.paused),
+        _ => None,
+    };
+    assert_eq!(visitor.hear(paused).await, Some(Pause::Crashes));
+    // To leave and come back is no way around it.
+    let house = house.restarted().await;
+    let mut visitor = house.visit().await;
+    assert_eq!(visitor.hear(paused).await, Some(Pause::Crashes));
+    assert_eq!(visitor.session.go_on().await, Ok(true));
+    visitor.reached(4).await;
+    assert_eq!(visitor.session.go_on().await, Ok(false), "nothing waits any more");
+
+    // It lives: the next time counts anew.
+    let house = house.restarted().await;
+    assert_eq!(house.store.count_try(&house.store.acquire("oak").await.unwrap()).await.unwrap(), 1);
+}
+
+#[tokio::test]
+async fn op5_a_session_that_opens_is_not_counted() {
+    let house = House::new().await;
+    with_growth(&house).await;
+    for _ in 0..4 {
+        // The journal is done again each time, for the server is killed before there is a snapshot.
+        let session = house.sessions.open("oak").await.unwrap().unwrap();
+        session.read().await.unwrap();
+        let _ = session.fail("on purpose, for a test").await;
+        session.gone.cancelled().await;
+    }
+    let mut visitor = house.visit().await;
+    let paused = |message| match message {
+        ServerMessage::State { state } => Some(state.paused),
+        _ => None,
+    };
+    assert_eq!(visitor.hear(paused).await, None);
+}
