@@ -28,6 +28,7 @@ pub mod reason;
 pub mod schema;
 pub mod schematic;
 pub mod species;
+pub mod status;
 pub mod text;
 pub mod thumbnail;
 pub mod timeline;

@@ -78,6 +78,10 @@ table! {
     ShareTree: Owner, Library;
     /// Makes, changes and deletes collections.
     ChangeCollections: Editor, Library;
+    /// Sees figures of the server that name no tree and nobody.
+    SeeFigures: Viewer, Library;
+    /// Sees which sessions are in memory, and what they take.
+    SeeServer: Owner, Library;
     /// Sees who can come in, and what was done.
     SeePeople: Admin, Library;
 }

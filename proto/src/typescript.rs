@@ -9,7 +9,7 @@ use ts_rs::{Config, TS};
 use crate::{
     access::{self, Role},
     bounded, command, control, envelope, frame, library, obstacle, permission, place, problem, programme,
-    reason, schematic, species, thumbnail, timeline, version,
+    reason, schematic, species, status, thumbnail, timeline, version,
 };
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
@@ -164,6 +164,9 @@ pub fn declarations() -> String {
         library::TreeTag::decl(&config),
         library::TreeAuthor::decl(&config),
         Role::decl(&config),
+        status::ServerStatus::decl(&config),
+        status::MemoryUse::decl(&config),
+        status::SessionStatus::decl(&config),
         access::Redeem::decl(&config),
         access::Admitted::decl(&config),
         access::LogIn::decl(&config),

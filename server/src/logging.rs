@@ -39,20 +39,31 @@ enum Waiting {
     End,
 }
 
+/// How lines are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum LogFormat {
+    /// For people.
+    Text,
+    /// An object of JSON a line, for programs.
+    Json,
+}
+
 /// Has what this filter lets through written from now on, panics as well.
 ///
 /// # Errors
 /// Those of making a thread.
-pub fn start(filter: EnvFilter) -> io::Result<Log> {
+pub fn start(filter: EnvFilter, format: LogFormat) -> io::Result<Log> {
     let log = Log::to(io::stderr())?;
     let queue = log.queue.clone();
-    fmt()
+    let lines = fmt()
         .with_env_filter(filter)
         .with_writer(move || queue.clone())
         // It would complain on standard error itself, and panic where that is broken.
-        .log_internal_errors(false)
-        .with_ansi(io::stderr().is_terminal())
-        .init();
+        .log_internal_errors(false);
+    match format {
+        LogFormat::Text => lines.with_ansi(io::stderr().is_terminal()).init(),
+        LogFormat::Json => lines.json().flatten_event(true).with_current_span(true).init(),
+    }
     // The usual hook waits until somebody takes what it says.
     panic::set_hook(Box::new(|panicked| tracing::error!("{panicked}")));
     Ok(log)

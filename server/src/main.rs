@@ -6,6 +6,7 @@ mod care;
 mod cli;
 mod document;
 mod export_options;
+mod figures;
 mod headless;
 mod hosts;
 mod http;

@@ -66,6 +66,11 @@ impl Places {
         Some(Place { places: self.clone(), network })
     }
 
+    /// How many are taken.
+    pub fn count(&self) -> usize {
+        self.taken().all
+    }
+
     fn taken(&self) -> MutexGuard<'_, Taken> {
         self.0.taken.lock().unwrap_or_else(PoisonError::into_inner)
     }

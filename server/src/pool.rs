@@ -54,11 +54,23 @@ struct Shared {
 #[derive(Debug)]
 struct State {
     turns: Turns<Slice>,
+    done: [Done; Class::ALL.len()],
     is_over: bool,
 }
 
-/// A piece of work.
-struct Slice(Box<dyn FnOnce(&Turn<'_>) + Send>);
+/// What was done of a class, from the start on.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Done {
+    /// Slices.
+    pub slices: u64,
+    /// How long all of them waited for a worker.
+    pub waited: Duration,
+    /// How long all of them took.
+    pub worked: Duration,
+}
+
+/// A piece of work, and when it came.
+struct Slice(Box<dyn FnOnce(&Turn<'_>) + Send>, Instant);
 
 impl std::fmt::Debug for Slice {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -91,7 +103,7 @@ impl SimulationPool {
             .build()?;
         let narrow = ThreadPoolBuilder::new().num_threads(1).thread_name(|_| "held".into()).build()?;
         // With one core two workers share it, so that a large step there does not stop those who draw.
-        let state = State { turns: Turns::new(threads.max(2)), is_over: false };
+        let state = State { turns: Turns::new(threads.max(2)), done: Default::default(), is_over: false };
         let shared = Arc::new(Shared {
             wide,
             narrow,
@@ -139,7 +151,7 @@ impl SimulationPool {
         let Handle { shared, workers } = &*self.0;
         workers.get_or_init(|| shared.start());
         let now = shared.began.elapsed();
-        shared.lock().turns.push(now, class, person, Slice(Box::new(work)));
+        shared.lock().turns.push(now, class, person, Slice(Box::new(work), Instant::now()));
         shared.more.notify_one();
     }
 
@@ -148,6 +160,12 @@ impl SimulationPool {
         let shared = &self.0.shared;
         let is_busy = |state: &mut State| !state.turns.is_idle();
         let _ = shared.idle.wait_timeout_while(shared.lock(), at_most, is_busy);
+    }
+
+    /// Slices that wait, by their class, and what was done of each.
+    pub fn figures(&self) -> ([usize; Class::ALL.len()], [Done; Class::ALL.len()]) {
+        let state = self.0.shared.lock();
+        (state.turns.waiting_by_class(), state.done)
     }
 
     /// Runs this with all cores and holds the calling thread until it is done, whoever else waits.
@@ -182,7 +200,7 @@ impl Shared {
     fn work(&self) {
         // What uses rayon here stays on this thread.
         let _narrow = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
-        while let Some(Given { class, person, slice: Slice(work), is_alone }) = self.next() {
+        while let Some(Given { class, person, slice: Slice(work, pushed), is_alone }) = self.next() {
             let turn = Turn { shared: self, begun: Instant::now() };
             if is_alone && self.wide.current_num_threads() > 1 {
                 self.wide.install(|| work(&turn));
@@ -192,6 +210,10 @@ impl Shared {
             let took = turn.begun.elapsed();
             let mut state = self.lock();
             state.turns.done(class, &person, took);
+            let done = &mut state.done[class as usize];
+            done.slices += 1;
+            done.waited += turn.begun.saturating_duration_since(pushed);
+            done.worked += took;
             if state.turns.is_idle() {
                 self.idle.notify_all();
             }

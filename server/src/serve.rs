@@ -71,7 +71,7 @@ pub enum ServeError {
 pub fn run(options: &cli::Serve) -> Result<(), ServeError> {
     let filter = EnvFilter::try_new(&options.log)
         .map_err(|cause| ServeError::Log { filter: options.log.clone(), cause })?;
-    let _log = logging::start(filter)?;
+    let _log = logging::start(filter, options.log_format)?;
     let pool = SimulationPool::new(None)?;
     tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(serve(options, pool))
 }
@@ -110,6 +110,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         sessions: sessions.clone(),
         pool,
         memory,
+        requests: http::Requests::logged(options.access_log),
         metamer_budget: options.metamer_budget,
         portraits: Portraits::default(),
         hosts: Hosts::new(&options.host_names),

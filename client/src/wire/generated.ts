@@ -97,6 +97,8 @@ export const LEAST_ROLES = {
   DeleteTree: "owner",
   ShareTree: "owner",
   ChangeCollections: "editor",
+  SeeFigures: "viewer",
+  SeeServer: "owner",
   SeePeople: "admin",
 } as const satisfies Record<string, Role>;
 
@@ -2172,6 +2174,88 @@ author: string,
 trees: number, };
 
 export type Role = "viewer" | "editor" | "owner" | "admin";
+
+export type ServerStatus = { 
+/**
+ * The version of the program.
+ */
+version: string, 
+/**
+ * Seconds since it was started.
+ */
+up_seconds: number, 
+/**
+ * Sockets that are open.
+ */
+sockets: number, 
+/**
+ * Bytes of memory that may be taken (`LM19`).
+ */
+memory_bytes: number, 
+/**
+ * Those that are.
+ */
+taken_bytes: number, 
+/**
+ * The same by what they are taken for.
+ */
+used: Array<MemoryUse>, 
+/**
+ * How often there was none left.
+ */
+refused: number, 
+/**
+ * Sessions in memory, the largest first.
+ */
+sessions: Array<SessionStatus>, };
+
+export type MemoryUse = { 
+/**
+ * For what.
+ */
+what: string, 
+/**
+ * How much.
+ */
+bytes: number, };
+
+export type SessionStatus = { 
+/**
+ * Its name.
+ */
+name: string, 
+/**
+ * The identifier of the tree that it belongs to.
+ */
+tree?: string, 
+/**
+ * Clients that are there.
+ */
+people: number, 
+/**
+ * Living metamers.
+ */
+metamers: number, 
+/**
+ * Memory that is taken for it.
+ */
+memory_bytes: number, 
+/**
+ * Commands that wait to be done or to be durable.
+ */
+waiting_commands: number, 
+/**
+ * Bytes of frames that were sent and not answered.
+ */
+unanswered_bytes: number, 
+/**
+ * Why its growth rests.
+ */
+paused?: Pause, 
+/**
+ * Whether it answered within a second; the other figures are 0 where it did not.
+ */
+answers: boolean, };
 
 export type Redeem = { 
 /**

@@ -287,6 +287,22 @@ impl Session {
             .map(|connected| &connected.principal)
     }
 
+    /// Living metamers, as of the last slice of work.
+    pub fn metamers(&self) -> u32 {
+        self.figures.metamers
+    }
+
+    /// Commands that wait to be done or to be durable.
+    pub fn waiting(&self) -> usize {
+        self.queue.waiting().0.max(self.journal.waiting().0)
+    }
+
+    /// Bytes of frames that were sent and not answered.
+    pub fn unanswered(&self) -> usize {
+        let connected = self.clients.values().filter_map(|client| client.connected.as_ref());
+        connected.map(|client| client.window.bytes()).sum()
+    }
+
     fn read(&mut self, client: ClientId, text: &str) {
         let Some(Client { connected, .. }) = self.clients.get(&client) else { return };
         if text.len() > MAX_MESSAGE_BYTES {

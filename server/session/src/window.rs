@@ -24,6 +24,11 @@ impl Window {
         self.frames.is_empty() || self.bytes + length <= WINDOW_BYTES
     }
 
+    /// Bytes on the way.
+    pub(crate) fn bytes(&self) -> usize {
+        self.bytes
+    }
+
     /// Whether nothing is on the way.
     pub(crate) fn is_empty(&self) -> bool {
         self.frames.is_empty()

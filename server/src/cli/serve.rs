@@ -8,7 +8,7 @@ use espalier_session::MAX_METAMER_BUDGET;
 use ipnet::IpNet;
 
 use super::Database;
-use crate::{hosts::HostName, memory::Bytes};
+use crate::{hosts::HostName, logging::LogFormat, memory::Bytes};
 
 /// Where the server listens unless it is told otherwise.
 pub(super) const PORT: u16 = 7700;
@@ -89,6 +89,12 @@ pub struct Serve {
     /// What to log to stderr: error, warn, info, debug, trace, or a filter such as espalier=debug,sqlx=warn.
     #[arg(long, env = "ESPALIER_LOG", default_value = "info", value_name = "LEVEL")]
     pub log: String,
+    /// How lines of the log are written.
+    #[arg(long, env = "ESPALIER_LOG_FORMAT", value_enum, default_value_t = LogFormat::Text, value_name = "FORMAT")]
+    pub log_format: LogFormat,
+    /// Log each request when it is answered: its number, method, path, status, time and who asked.
+    #[arg(long, env = "ESPALIER_ACCESS_LOG")]
+    pub access_log: bool,
 }
 
 fn parse_memory(text: &str) -> Result<Bytes, String> {

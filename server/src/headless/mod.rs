@@ -18,6 +18,7 @@ use espalier_settings::ParametersPatch;
 
 use self::bench::Bench;
 pub use self::species::species;
+pub use self::stats::resident_memory_bytes;
 use crate::{
     cli::{self, Grow, NoFormat, Replay, Results, SEED, Start},
     document,

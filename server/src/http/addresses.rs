@@ -13,6 +13,7 @@ use espalier_proto::{
     obstacle::UploadedObstacle,
     schematic::Schematic,
     species::Species,
+    status::ServerStatus,
     thumbnail::MAX_THUMBNAIL_BYTES,
     version::{KEPT_DAYS, MAX_MODEL_BYTES, MAX_WOOD_BYTES},
 };
@@ -21,8 +22,8 @@ use tower::limit::GlobalConcurrencyLimitLayer;
 
 use super::{
     Shared, audit, collections, description, description::About, entry, exports, failure::Path,
-    guard::TIME_LIMIT, imports, jobs, keys::Shown, links, obstacles, schematic, sessions, species, trees,
-    uploads::uploads, versions,
+    guard::TIME_LIMIT, imports, jobs, keys::Shown, links, obstacles, origin::METRICS, schematic, sessions,
+    species, status, trees, uploads::uploads, versions,
 };
 use crate::{
     access::Action,
@@ -185,6 +186,8 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/logout", None, post(entry::log_out), About::new("Be let in no longer by the cookie of the request, which goes.").gives_nothing()),
         route("GET /api/v1/me", Action::Look, get(entry::me), About::new("Who asks, and what they may do (AC8).").gives::<Me>(200)),
         route("GET /api/v1/users", Action::SeePeople, get(entry::users), About::new("Who can log in, by name.").gives::<Vec<ListedUser>>(200)),
+        route("GET /api/v1/status", Action::SeeServer, get(status::status), About::new("How the server is: memory by what it is taken for, sessions with theirs (SV2).").gives::<ServerStatus>(200)),
+        route(format!("GET {METRICS}"), Action::SeeFigures, get(status::metrics), About::new("Figures of the server as Prometheus reads them (SV2).").gives_file("text/plain")),
         route("GET /api/v1/audit", Action::SeePeople, get(audit::list), About::new("What was done and by whom, newest first (AC10).").asks::<audit::Page>().gives::<Vec<AuditEvent>>(200)),
         route("GET /api/v1/openapi.json", Action::Look, get(description::show), About::new("The description of this API (OpenAPI 3.1).").gives_file("application/json")),
         route("GET /api/v1/formats", Action::Look, get(exports::formats), About::new("What a tree can be downloaded as (EX1).").gives::<Vec<ExportFormat>>(200)),

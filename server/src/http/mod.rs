@@ -1,5 +1,6 @@
 //! The routes of `PROTOCOL.md`, and the client itself.
 
+mod access_log;
 mod addresses;
 mod audit;
 mod client;
@@ -22,6 +23,7 @@ mod revision;
 mod schematic;
 mod sessions;
 mod species;
+mod status;
 mod trees;
 mod uploads;
 mod versions;
@@ -30,7 +32,7 @@ use std::{net::IpAddr, sync::Arc, time::Duration};
 
 use axum::{
     Extension, Router,
-    extract::{MatchedPath, State},
+    extract::MatchedPath,
     middleware::{from_fn, from_fn_with_state, map_response},
     routing::{MethodRouter, any, get},
 };
@@ -38,19 +40,20 @@ use espalier_proto::Reason;
 use tokio::sync::Mutex;
 use tower::ServiceBuilder;
 
-use self::{
-    addresses::{Route, SOCKET, downloads, methods, path_of, routes},
-    failure::Failure,
-    guard::Asked,
-    keys::Keyed,
-};
 pub use self::{
+    access_log::Requests,
     audit::described,
     entry::Logins,
     exports::Progresses,
     keys::{KEPT, UnderWay},
     proxies::Proxies,
     sessions::SessionsBegun,
+};
+use self::{
+    addresses::{Route, SOCKET, downloads, methods, path_of, routes},
+    failure::Failure,
+    guard::Asked,
+    keys::Keyed,
 };
 use crate::{
     access::{SecretHash, Tries, password::Passwords},
@@ -60,7 +63,7 @@ use crate::{
     memory::Memory,
     pool::SimulationPool,
     portrait::Portraits,
-    store::{AnyStore, Store},
+    store::AnyStore,
 };
 
 /// When whoever finds no place may try again.
@@ -75,6 +78,8 @@ pub struct Shared {
     pub sessions: Sessions,
     /// For what takes long.
     pub pool: SimulationPool,
+    /// How requests were answered.
+    pub requests: Requests,
     /// What there is of memory.
     pub memory: Memory,
     /// Metamers that each session begun here may hold.
@@ -142,7 +147,9 @@ pub fn router(shared: Shared) -> Router {
         .merge(api(routes()))
         .merge(api(downloads()))
         .route("/api/{*unknown}", any(failure::unknown_route))
-        .route("/health", within(guard::TIME_LIMIT, get(health)))
+        .route("/health", within(guard::TIME_LIMIT, get(status::health)))
+        .route("/live", get(status::live))
+        .route("/ready", within(guard::TIME_LIMIT, get(status::ready)))
         // A socket lasts as long as its drawing, so no time limit holds here. Whoever may not come in is told so by its
         // close, which a page can read.
         .route(path_of(SOCKET), get(sessions::socket))
@@ -159,6 +166,7 @@ pub fn router(shared: Shared) -> Router {
                 .layer(Extension(shared.memory.clone()))
                 .layer(map_response(guard::headers))
                 .layer(from_fn_with_state(shared.proxies.clone(), proxies::believe))
+                .layer(from_fn_with_state(shared.requests.clone(), access_log::numbered))
                 .layer(from_fn_with_state(shared.hosts.clone(), origin::known_host))
                 .layer(from_fn(origin::same_site)),
         )
@@ -173,7 +181,9 @@ fn within(limit: Duration, answer: MethodRouter<Shared>) -> MethodRouter<Shared>
 /// What the server answers where there is no place for another connection: that, and whether it can serve at all.
 pub fn crowded(shared: &Shared) -> Router {
     Router::new()
-        .route("/health", get(health))
+        .route("/live", get(status::live))
+        .route("/health", get(status::health))
+        .route("/ready", get(status::ready))
         .fallback(async || {
             let sentence = "As many connections as may be are open; try again.";
             Failure::new(Reason::ManyPeople, sentence).after(AGAIN)
@@ -184,12 +194,6 @@ pub fn crowded(shared: &Shared) -> Router {
                 .layer(from_fn_with_state(shared.hosts.clone(), origin::known_host)),
         )
         .with_state(shared.clone())
-}
-
-/// Whether the server can serve: what is drawn gets where it is kept.
-async fn health(State(shared): State<Shared>) -> Result<&'static str, Failure> {
-    shared.store.check_place().await?;
-    Ok("ok")
 }
 
 #[cfg(test)]

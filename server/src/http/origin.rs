@@ -29,12 +29,17 @@ pub(super) async fn known_host(State(hosts): State<Hosts>, request: Request, nex
     Failure::from(problem.at(header::HOST.as_str(), "an address or a name of this server")).into_response()
 }
 
+/// Where figures of the server are, for programs that expect them there.
+pub(super) const METRICS: &str = "/metrics";
+
 /// Pages of other sites may neither change anything here, nor open a socket, which browsers allow across sites, nor read
 /// what the API says (`GU2`). Links to pages and files are free.
 pub(super) async fn same_site(request: Request, next: Next) -> Response {
+    let path = request.uri().path();
     let is_free = request.method().is_safe()
         && !request.headers().contains_key(header::UPGRADE)
-        && !request.uri().path().starts_with("/api/");
+        && !path.starts_with("/api/")
+        && path != METRICS;
     match check_site(request.headers()) {
         Err(problem) if !is_free => Failure::from(problem).into_response(),
         _ => next.run(request).await,

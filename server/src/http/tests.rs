@@ -7,6 +7,7 @@ mod login;
 mod paths;
 mod proxies;
 mod refusals;
+mod status;
 
 use std::collections::BTreeSet;
 
@@ -57,6 +58,7 @@ async fn shared() -> Shared {
         jobs,
         sessions: Sessions::new(Arc::clone(&store), pool.clone(), memory.clone(), CancellationToken::new()),
         memory,
+        requests: Requests::default(),
         store: Arc::clone(&store),
         pool,
         metamer_budget: 1000,

@@ -18,7 +18,7 @@ use tokio::{
 use tokio_util::sync::CancellationToken;
 
 use super::{
-    handle::{Outcome, Request, SessionHandle},
+    handle::{Outcome, Request, SessionFigures, SessionHandle},
     outbox::{Outbox, Outgoing},
     restoring::Opened,
     turn::turn_of,
@@ -271,6 +271,17 @@ impl Actor {
             }
             Request::Mesh(obstacle, answer) => {
                 let _ = answer.send(self.session.mesh(obstacle));
+                return None;
+            }
+            Request::Look(answer) => {
+                let _ = answer.send(SessionFigures {
+                    people: u32::try_from(self.session.people().count()).unwrap_or(u32::MAX),
+                    metamers: self.session.metamers(),
+                    memory: self.room.bytes(),
+                    waiting: self.session.waiting(),
+                    unanswered: self.session.unanswered(),
+                    paused: self.session.paused(),
+                });
                 return None;
             }
             Request::GoOn(answer) => {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use espalier_proto::{Command, Mesh, PlacedObstacle, Problem};
+use espalier_proto::{Command, Mesh, Pause, PlacedObstacle, Problem};
 use espalier_session::{Access, ClientId, Principal, ReadDocument};
 use espalier_settings::ParameterValues;
 use tokio::sync::{mpsc, oneshot};
@@ -26,12 +26,30 @@ pub(super) enum Request {
     People(oneshot::Sender<Vec<Principal>>),
     /// What rests because the server did not outlive it is to go on; whether anything does.
     GoOn(oneshot::Sender<bool>),
+    Look(oneshot::Sender<SessionFigures>),
     /// Nothing can be kept any more, for this reason.
     StoreFailed(String),
 }
 
 /// What became of a command from outside: the obstacle it placed, if it placed one.
 pub type Outcome = Result<Option<PlacedObstacle>, Problem>;
+
+/// Figures of a live session.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SessionFigures {
+    /// Who has said hello and is there.
+    pub people: u32,
+    /// Living metamers.
+    pub metamers: u32,
+    /// Bytes of memory that are taken for it.
+    pub memory: u64,
+    /// Commands that wait.
+    pub waiting: usize,
+    /// Bytes of frames that were sent and not answered.
+    pub unanswered: usize,
+    /// Why its growth rests.
+    pub paused: Option<Pause>,
+}
 
 /// Reaches a live session.
 #[derive(Clone, Debug)]
@@ -82,6 +100,13 @@ impl SessionHandle {
     pub async fn people(&self) -> Result<Vec<Principal>, Ended> {
         let (answer, answered) = oneshot::channel();
         self.send(Request::People(answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// Its figures now.
+    pub(super) async fn look(&self) -> Result<SessionFigures, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Look(answer)).await?;
         answered.await.map_err(|_| Ended)
     }
 

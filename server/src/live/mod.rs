@@ -8,7 +8,7 @@ mod restoring;
 mod socket;
 mod turn;
 
-pub use handle::{Ended, SessionHandle};
-pub use registry::Sessions;
+pub use handle::{Ended, SessionFigures, SessionHandle};
+pub use registry::{Looked, Sessions};
 pub use restoring::OpenError;
 pub use socket::{serve, turn_away};

@@ -4,15 +4,20 @@ use std::{
     collections::BTreeMap,
     net::IpAddr,
     sync::{Arc, Mutex, MutexGuard, PoisonError, Weak},
+    time::Duration,
 };
 
 use espalier_session::{Principal, Session};
-use tokio::{sync::OnceCell, time::Instant};
+use futures_util::future::join_all;
+use tokio::{
+    sync::OnceCell,
+    time::{Instant, timeout},
+};
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
 
 use super::{
     actor::{Actor, Services},
-    handle::SessionHandle,
+    handle::{SessionFigures, SessionHandle},
     restoring::{self, OpenError, Opened},
 };
 use crate::{
@@ -27,7 +32,19 @@ const MAX_SOCKETS: usize = 1024;
 /// and those of one network, but for this machine.
 const MAX_SOCKETS_OF_ONE: usize = 256;
 
+/// A session that says nothing of itself for so long is being opened, or has ended.
+const LOOKING: Duration = Duration::from_secs(1);
+
 type Slot = OnceCell<SessionHandle>;
+
+/// A session in memory.
+#[derive(Clone, Debug)]
+pub struct Looked {
+    /// Its name.
+    pub name: String,
+    /// Its figures, where it answers.
+    pub figures: Option<SessionFigures>,
+}
 
 /// The sessions in memory.
 #[derive(Clone, Debug)]
@@ -105,6 +122,33 @@ impl Sessions {
             Some(session) => session.people().await.unwrap_or_default(),
             None => Vec::new(),
         }
+    }
+
+    /// All sessions in memory with their figures, in the order of their names.
+    pub async fn look(&self) -> Vec<Looked> {
+        let slots: Vec<_> =
+            self.0.slots().iter().map(|(name, slot)| (name.clone(), Arc::clone(slot))).collect();
+        let looking = slots.into_iter().map(async |(name, slot)| {
+            let Some(session) = slot.get() else { return Looked { name, figures: None } };
+            let figures = timeout(LOOKING, session.look()).await;
+            Looked { name, figures: figures.ok().and_then(Result::ok) }
+        });
+        join_all(looking).await
+    }
+
+    /// Sockets that are open.
+    pub fn sockets(&self) -> usize {
+        self.0.places.count()
+    }
+
+    /// How long the server has been running.
+    pub fn up(&self) -> Duration {
+        self.0.services.started.elapsed()
+    }
+
+    /// Whether the server stops.
+    pub fn is_stopping(&self) -> bool {
+        self.0.services.stop.is_cancelled()
     }
 
     /// Ends every session in memory, for nothing of them can be kept any more.

@@ -25,6 +25,14 @@ pub enum Class {
 
 impl Class {
     const COUNT: usize = 4;
+
+    /// All of them, each with its name.
+    pub const ALL: [(Self, &'static str); Self::COUNT] = [
+        (Self::Drawing, "drawing"),
+        (Self::Growing, "growing"),
+        (Self::Whole, "whole"),
+        (Self::Upkeep, "upkeep"),
+    ];
 }
 
 /// Who a slice is for. Whose name is not known shares one turn with all such.
@@ -131,6 +139,11 @@ impl<T> Turns<T> {
     /// Slices that wait for a worker.
     pub fn waiting(&self) -> usize {
         self.queues.iter().map(|queue| queue.waiting).sum()
+    }
+
+    /// The same by their class.
+    pub fn waiting_by_class(&self) -> [usize; Class::COUNT] {
+        std::array::from_fn(|class| self.queues[class].waiting)
     }
 
     /// Whether there is anything to do, or being done.

@@ -8,10 +8,10 @@ use espalier_session::JournalEntry;
 #[cfg(test)]
 use super::MemoryStore;
 use super::{
-    Answer, AnswerKey, Answering, Answers, Audit, Collection, CollectionChange, Damage, Event, Finding,
-    Lease, Library, MostAnswers, NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes,
-    Picture, SessionTree, SqliteStore, Store, StoreError, StoredSession, StoredTree, StoredVersion,
-    TreeChange, TreeDocument, TreeQuery, User, UserChange, Users,
+    Answer, AnswerKey, Answering, Answers, Audit, Collection, CollectionChange, Commits, Damage, Event,
+    Finding, Lease, Library, MostAnswers, NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass,
+    PassKind, Passes, Picture, SessionTree, SqliteStore, Store, StoreError, StoredSession, StoredTree,
+    StoredVersion, TreeChange, TreeDocument, TreeQuery, User, UserChange, Users,
 };
 use crate::access::SecretHash;
 
@@ -34,6 +34,17 @@ macro_rules! delegate {
             Self::Memory(store) => store.$method($($argument),*).await,
         }
     };
+}
+
+impl AnyStore {
+    /// What was committed since it was opened; the model keeps no count.
+    pub fn commits(&self) -> Commits {
+        match self {
+            Self::Sqlite(store) => store.commits(),
+            #[cfg(test)]
+            Self::Memory(_) => Commits::default(),
+        }
+    }
 }
 
 impl Store for AnyStore {

@@ -19,7 +19,7 @@ mod seal;
 mod sqlite;
 mod users;
 
-use std::{collections::BTreeSet, error::Error};
+use std::{collections::BTreeSet, error::Error, time::Duration};
 
 use espalier_proto::Notice;
 use espalier_session::JournalEntry;
@@ -202,6 +202,19 @@ impl StoreError {
             Self::Closed => "it is stopping",
         }
     }
+}
+
+/// What a store has committed since it was opened.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Commits {
+    /// Transactions.
+    pub commits: u64,
+    /// What was to be written in them.
+    pub writes: u64,
+    /// What could not be written.
+    pub failed: u64,
+    /// How long they took together.
+    pub took: Duration,
 }
 
 /// A session to be made.

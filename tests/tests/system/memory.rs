@@ -62,3 +62,32 @@ async fn op5_a_session_that_was_opened_twice_to_no_end_waits_for_an_owner() {
     let again = resume();
     assert_eq!((again.status, again.json()["reason"].as_str()), (409, Some("nothing-waits")));
 }
+
+#[tokio::test]
+async fn lm19_a_socket_for_which_there_is_no_memory_closes_with_1013() {
+    let scratch = Scratch::new();
+    let server = Server::start_with(&scratch.path("trees.db"), 0, &["--memory", "64M"]);
+    let session = server.new_session(SEED);
+    // 48 MiB may be taken, 85 in 100 of them by sockets of 64 KiB.
+    let mut sockets = Vec::new();
+    for _ in 0..660 {
+        sockets.push(client::open(server.port(), &session).await);
+    }
+    let mut last = sockets.pop().expect("some were opened");
+    let Some(Message::Close(Some(frame))) = client::next(&mut last).await else {
+        panic!("it is not closed");
+    };
+    assert_eq!(u16::from(frame.code), 1013);
+    assert!(frame.reason.starts_with("memory-full: "), "{}", frame.reason);
+    drop(sockets);
+    // What they took is given back.
+    let mut client = loop {
+        let mut socket = client::open(server.port(), &session).await;
+        let hello = json!({ "type": "hello", "protocol": 1, "client": "browser-1" });
+        socket.send(Message::text(hello.to_string())).await.expect("the server reads");
+        if let Some(Message::Text(_)) = client::next(&mut socket).await {
+            break socket;
+        }
+    };
+    client.close(None).await.expect("it is open");
+}

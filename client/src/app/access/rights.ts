@@ -42,6 +42,11 @@ export class Rights {
     return may(this.me.value?.role ?? "owner", "ResumeSession");
   }
 
+  /** Whether they may see how the server is (`SV2`). */
+  get maySeeServer(): boolean {
+    return may(this.me.value?.role ?? "owner", "SeeServer") && this.onlyTree.value === null;
+  }
+
   /** Whether they may have trees grown into files. */
   get mayOrder(): boolean {
     return may(this.me.value?.role ?? "owner", "GrowTrees") && this.onlyTree.value === null;

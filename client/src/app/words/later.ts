@@ -16,6 +16,7 @@ import { LINKS } from "./links";
 import { PARAMETERS } from "./parameters";
 import { PROBLEMS, REFUSALS } from "./problems";
 import { SCENE } from "./scene";
+import { SERVER } from "./server";
 import { SETTINGS } from "./settings";
 import { SHEETS } from "./sheets";
 import { SUN } from "./sun";
@@ -36,6 +37,7 @@ export const LATER = {
   ...BRANCHES,
   ...BACKGROUND,
   ...SETTINGS,
+  ...SERVER,
   ...PROBLEMS,
   ...REFUSALS,
   ...SCENE,

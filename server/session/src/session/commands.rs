@@ -77,7 +77,7 @@ impl Queue {
         self.weight.steps.saturating_add(self.away.steps)
     }
 
-    fn waiting(&self) -> (usize, usize) {
+    pub(super) fn waiting(&self) -> (usize, usize) {
         (self.weight.orders + self.away.orders, self.weight.bytes + self.away.bytes)
     }
 }

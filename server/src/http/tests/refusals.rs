@@ -62,8 +62,12 @@ pub(super) fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
 }
 
 /// Addresses that take a file, or nothing.
-const WITHOUT: [&str; 3] =
-    ["POST /api/v1/logout", "POST /api/v1/trees/{tree}/undelete", "PUT /api/v1/trees/{tree}/favourite"];
+const WITHOUT: [&str; 4] = [
+    "POST /api/v1/logout",
+    "POST /api/v1/sessions/{session}/resume",
+    "POST /api/v1/trees/{tree}/undelete",
+    "PUT /api/v1/trees/{tree}/favourite",
+];
 
 /// Queries with one field that is wrong, and its name.
 fn queries() -> Vec<(String, Cow<'static, str>, &'static str)> {

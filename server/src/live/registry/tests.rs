@@ -160,7 +160,7 @@ async fn many_who_come_at_once_meet_in_one_session() {
     let house = House::new().await;
     let visits: Vec<_> = std::iter::repeat_with(|| house.visit()).take(8).collect();
     let mut epochs = Vec::new();
-    for mut visitor in futures_util::future::join_all(visits).await {
+    for mut visitor in join_all(visits).await {
         epochs.push(visitor.welcome().await.0);
     }
     assert!(epochs.iter().all(|&epoch| epoch == epochs[0]), "{epochs:?}");

@@ -34,7 +34,7 @@ use self::{
     finding::FindingWrite, parts::Manifest, sessions::SessionWrite, tree_writes::TreeWrite, writer::Write,
 };
 use super::{
-    Collection, CollectionChange, Damage, Finding, Lease, Library, NewSession, NewSnapshot, NewTree,
+    Collection, CollectionChange, Commits, Damage, Finding, Lease, Library, NewSession, NewSnapshot, NewTree,
     NewVersion, Picture, SessionTree, Store, StoreError, StoredSession, StoredTree, StoredVersion,
     TreeChange, TreeDocument, TreeQuery,
     seal::{JournalRow, SnapshotRow},
@@ -205,6 +205,13 @@ impl Library for SqliteStore {
 
     async fn purge(&self, before: &str, limit: u32) -> Result<u64, StoreError> {
         self.writer.write(Write::Tree(TreeWrite::Purge { before: before.to_owned(), limit })).await
+    }
+}
+
+impl SqliteStore {
+    /// What was committed since it was opened.
+    pub fn commits(&self) -> Commits {
+        self.writer.commits()
     }
 }
 

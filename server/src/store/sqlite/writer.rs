@@ -1,6 +1,12 @@
 //! The one writer: collects what arrives within a few milliseconds and commits it together.
 
-use std::{sync::Arc, time::Duration};
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+    time::Duration,
+};
 
 use sqlx::{Connection, sqlite::SqliteConnection};
 use tokio::{
@@ -11,7 +17,7 @@ use tokio::{
 use tokio_util::sync::CancellationToken;
 
 use super::{
-    super::{StoreError, lease::Leases},
+    super::{Commits, StoreError, lease::Leases},
     answers::AnswerWrite,
     audit::AuditWrite,
     finding::FindingWrite,
@@ -79,10 +85,20 @@ struct Request {
     answer: oneshot::Sender<Result<u64, StoreError>>,
 }
 
+/// What was committed, from the start on.
+#[derive(Debug, Default)]
+struct Counts {
+    commits: AtomicU64,
+    writes: AtomicU64,
+    failed: AtomicU64,
+    micros: AtomicU64,
+}
+
 #[derive(Debug)]
 pub(super) struct Writer {
     requests: mpsc::Sender<Request>,
     leases: Arc<Leases>,
+    counts: Arc<Counts>,
     closing: CancellationToken,
     task: Mutex<Option<JoinHandle<()>>>,
 }
@@ -91,14 +107,26 @@ impl Writer {
     pub(super) fn start(connection: SqliteConnection, place: Arc<Place>) -> Self {
         let (requests, receiver) = mpsc::channel(QUEUE);
         let closing = CancellationToken::new();
-        let leases = Arc::new(Leases::default());
-        let task = tokio::spawn(run(connection, place, receiver, Arc::clone(&leases), closing.clone()));
-        Self { requests, leases, closing, task: Mutex::new(Some(task)) }
+        let (leases, counts) = (Arc::new(Leases::default()), Arc::<Counts>::default());
+        let (of_task, counted) = (Arc::clone(&leases), Arc::clone(&counts));
+        let task = tokio::spawn(run(connection, place, receiver, of_task, counted, closing.clone()));
+        Self { requests, leases, counts, closing, task: Mutex::new(Some(task)) }
     }
 
     /// Who may write to which session.
     pub(super) fn leases(&self) -> &Leases {
         &self.leases
+    }
+
+    /// What was committed, from the start on.
+    pub(super) fn commits(&self) -> Commits {
+        let count = |count: &AtomicU64| count.load(Ordering::Relaxed);
+        Commits {
+            commits: count(&self.counts.commits),
+            writes: count(&self.counts.writes),
+            failed: count(&self.counts.failed),
+            took: Duration::from_micros(count(&self.counts.micros)),
+        }
     }
 
     /// Returns once the write is durable.
@@ -123,6 +151,7 @@ async fn run(
     place: Arc<Place>,
     mut requests: mpsc::Receiver<Request>,
     leases: Arc<Leases>,
+    counts: Arc<Counts>,
     closing: CancellationToken,
 ) {
     loop {
@@ -145,7 +174,12 @@ async fn run(
             }
         }
         match place.missing() {
-            None => commit(&mut connection, &leases, group).await,
+            None => {
+                let begun = Instant::now();
+                commit(&mut connection, &leases, &counts, group).await;
+                let took = u64::try_from(begun.elapsed().as_micros()).unwrap_or(u64::MAX);
+                counts.micros.fetch_add(took, Ordering::Relaxed);
+            }
             Some(cause) => {
                 for request in group {
                     let _ = request.answer.send(Err(StoreError::Gone(cause.clone())));
@@ -159,11 +193,13 @@ async fn run(
 }
 
 /// A group is committed as one; if that fails, each write is tried alone, so that one cannot spoil the others.
-async fn commit(connection: &mut SqliteConnection, leases: &Leases, group: Vec<Request>) {
+async fn commit(connection: &mut SqliteConnection, leases: &Leases, counts: &Counts, group: Vec<Request>) {
+    counts.writes.fetch_add(group.len() as u64, Ordering::Relaxed);
     if group.len() > 1 {
         let writes: Vec<&Write> = group.iter().map(|request| &request.write).collect();
         match commit_together(connection, leases, &writes).await {
             Ok(changed) => {
+                counts.commits.fetch_add(1, Ordering::Relaxed);
                 for (request, changed) in group.into_iter().zip(changed) {
                     // Whoever asked may have gone; the write stands all the same.
                     let _ = request.answer.send(Ok(changed));
@@ -175,6 +211,8 @@ async fn commit(connection: &mut SqliteConnection, leases: &Leases, group: Vec<R
     }
     for request in group {
         let result = commit_together(connection, leases, &[&request.write]).await;
+        let count = if result.is_ok() { &counts.commits } else { &counts.failed };
+        count.fetch_add(1, Ordering::Relaxed);
         let _ = request.answer.send(result.map(|changed| changed.into_iter().sum()));
     }
 }

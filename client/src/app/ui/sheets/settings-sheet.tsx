@@ -3,6 +3,7 @@ import type { Studio } from "../../studio";
 import { type Language, say } from "../../words/say";
 import { Check } from "../controls/check";
 import { AccountSection } from "./account-section";
+import { ServerSection } from "./server-section";
 
 /** Languages by their own names, which need no translation. */
 const LANGUAGE_NAMES: Record<Language, string> = { en: "English", de: "Deutsch" };
@@ -46,6 +47,7 @@ export function SettingsSheet({ studio }: { studio: Studio }) {
       <Check label={say("settings.follow")} chosen={followsGrowth} />
       <Check label={say("settings.thorough")} chosen={thorough} />
       <AccountSection studio={studio} />
+      <ServerSection studio={studio} />
     </div>
   );
 }

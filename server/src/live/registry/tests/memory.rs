@@ -87,7 +87,7 @@ async fn lm19_sessions_that_want_more_than_there_is_are_all_answered() {
         visitors.push(house.visit_to(name).await);
     }
     for visitor in &mut visitors {
-        visitor.say(&grow(1, 24)).await;
+        visitor.say(&grow(1, 12)).await;
     }
     let mut resting = 0;
     for visitor in &mut visitors {
