@@ -87,6 +87,11 @@ impl FrameKind {
         bytes.get(1).and_then(|&code| Self::from_code(code))
     }
 
+    /// The sequence that a frame's header states, whether or not the rest is valid.
+    pub fn sequence_of(bytes: &[u8]) -> Option<u32> {
+        Some(u32::from_le_bytes(bytes.get(8..12)?.try_into().ok()?))
+    }
+
     /// Flags that have a meaning.
     fn flags(self) -> u8 {
         if self == Self::MeshDelta { FLAG_CATCH_UP } else { 0 }

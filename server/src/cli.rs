@@ -13,7 +13,7 @@ use espalier_growth::species;
 use espalier_proto::Steps;
 use espalier_settings::{ParameterValues, ParametersPatch};
 
-use crate::{import, import_options::ImportOptions, recipe::SeedRange, similar::similar};
+use crate::{import, import_options::ImportOptions, load::Load, recipe::SeedRange, similar::similar};
 
 pub use self::{
     people::{
@@ -102,6 +102,8 @@ pub enum Command {
     Restore(Restore),
     /// Read all that is in the database and say what is damaged.
     Check(Check),
+    /// Measure how long people wait on a server where many draw.
+    Load(Load),
     /// Print what makes a shell complete options and names.
     Completions(Completions),
     /// Write the manual's pages, one for each command.

@@ -16,6 +16,7 @@ mod jobs;
 mod library;
 mod listener;
 mod live;
+mod load;
 mod logging;
 mod maintenance;
 mod manual;
@@ -48,6 +49,7 @@ use crate::{
     cli::{Cli, Command},
     headless::HeadlessError,
     library::LibraryError,
+    load::LoadError,
     output::OutputError,
     people::PeopleError,
     recipe::GrowError,
@@ -77,6 +79,7 @@ fn main() -> ExitCode {
         Some(Command::Backup(options)) => cared(care::backup(&options)),
         Some(Command::Restore(options)) => cared(care::restore(&options)),
         Some(Command::Check(options)) => cared(care::check(&options)),
+        Some(Command::Load(options)) => measured(load::run(&options)),
         Some(Command::Completions(options)) => written(manual::completions(options.shell)),
         Some(Command::Man(options)) => written(manual::pages(&options.folder)),
     }
@@ -100,6 +103,12 @@ fn written(result: io::Result<()>) -> ExitCode {
 }
 
 fn let_in(result: Result<(), PeopleError>) -> ExitCode {
+    let Err(error) = result else { return ExitCode::SUCCESS };
+    say(&error);
+    ExitCode::FAILURE
+}
+
+fn measured(result: Result<(), LoadError>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
     say(&error);
     ExitCode::FAILURE

@@ -15,6 +15,7 @@ mod jobs;
 mod later_programs;
 mod library;
 mod library_commands;
+mod load;
 mod logging;
 mod memory;
 mod obstacles;
