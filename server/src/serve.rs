@@ -72,6 +72,8 @@ pub fn run(options: &cli::Serve) -> Result<(), ServeError> {
     let filter = EnvFilter::try_new(&options.log)
         .map_err(|cause| ServeError::Log { filter: options.log.clone(), cause })?;
     let _log = logging::start(filter, options.log_format)?;
+    #[cfg(unix)]
+    open_as_many_files_as_one_may();
     let pool = SimulationPool::new(None)?;
     tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(serve(options, pool))
 }
@@ -161,6 +163,18 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     }
     store.close().await;
     Ok(())
+}
+
+/// A socket is a file to the system, which lets programs have few unless they ask.
+#[cfg(unix)]
+fn open_as_many_files_as_one_may() {
+    use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
+    let Rlimit { current, maximum } = getrlimit(Resource::Nofile);
+    if current != maximum
+        && let Err(error) = setrlimit(Resource::Nofile, Rlimit { current: maximum, maximum })
+    {
+        tracing::warn!(%error, "no more than {} files can be open", current.unwrap_or(u64::MAX));
+    }
 }
 
 /// The other address of `localhost`, which browsers try first: whoever has it would get what is meant for this server.

@@ -28,7 +28,7 @@ use crate::{
 };
 
 /// Sockets at a time, over all sessions,
-const MAX_SOCKETS: usize = 1024;
+const MAX_SOCKETS: usize = 4096;
 /// and those of one network, but for this machine.
 const MAX_SOCKETS_OF_ONE: usize = 256;
 

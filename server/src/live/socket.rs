@@ -31,6 +31,8 @@ const PING_PAUSE: Duration = Duration::from_millis(50);
 const LAST_WORDS: Duration = Duration::from_secs(2);
 /// How long the other side may take to answer a close.
 const CLOSING: Duration = Duration::from_secs(2);
+/// The same of a server that stops: the next one waits for its end.
+const STOPPING: Duration = Duration::from_millis(800);
 
 /// Connects a socket with a session, where it may do this, until one of them ends; or until it may not go on, for the
 /// reason that `let_out` gives.
@@ -61,7 +63,7 @@ pub async fn serve(
             },
             () = &mut writing => {
                 // The close frame is sent. What the client still sends is read, so that it can read the frame.
-                let _ = timeout(CLOSING, &mut reading).await;
+                let _ = timeout(patience(closing.farewell().code), &mut reading).await;
             }
         }
     }
@@ -148,7 +150,8 @@ async fn write(
         () = out_of_patience(&closing) => true,
     };
     if connected {
-        let _ = timeout(CLOSING, sink.send(close_message(&closing.farewell()))).await;
+        let farewell = closing.farewell();
+        let _ = timeout(patience(farewell.code), sink.send(close_message(&farewell))).await;
     }
 }
 
@@ -179,11 +182,18 @@ async fn forward(
     }
 }
 
+/// How long the other side may take to answer a close with this code.
+fn patience(code: CloseCode) -> Duration {
+    if code == CloseCode::GoingAway { STOPPING } else { CLOSING }
+}
+
 /// Waits until the socket must be closed whether or not anybody reads.
 async fn out_of_patience(closing: &Closing) {
     closing.decided().await;
-    if closing.farewell().code != CloseCode::TooSlow {
-        sleep(LAST_WORDS).await;
+    match closing.farewell().code {
+        CloseCode::TooSlow => {}
+        CloseCode::GoingAway => sleep(STOPPING).await,
+        _ => sleep(LAST_WORDS).await,
     }
 }
 
