@@ -167,6 +167,13 @@ impl Actor {
                 "the last commands may not have been kept, or are in no snapshot"
             );
         }
+        // It rests for want of memory, and not because the server did not outlive it.
+        if self.is_counted
+            && self.session.paused() == Some(Pause::Memory)
+            && let Err(error) = self.services.store.forget_tries(&self.lease).await
+        {
+            tracing::warn!(session = self.name, %error, "that the session lives is not kept");
+        }
         self.services.store.release(self.lease).await;
     }
 

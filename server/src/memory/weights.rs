@@ -19,7 +19,7 @@ const EXPORTED_BYTE: u64 = 10;
 const MODEL_BYTE: u64 = 4;
 
 /// Rows for which memory is taken at once, so that a session that grows asks now and then.
-pub const STRIDE: u64 = 4096;
+pub const STRIDE: u64 = 512;
 
 /// A session whose document has so many rows.
 pub fn session(rows: u64) -> u64 {
