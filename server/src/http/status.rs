@@ -86,6 +86,9 @@ pub(super) async fn status(State(shared): State<Shared>) -> Result<Json<ServerSt
     }))
 }
 
+/// A figure of each class of work: its name, what it says, and where it stands.
+type Counter = (&'static str, &'static str, fn(&Done) -> f64);
+
 fn written(shared: &Shared, sessions: &[Looked]) -> String {
     let mut out = Figures::default();
     let version = env!("CARGO_PKG_VERSION");
@@ -98,7 +101,7 @@ fn written(shared: &Shared, sessions: &[Looked]) -> String {
     for ((_, name), waiting) in Class::ALL.into_iter().zip(waiting) {
         figure.value(&[("class", name)], waiting);
     }
-    let counters: [(&'static str, &str, fn(&Done) -> f64); 3] = [
+    let counters: [Counter; 3] = [
         ("espalier_slices_total", "Slices of work that were done.", |done| done.slices as f64),
         ("espalier_slices_waited_seconds_total", "Seconds that slices waited for a worker.", |done| {
             done.waited.as_secs_f64()
