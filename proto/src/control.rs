@@ -7,16 +7,19 @@ use serde_json::Value;
 use ts_rs::TS;
 
 use crate::{
-    bounded::{List, PredictedSteps},
+    access::Role,
+    bounded::{BrushRadius, List, PredictedSteps},
     command::Command,
     envelope::FrameKind,
     obstacle::PlacedObstacle,
     place::Position,
+    presence::{Camera, Person, Pointer},
     problem::Problem,
-    programme::Programme,
+    programme::{Programme, Slug},
     reading::{self, tagged_enum},
+    text::Name,
     timeline::{Timeline, TimelineChange, WidthConstraint},
-    version::MAX_PRUNED_ROWS,
+    version::{MAX_PRUNED_ROWS, MAX_SKETCH_PLACES},
 };
 
 /// What a returning client still has (`RS1`).
@@ -38,6 +41,11 @@ fn mesh_delta() -> FrameKind {
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
 fn is_mesh_delta(kind: &FrameKind) -> bool {
     *kind == mesh_delta()
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 tagged_enum! {
@@ -78,6 +86,51 @@ tagged_enum! {
             rows: List<u32, 0, MAX_PRUNED_ROWS>,
             /// Up to 100 simulation steps; 0 without rows ends the ghost.
             steps: PredictedSteps,
+        },
+        /// Where somebody points and what they do: the newest only counts, and nothing is kept (`PS1`).
+        ///
+        /// What is left out is not there, but for camera and name, which stay as they were.
+        Here {
+            /// Where they point, if anywhere.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            pointer: Option<Pointer>,
+            /// The radius of their brush, if that is what they hold.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            radius: Option<BrushRadius>,
+            /// The tool that they hold.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            tool: Option<Slug>,
+            /// 1 to 48 places of a line that they are drawing and that is not sent yet.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            sketch: Option<List<Position, 1, MAX_SKETCH_PLACES>>,
+            /// What they see.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            camera: Option<Camera>,
+            /// Whether they look at something else.
+            #[serde(default, skip_serializing_if = "is_false")]
+            #[ts(as = "Option<bool>", optional)]
+            away: bool,
+            /// What they want to be called.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            name: Option<Name>,
+        },
+        /// Follow the camera of a device (`PS4`).
+        Follow {
+            /// Which; none to follow nobody any more.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            device: Option<u32>,
+        },
+        /// Bring everyone to a view (`PS5`).
+        Gather {
+            /// The view.
+            camera: Camera,
         },
         /// Is the server there?
         Ping {
@@ -313,6 +366,27 @@ pub enum ServerMessage {
     Hint {
         /// What and why.
         hint: Hint,
+    },
+    /// Who is here, all of them: to whom has said `here`, and when it changes (`PS3`).
+    People {
+        /// The number of the device that this goes to.
+        you: u32,
+        /// In order of their numbers.
+        people: Vec<Person>,
+        /// How many devices are here beside those.
+        more: u32,
+    },
+    /// Somebody brings everyone to a view (`PS5`).
+    Gathered {
+        /// The device that asked for it.
+        by: u32,
+        /// The view.
+        camera: Camera,
+    },
+    /// What this client may do from now on (`AU3`).
+    Role {
+        /// As the role.
+        role: Role,
     },
     /// The answer to a ping.
     Pong {

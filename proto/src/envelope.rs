@@ -46,6 +46,8 @@ pub enum FrameKind {
     Bend = 2,
     /// A prediction, [`crate::ghost::GhostFrame`].
     Ghost = 3,
+    /// Where people point and what they see, [`crate::presence_frame::PresenceFrame`].
+    Presence = 4,
 }
 
 impl Serialize for FrameKind {
@@ -69,8 +71,8 @@ schemas! {
 
 impl FrameKind {
     /// All kinds.
-    pub const ALL: [Self; 3] = [Self::MeshDelta, Self::Bend, Self::Ghost];
-    const CODES: Between<u32> = Between(Self::MeshDelta as u32, Self::Ghost as u32);
+    pub const ALL: [Self; 4] = [Self::MeshDelta, Self::Bend, Self::Ghost, Self::Presence];
+    const CODES: Between<u32> = Between(Self::MeshDelta as u32, Self::Presence as u32);
 
     /// Its number in the header.
     pub fn code(self) -> u8 {

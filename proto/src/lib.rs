@@ -19,6 +19,8 @@ pub mod mesh;
 pub mod obstacle;
 pub mod permission;
 pub mod place;
+pub mod presence;
+pub mod presence_frame;
 pub mod problem;
 pub mod programme;
 pub mod protocol_tables;
@@ -38,8 +40,8 @@ pub mod version;
 
 pub use bend::{BendFrame, RowMotion};
 pub use bounded::{
-    Age, BrushRadius, Depth, Diameter, LinkHours, List, PredictedSteps, Scale, Share, SphereRadius, Steps,
-    Touches,
+    Age, BrushRadius, Depth, Diameter, EyeDistance, LinkHours, List, Pitch, PredictedSteps, Scale, Share,
+    SphereRadius, Steps, Touches, Yaw,
 };
 pub use command::{Action, Command, StrokeSample};
 pub use control::{
@@ -53,7 +55,9 @@ pub use mesh::{Mesh, MeshError};
 pub use obstacle::{
     MeshSize, Obstacle, PlacedObstacle, PlacedShape, Pose, Shape, SimpleShape, UploadedObstacle,
 };
-pub use place::{BoxSize, Direction, DrawingPlane, PlanePoint, Position, UnitRotation};
+pub use place::{BoxSize, Direction, DrawingPlane, Offset, PlanePoint, Position, UnitRotation};
+pub use presence::{Camera, Device, Person, Pointer, Whereabouts};
+pub use presence_frame::{DeviceNews, PointerNews, PointerPlace, PresenceFrame};
 pub use problem::{Problem, ProblemCode};
 pub use programme::{ParameterName, Programme, Slug, Stage};
 pub use reason::Reason;

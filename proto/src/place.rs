@@ -57,6 +57,8 @@ impl<'de, const N: usize> Visitor<'de> for Numbers<N> {
 
 const ANY: Between<f32> = Between(f32::NEG_INFINITY, f32::INFINITY);
 const ACROSS: Between<f32> = Between(-FARTHEST, FARTHEST);
+/// Beside a place on wood.
+const NEAR: Between<f32> = Between(-16.0, 16.0);
 const UPWARDS: Between<f32> = Between(DEEPEST, FARTHEST);
 
 /// Declares numbers that stand together.
@@ -116,6 +118,8 @@ several! {
         format!("three numbers, x and z {ACROSS}, y {UPWARDS}");
     /// A place on a plane, in internode lengths (`LM5`).
     PlanePoint: Vec2 = [f32; 2], [ACROSS; 2], format!("two numbers, {ACROSS}");
+    /// From a place on wood to where a pointer is, in internode lengths (`LM19`).
+    Offset: Vec3 = [f32; 3], [NEAR; 3], format!("three numbers, {NEAR}");
     /// Width, height and depth of a box, in internode lengths (`LM6`).
     BoxSize: Vec3 = [f32; 3], [BoxSide::RANGE; 3], format!("three numbers, {}", BoxSide::RANGE);
 }

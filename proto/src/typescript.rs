@@ -8,8 +8,8 @@ use ts_rs::{Config, TS};
 
 use crate::{
     access::{self, Role},
-    bounded, command, control, envelope, frame, library, obstacle, permission, place, problem, programme,
-    reason, schematic, species, status, thumbnail, timeline, version,
+    bounded, command, control, envelope, frame, library, obstacle, permission, place, presence, problem,
+    programme, reason, schematic, species, status, thumbnail, timeline, version,
 };
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
@@ -41,6 +41,7 @@ pub fn declarations() -> String {
     constant("MAX_STAGES", version::MAX_STAGES.to_string());
     constant("MAX_AGE", version::MAX_AGE.to_string());
     constant("MAX_FUTURES", version::MAX_FUTURES.to_string());
+    constant("MAX_SKETCH_PLACES", version::MAX_SKETCH_PLACES.to_string());
     constant("MAX_OBSTACLES", version::MAX_OBSTACLES.to_string());
     constant("MAX_MESH_VERTICES", version::MAX_MESH_VERTICES.to_string());
     constant("MAX_MESH_TRIANGLES", version::MAX_MESH_TRIANGLES.to_string());
@@ -135,6 +136,11 @@ pub fn declarations() -> String {
         timeline::Timeline::decl(&config),
         timeline::TimelineChange::decl(&config),
         timeline::WidthConstraint::decl(&config),
+        presence::Pointer::decl(&config),
+        presence::Camera::decl(&config),
+        presence::Whereabouts::decl(&config),
+        presence::Device::decl(&config),
+        presence::Person::decl(&config),
         control::Resume::decl(&config),
         control::DocumentState::decl(&config),
         control::Pause::decl(&config),

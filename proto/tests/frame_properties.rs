@@ -1,7 +1,8 @@
 //! Frames survive the journey, and no bytes at all bring the decoder down.
 
 use espalier_proto::{
-    BendFrame, ChunkChange, Frame, FrameError, GhostFrame, RowMotion, Rows, Values,
+    BendFrame, ChunkChange, DeviceNews, Frame, FrameError, GhostFrame, PointerNews, PointerPlace,
+    PresenceFrame, RowMotion, Rows, Values,
     frame::{CHUNK_ROWS, HEADER_BYTES},
 };
 use proptest::{collection::vec, prelude::*, sample::subsequence};
@@ -85,6 +86,30 @@ fn bend_frame() -> impl Strategy<Value = BendFrame> {
         .prop_map(|(epoch, sequence, bend, motions)| BendFrame { epoch, sequence, bend, motions })
 }
 
+fn presence_frame() -> impl Strategy<Value = PresenceFrame> {
+    let steps = || prop::array::uniform3(any::<i32>());
+    let place = prop_oneof![
+        Just(PointerPlace::Nowhere),
+        (any::<u32>(), any::<u8>(), steps()).prop_map(|(row, along, offset)| PointerPlace::Wood {
+            row,
+            along,
+            offset
+        }),
+        steps().prop_map(PointerPlace::Space),
+    ];
+    let pointer = (place, any::<u32>()).prop_map(|(place, radius)| PointerNews { place, radius });
+    let camera = (prop::array::uniform3(finite()), prop::array::uniform3(finite()))
+        .prop_map(|([a, b, c], [d, e, f])| [a, b, c, d, e, f]);
+    let sketch = prop::option::of(vec(steps(), 0..40));
+    let news = (any::<u32>(), prop::option::of(pointer), sketch, prop::option::of(camera))
+        .prop_map(|(device, pointer, sketch, camera)| DeviceNews { device, pointer, sketch, camera });
+    (any::<u32>(), any::<u32>(), vec(news, 0..20)).prop_map(|(epoch, sequence, devices)| PresenceFrame {
+        epoch,
+        sequence,
+        devices,
+    })
+}
+
 /// A valid header in front of any body at all: what is most likely to reach the depths of the decoder.
 fn headed(body: &[u8]) -> Vec<u8> {
     let mut bytes = vec![1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
@@ -126,6 +151,20 @@ proptest! {
         frame[1] = 2;
         if let Ok(frame) = BendFrame::decode(&frame) {
             prop_assert_eq!(BendFrame::decode(&frame.encode()), Ok(frame));
+        }
+    }
+
+    #[test]
+    fn presence_frames_survive_the_journey(frame in presence_frame()) {
+        prop_assert_eq!(PresenceFrame::decode(&frame.encode()), Ok(frame));
+    }
+
+    #[test]
+    fn arbitrary_presence_frames_never_panic(bytes in vec(any::<u8>(), 0..80)) {
+        let mut frame = headed(&bytes);
+        frame[1] = 4;
+        if let Ok(frame) = PresenceFrame::decode(&frame) {
+            prop_assert_eq!(PresenceFrame::decode(&frame.encode()), Ok(frame));
         }
     }
 

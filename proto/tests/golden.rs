@@ -4,7 +4,12 @@
 
 use std::{fs, path::PathBuf};
 
-use espalier_proto::{BendFrame, ChunkChange, Frame, GhostFrame, RowMotion, Rows, Values, frame::CHUNK_ROWS};
+use espalier_proto::{
+    BendFrame, ChunkChange, DeviceNews, Frame, GhostFrame, PointerNews, PointerPlace, PresenceFrame,
+    RowMotion, Rows, Values,
+    frame::CHUNK_ROWS,
+    presence_frame::{ALONG_STEPS, PLACE_STEPS, RADIUS_STEPS},
+};
 use serde_json::{Value, json};
 
 /// A seed, a trunk of three metamers and a lateral, in so few bytes that they travel raw.
@@ -172,6 +177,41 @@ fn described_ghost(ghost: &GhostFrame) -> Value {
     })
 }
 
+/// In internode lengths, as clients have it.
+fn described_place(steps: &[i32; 3]) -> Value {
+    json!(steps.map(|step| f64::from(step) / f64::from(PLACE_STEPS)))
+}
+
+fn described_presence(frame: &PresenceFrame) -> Value {
+    let devices = frame.devices.iter().map(|news| {
+        let mut device = json!({ "device": news.device });
+        if let Some(PointerNews { place, radius }) = &news.pointer {
+            let place = match place {
+                PointerPlace::Nowhere => json!({ "kind": "nowhere" }),
+                PointerPlace::Wood { row, along, offset } => json!({
+                    "kind": "wood",
+                    "row": row,
+                    "along": f64::from(*along) / f64::from(ALONG_STEPS),
+                    "offset": described_place(offset),
+                }),
+                PointerPlace::Space(position) => {
+                    json!({ "kind": "space", "position": described_place(position) })
+                }
+            };
+            let radius = f64::from(*radius) / f64::from(RADIUS_STEPS);
+            device["pointer"] = json!({ "place": place, "radius": radius });
+        }
+        if let Some(sketch) = &news.sketch {
+            device["sketch"] = sketch.iter().map(described_place).collect();
+        }
+        if let Some(camera) = &news.camera {
+            device["camera"] = json!(camera);
+        }
+        device
+    });
+    json!({ "epoch": frame.epoch, "sequence": frame.sequence, "devices": devices.collect::<Vec<_>>() })
+}
+
 /// The stored bytes are what the encoder writes, and the stored description what they mean.
 fn check_sample(name: &str, encoded: &[u8], description: &Value) {
     let file = |extension: &str| {
@@ -202,6 +242,11 @@ fn check_bend(name: &str, frame: &BendFrame) {
 fn check_ghost(name: &str, ghost: &GhostFrame) {
     assert_eq!(GhostFrame::decode(&ghost.encode()).as_ref(), Ok(ghost), "{name}");
     check_sample(name, &ghost.encode(), &described_ghost(ghost));
+}
+
+fn check_presence(name: &str, frame: &PresenceFrame) {
+    assert_eq!(PresenceFrame::decode(&frame.encode()).as_ref(), Ok(frame), "{name}");
+    check_sample(name, &frame.encode(), &described_presence(frame));
 }
 
 #[test]
@@ -254,4 +299,34 @@ fn pd2_a_ghost_has_a_table_of_its_own() {
 #[test]
 fn pd2_an_empty_ghost_is_none_any_more() {
     check_ghost("ghost-over", &GhostFrame { epoch: 7, sequence: 2, changes: Vec::new() });
+}
+
+#[test]
+fn ps2_a_presence_frame_tells_what_is_new_of_each_device() {
+    let brush = DeviceNews {
+        device: 1,
+        pointer: Some(PointerNews {
+            place: PointerPlace::Wood { row: 1234, along: 128, offset: [3, -40, 511] },
+            radius: 160,
+        }),
+        ..DeviceNews::default()
+    };
+    let lasso = DeviceNews {
+        device: 2,
+        pointer: Some(PointerNews { place: PointerPlace::Space([-32_000, 64, 0]), radius: 0 }),
+        sketch: Some(vec![[-32, 64, 0], [0, 96, 1], [32_000, -320, -1]]),
+        ..DeviceNews::default()
+    };
+    let camera = DeviceNews {
+        device: 300,
+        pointer: Some(PointerNews::default()),
+        sketch: Some(Vec::new()),
+        camera: Some([0.5, 12.25, -3.0, -90.0, 12.5, 60.0]),
+    };
+    let still = DeviceNews { device: 301, ..DeviceNews::default() };
+    let devices = vec![brush.clone(), lasso, camera, still];
+    check_presence("presence", &PresenceFrame { epoch: 7, sequence: 90, devices });
+    let mut bytes = Vec::new();
+    brush.write(&mut bytes);
+    assert!(bytes.len() <= 15, "a pointer with its brush has {} bytes", bytes.len());
 }

@@ -3,8 +3,8 @@
 use std::{collections::VecDeque, fmt::Debug, time::Duration};
 
 use espalier_proto::{
-    BendFrame, ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, Notice, PlacedObstacle, Problem,
-    Programme, ServerMessage, Timeline, WidthConstraint,
+    BendFrame, ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, Notice, Person, PlacedObstacle,
+    PresenceFrame, Problem, Programme, ServerMessage, Timeline, WidthConstraint, access::Role,
 };
 use espalier_settings::{Appearance, ParameterValues};
 use futures_util::{SinkExt, StreamExt};
@@ -67,6 +67,12 @@ pub struct Client {
     pub bend_frames: Vec<BendFrame>,
     /// Ghosts of predictions, in the order they came.
     pub ghosts: Vec<GhostFrame>,
+    /// Frames of presence.
+    pub presence: Vec<PresenceFrame>,
+    /// Who is here, as it was told last.
+    pub people: Vec<Person>,
+    /// What it was told that it may do, since it came in.
+    pub role: Option<Role>,
     /// The highest durable command.
     pub acknowledged: u32,
     /// The command up to which nothing is left to do (`CM11`).
@@ -194,6 +200,9 @@ impl Client {
             widths: Vec::new(),
             bend_frames: Vec::new(),
             ghosts: Vec::new(),
+            presence: Vec::new(),
+            people: Vec::new(),
+            role: None,
             acknowledged,
             done: 0,
             unacknowledged: VecDeque::new(),
@@ -356,6 +365,11 @@ impl Client {
                 self.ghosts.push(GhostFrame::decode(bytes).expect("every ghost is valid"));
                 self.ghosts.last().map(|ghost| ghost.sequence)
             }
+            FrameKind::Presence => {
+                let frame = PresenceFrame::decode(bytes).expect("every frame of presence is valid");
+                self.presence.push(frame);
+                self.presence.last().map(|frame| frame.sequence)
+            }
         };
         if let (Receipts::Sent, Some(sequence)) = (self.receipts, sequence) {
             self.send_message(&json!({ "type": "received", "sequence": sequence, "kind": kind.code() }))
@@ -413,7 +427,9 @@ impl Client {
             }
             ServerMessage::Notice { notice } => self.notices.push(notice),
             // Said to a person, who is not here.
-            ServerMessage::Hint { .. } => {}
+            ServerMessage::Hint { .. } | ServerMessage::Gathered { .. } => {}
+            ServerMessage::People { people, .. } => self.people = people,
+            ServerMessage::Role { role } => self.role = Some(role),
             ServerMessage::Pong { nonce } => self.pongs.push(nonce),
         }
     }

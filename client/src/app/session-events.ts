@@ -2,6 +2,7 @@ import type { Signal } from "@preact/signals";
 import type { TreeTable } from "../scene/table/tree-table";
 import type { DocumentState, Parameters } from "../wire/generated";
 import { FrameKind } from "../wire/generated";
+import type { Rights } from "./access/rights";
 import { handle, type MessageHandlers } from "./connection/page-message";
 import type { SessionEvents } from "./connection/session-link";
 import type { LookDraft } from "./document/appearance/look-draft";
@@ -12,6 +13,7 @@ import type { UnsavedTrees } from "./library/unsaved-trees";
 import type { Layout } from "./page/layout";
 import { explained, plainWords } from "./problems/explained";
 import { type RefusalTargets, refused } from "./problems/refusals";
+import type { Together } from "./together/together";
 import type { SharedBends } from "./tools/bend/shared-bends";
 import type { DrawnInVain } from "./tools/drawn-in-vain";
 import type { OutlineTrace } from "./tools/lasso/outline-trace";
@@ -40,6 +42,8 @@ export interface SessionTargets extends RefusalTargets {
   readonly stage: Pick<Stage, "changed" | "forget">;
   readonly firstView: FirstView;
   readonly drawnInVain: Pick<DrawnInVain, "show" | "clear">;
+  readonly together: Together;
+  readonly rights: Pick<Rights, "grant" | "mayChange">;
 }
 
 /** What a page does with the messages of the server: a row for each. */
@@ -69,6 +73,17 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
       page.widths.all.value = widths;
     },
     hint: ({ hint }) => page.drawnInVain.show(hint),
+    people: (people) => {
+      page.together.people.value = people;
+    },
+    gathered: (call) => page.together.listener?.gathered(call),
+    role: ({ role }) => {
+      page.rights.grant(role);
+      if (!page.rights.mayChange.peek()) {
+        // What was in progress, the server has ended where it was.
+        page.tools.abandon();
+      }
+    },
     notice: async ({ notice }) => {
       const words = await plainWords().catch(() => null);
       page.toasts.show(words ? words.noticed(notice) : say("notices.unread"));
@@ -93,6 +108,8 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
     aside: (aside) => {
       if (aside.kind === FrameKind.Ghost) {
         page.branches.prediction.receive(aside.frame);
+      } else if (aside.kind === FrameKind.Presence) {
+        page.together.listener?.receive(aside.frame);
       } else {
         // Someone else bends, so that the code which shows it is needed.
         void page.tools.load(toolFor("bend"));
@@ -109,6 +126,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
     },
     lost: () => {
       page.bends.clear();
+      page.together.forget();
       page.branches.prediction.lost();
     },
     leaving: () => {
@@ -135,6 +153,7 @@ function forget(page: SessionTargets): void {
   page.tools.clear();
   page.outline.clear();
   page.bends.clear();
+  page.together.forget();
   page.widths.all.value = [];
   page.obstacles.forget();
   page.time.clear();

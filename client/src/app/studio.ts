@@ -25,6 +25,7 @@ import { Toasts } from "./page/toasts";
 import { explained } from "./problems/explained";
 import { askAs } from "./requests/principal";
 import { sessionEvents } from "./session-events";
+import { Together } from "./together/together";
 import { SharedBends } from "./tools/bend/shared-bends";
 import { BranchWork } from "./tools/branch/branch-work";
 import { chooseBud } from "./tools/bud-choice";
@@ -108,6 +109,8 @@ export class Studio {
   readonly drawnInVain = new DrawnInVain(browserClock);
   readonly widths = new WidthList();
   readonly bends = new SharedBends();
+  /** Who else has the tree open. */
+  readonly together = new Together();
   readonly obstacles = new ObstacleList({
     submit: (command) => this.submit(command),
     newGesture: () => this.link.next,
@@ -159,7 +162,7 @@ export class Studio {
     table: this.table,
     submit: (command) => this.submit(command),
     newGesture: () => this.link.next,
-    predict: (rows, steps) => this.link.predict(rows, steps),
+    predict: (rows, steps) => this.link.tell({ type: "predict", rows, steps }),
     limits: () => this.widths.rows.peek(),
     cut: (rows) => this.tools.toolFor("cut")?.cut?.(rows),
     screen: () => this.stage.middle(),

@@ -22,6 +22,7 @@ export const MAX_PREDICTED_STEPS = 100;
 export const MAX_STAGES = 128;
 export const MAX_AGE = 10000;
 export const MAX_FUTURES = 64;
+export const MAX_SKETCH_PLACES = 48;
 export const MAX_OBSTACLES = 64;
 export const MAX_MESH_VERTICES = 65536;
 export const MAX_MESH_TRIANGLES = 131072;
@@ -47,6 +48,9 @@ export const BOUNDS = {
   Diameter: { least: 0.01, most: 100 },
   SphereRadius: { least: 0.1, most: 500 },
   BoxSide: { least: 0.1, most: 1000 },
+  Yaw: { least: -180, most: 180 },
+  Pitch: { least: -90, most: 90 },
+  EyeDistance: { least: 0.1, most: 10000 },
   Scale: { least: 0.001, most: 1000 },
 } as const;
 
@@ -70,6 +74,7 @@ export const FrameKind = {
   MeshDelta: 1,
   Bend: 2,
   Ghost: 3,
+  Presence: 4,
 } as const;
 
 /** Each may do what those before it may. */
@@ -1572,6 +1577,80 @@ diameter: number,
  */
 effective: number, };
 
+export type Pointer = { "kind": "wood", 
+/**
+ * The metamer's row.
+ */
+row: number, 
+/**
+ * How far along the metamer, from where it begins (0) to where it ends (1).
+ */
+along: number, 
+/**
+ * From there, in internode lengths along the axes h, u and w of `LF1`.
+ */
+offset: [number, number, number], } | { "kind": "space", 
+/**
+ * The place.
+ */
+position: [number, number, number], };
+
+export type Camera = { 
+/**
+ * What is in the middle of the picture.
+ */
+target: [number, number, number], 
+/**
+ * Turn around the vertical, in degrees; 0 looks along −z.
+ */
+yaw: number, 
+/**
+ * Height of the eye above the horizontal through the target, in degrees.
+ */
+pitch: number, 
+/**
+ * From the target to the eye, in internode lengths.
+ */
+distance: number, };
+
+export type Whereabouts = "here" | "away" | "gone";
+
+export type Device = { 
+/**
+ * Its number in this session; a page that connects again keeps it.
+ */
+device: number, 
+/**
+ * Whether its person looks at it.
+ */
+state: Whereabouts, 
+/**
+ * The tool that is in hand there.
+ */
+tool?: string, 
+/**
+ * The device whose camera it follows.
+ */
+follows?: number, };
+
+export type Person = { 
+/**
+ * Their number in this session, by which clients choose their colour.
+ */
+person: number, 
+/**
+ * What they are called, if they have a name.
+ */
+name?: string, 
+/**
+ * What they may do.
+ */
+role: Role, 
+/**
+ * Their pages, by their numbers.
+ */
+devices: Array<Device>, };
+
 export type Resume = { 
 /**
  * The epoch of the frames it holds.
@@ -1675,7 +1754,43 @@ rows: Array<number>,
 /**
  * Up to 100 simulation steps; 0 without rows ends the ghost.
  */
-steps: number, } | { "type": "ping", 
+steps: number, } | { "type": "here", 
+/**
+ * Where they point, if anywhere.
+ */
+pointer?: Pointer, 
+/**
+ * The radius of their brush, if that is what they hold.
+ */
+radius?: number, 
+/**
+ * The tool that they hold.
+ */
+tool?: string, 
+/**
+ * 1 to 48 places of a line that they are drawing and that is not sent yet.
+ */
+sketch?: Array<[number, number, number]>, 
+/**
+ * What they see.
+ */
+camera?: Camera, 
+/**
+ * Whether they look at something else.
+ */
+away?: boolean, 
+/**
+ * What they want to be called.
+ */
+name?: string, } | { "type": "follow", 
+/**
+ * Which; none to follow nobody any more.
+ */
+device?: number, } | { "type": "gather", 
+/**
+ * The view.
+ */
+camera: Camera, } | { "type": "ping", 
 /**
  * Comes back in the pong.
  */
@@ -1799,7 +1914,31 @@ notice: Notice, } | { "type": "hint",
 /**
  * What and why.
  */
-hint: Hint, } | { "type": "pong", 
+hint: Hint, } | { "type": "people", 
+/**
+ * The number of the device that this goes to.
+ */
+you: number, 
+/**
+ * In order of their numbers.
+ */
+people: Array<Person>, 
+/**
+ * How many devices are here beside those.
+ */
+more: number, } | { "type": "gathered", 
+/**
+ * The device that asked for it.
+ */
+by: number, 
+/**
+ * The view.
+ */
+camera: Camera, } | { "type": "role", 
+/**
+ * As the role.
+ */
+role: Role, } | { "type": "pong", 
 /**
  * The ping's.
  */

@@ -2,6 +2,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import type { ChunkChange, Rows } from "./frame";
 import { FrameKind } from "./generated";
+import { readPresence } from "./presence-frame";
 import { decodeServerFrame, type ServerFrame } from "./server-frame";
 
 const folder = new URL("../../../proto/golden/", import.meta.url);
@@ -12,6 +13,9 @@ const names = readdirSync(folder)
 /** The frame in the words of the samples' descriptions. */
 function described({ kind, frame }: ServerFrame): object {
   if (kind === FrameKind.Bend) return frame;
+  if (kind === FrameKind.Presence) {
+    return { epoch: frame.epoch, sequence: frame.sequence, devices: readPresence(frame.body) };
+  }
   const { epoch, sequence } = frame;
   const changes = frame.changes.map(describedChange);
   return kind === FrameKind.Ghost

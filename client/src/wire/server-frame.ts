@@ -1,5 +1,5 @@
 import { type BendFrame, decodeBend } from "./bend-frame";
-import { kindOf } from "./envelope";
+import { kindOf, type OpenedFrame, openFrame } from "./envelope";
 import { decodeFrame, type Frame } from "./frame";
 import { FrameKind } from "./generated";
 import { decodeGhost, type GhostFrame } from "./ghost";
@@ -8,7 +8,9 @@ import { decodeGhost, type GhostFrame } from "./ghost";
 export type ServerFrame =
   | { readonly kind: typeof FrameKind.MeshDelta; readonly frame: Frame }
   | { readonly kind: typeof FrameKind.Bend; readonly frame: BendFrame }
-  | { readonly kind: typeof FrameKind.Ghost; readonly frame: GhostFrame };
+  | { readonly kind: typeof FrameKind.Ghost; readonly frame: GhostFrame }
+  /** Its body is read by the code that shows others (`presence-frame.ts`). */
+  | { readonly kind: typeof FrameKind.Presence; readonly frame: OpenedFrame };
 
 /** A frame that does not change the table of rows. */
 export type AsideServerFrame = Exclude<ServerFrame, { readonly kind: typeof FrameKind.MeshDelta }>;
@@ -18,5 +20,6 @@ export async function decodeServerFrame(bytes: ArrayBuffer): Promise<ServerFrame
   const kind = kindOf(bytes);
   if (kind === FrameKind.Bend) return { kind, frame: await decodeBend(bytes) };
   if (kind === FrameKind.Ghost) return { kind, frame: await decodeGhost(bytes) };
+  if (kind === FrameKind.Presence) return { kind, frame: await openFrame(bytes, kind) };
   return { kind: FrameKind.MeshDelta, frame: await decodeFrame(bytes) };
 }

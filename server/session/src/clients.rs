@@ -3,8 +3,10 @@
 use std::{collections::BTreeMap, sync::Arc};
 
 use crate::{
+    entrant::Entrant,
     io::ClientId,
     prediction::{Cancelled, Prediction},
+    presence::Presence,
     principal::Principal,
     rights::Access,
     to_proto::Held,
@@ -12,8 +14,10 @@ use crate::{
 };
 
 /// One connection.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Client {
+    /// Whose it is.
+    pub(crate) entrant: Entrant,
     /// What it may do.
     pub(crate) access: Access,
     /// Control messages sent and not yet written to the socket (`FL3`).
@@ -34,6 +38,7 @@ pub(crate) struct ConnectedClient {
     pub(crate) view: View,
     pub(crate) watch: Watch,
     pub(crate) prediction_view: PredictionView,
+    pub(crate) presence: Presence,
 }
 
 /// The open bends that a client has seen (`BE5`).

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use espalier_proto::{Command, PlacedObstacle, Problem, version::CloseCode};
+use espalier_proto::{Command, PlacedObstacle, Problem, access::Role, version::CloseCode};
 
-use crate::{prediction::PredictionRun, principal::Principal, rights::Access, work::Work};
+use crate::{entrant::Entrant, prediction::PredictionRun, principal::Principal, work::Work};
 
 /// Names one connection; the shell numbers them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,8 +21,12 @@ pub struct ActId(pub u64);
 /// Something happened.
 #[derive(Debug)]
 pub enum Input {
-    /// A socket opened, of somebody who may do this.
-    Connected(ClientId, Access),
+    /// A socket opened, of this person.
+    Connected(ClientId, Entrant),
+    /// The person at a socket may do what this role may, from now on.
+    Granted(ClientId, Role),
+    /// A socket showed that somebody is there, by other means than a message.
+    Heard(ClientId),
     /// A text message came.
     Text(ClientId, String),
     /// A binary message came; there are none from clients, so it is answered with a problem.
@@ -67,6 +71,10 @@ pub enum Output {
     Text(ClientId, Arc<str>),
     /// Send a mesh delta.
     Frame(ClientId, Arc<[u8]>),
+    /// Send a frame of presence, when nothing else waits for this client.
+    Volatile(ClientId, Arc<[u8]>),
+    /// Ask a socket whether somebody is there; answer with `Heard` when they are.
+    Ping(ClientId),
     /// Close a socket; a sentence for people goes with the code. The session has forgotten the client already.
     Close(ClientId, CloseCode, String),
     /// Write these entries; answer with `Journaled` or `JournalFailed`. There is one batch on the way at a time.

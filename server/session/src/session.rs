@@ -7,6 +7,7 @@ mod delivery;
 mod greeting;
 mod pausing;
 mod predicting;
+mod presence;
 mod restoring;
 mod upkeep;
 
@@ -38,7 +39,9 @@ use crate::{
 };
 
 pub use self::restoring::Tail;
-use self::{acts::Act, commands::Queue, pausing::Pausing, restoring::Restored, upkeep::Upkeep};
+use self::{
+    acts::Act, commands::Queue, pausing::Pausing, presence::Room, restoring::Restored, upkeep::Upkeep,
+};
 
 /// One shared document with its clients. Feed it with [`Session::handle`], then drain [`Session::poll_output`].
 #[derive(Debug)]
@@ -75,6 +78,8 @@ pub struct Session {
     predictions: usize,
     upkeep: Upkeep,
     pausing: Pausing,
+    /// Who is here.
+    room: Room,
     /// What everybody here is notified of.
     notices: Vec<Notice>,
     failed: bool,
@@ -191,6 +196,7 @@ impl Session {
             home: Some(work),
             upkeep: Upkeep::new(snapshotted),
             pausing,
+            room: Room::default(),
             notices: Vec::new(),
             failed: false,
             outputs: VecDeque::new(),
@@ -214,7 +220,9 @@ impl Session {
         }
         self.start_clocks();
         match input {
-            Input::Connected(client, access) => self.connect(client, access),
+            Input::Connected(client, entrant) => self.connect(client, entrant),
+            Input::Granted(client, role) => self.grant(client, role),
+            Input::Heard(client) => self.hear(client),
             Input::Text(client, text) => self.read(client, &text),
             Input::Binary(client) => self.read_binary(client),
             Input::Disconnected(client) => self.forget(client),
@@ -311,6 +319,7 @@ impl Session {
         let message = ClientMessage::from_json(text);
         let Some(connected) = connected else { return self.greet(client, text, message) };
         let principal = connected.principal.clone();
+        self.hear(client);
         match message {
             Ok(ClientMessage::Command { id, command }) => {
                 self.end_prediction(client);
@@ -320,9 +329,17 @@ impl Session {
                 FrameKind::MeshDelta => self.received(client, sequence),
                 FrameKind::Bend => self.received_bend_frame(client, sequence),
                 FrameKind::Ghost => self.received_ghost(client, sequence),
+                FrameKind::Presence => self.received_presence(client, sequence),
             },
             Ok(ClientMessage::Predict { rows, steps }) => {
                 self.predict(client, Prediction { rows: rows.into(), steps: steps.get() });
+            }
+            Ok(ClientMessage::Follow { device }) => self.follow(client, device),
+            Ok(ClientMessage::Gather { camera }) => self.gather(client, camera),
+            Ok(here @ ClientMessage::Here { .. }) => {
+                if let Some((said, name)) = presence::said(here) {
+                    self.here(client, said, name.as_deref());
+                }
             }
             Ok(ClientMessage::Ping { nonce }) => self.send(client, &ServerMessage::Pong { nonce }),
             Ok(ClientMessage::Hello { .. }) => {

@@ -22,6 +22,11 @@ pub const TOKEN: &str = "esp_";
 /// The longest that anything may be good for.
 pub const LONGEST: Duration = Duration::from_hours(10 * 365 * 24);
 
+/// What a device is called that nobody has named: by an invitation,
+pub const UNNAMED_DEVICE: &str = "device";
+/// and by a link.
+pub const UNNAMED_LINK: &str = "link";
+
 /// Whom to invite.
 #[derive(Clone, Debug)]
 pub struct Invite {
@@ -37,7 +42,7 @@ pub struct Invite {
 
 impl Default for Invite {
     fn default() -> Self {
-        Self { name: "device".into(), role: Role::Owner, tree: None, lasts: None }
+        Self { name: UNNAMED_DEVICE.into(), role: Role::Owner, tree: None, lasts: None }
     }
 }
 

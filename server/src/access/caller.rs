@@ -8,10 +8,11 @@ use std::{
 use axum::http::{HeaderMap, header};
 use base64::{Engine, prelude::BASE64_URL_SAFE_NO_PAD};
 use espalier_proto::access::{Me, Role, Way};
+use espalier_session::Entrant;
 
 use super::{
     Action, Reach, SecretHash,
-    admission::{DEVICE_IDLE, TOKEN},
+    admission::{self, DEVICE_IDLE, TOKEN},
     cookie, hash,
 };
 use crate::{
@@ -151,11 +152,28 @@ impl Caller {
         self.grant.tree.as_deref()
     }
 
-    /// Whether they are still let in as they were.
-    pub async fn is_current(&self, store: &impl Passes) -> Result<bool, StoreError> {
-        let Some(held) = &self.pass else { return Ok(true) };
+    /// They as they are let in now, perhaps with another role; nothing if they are no longer, or for another tree.
+    pub async fn now(&self, store: &impl Passes) -> Result<Option<Self>, StoreError> {
+        let Some(held) = &self.pass else { return Ok(Some(self.clone())) };
         let pass = store.pass(held.hash, &written(SystemTime::now())).await?;
-        Ok(pass.is_some_and(|pass| Grant { role: pass.role, tree: pass.tree } == self.grant))
+        let pass = pass.filter(|pass| pass.tree == self.grant.tree);
+        Ok(pass.map(|pass| Self { grant: Grant { role: pass.role, tree: pass.tree }, ..self.clone() }))
+    }
+
+    /// What they may do.
+    pub fn role(&self) -> Role {
+        self.grant.role
+    }
+
+    /// They as a session knows them. A device is called as its invitation says, unless nobody has named it.
+    pub fn entrant(&self) -> Entrant {
+        let named = self.pass.as_ref().filter(|held| {
+            let is_named =
+                ![admission::UNNAMED_DEVICE, admission::UNNAMED_LINK].contains(&held.name.as_str());
+            held.kind == PassKind::Login || is_named
+        });
+        let name = named.map(|held| held.name.as_str().into());
+        Entrant { person: self.person().into(), name, role: self.grant.role }
     }
 
     /// Whether they may still do it to the server as a whole. A user may who has logged out.
@@ -333,7 +351,7 @@ mod tests {
         extend(&store, &pass().await, now + days(170)).await.unwrap();
         assert_eq!(pass().await.expires_at, first.ends_at);
         store.take_pass(&first.id).await.unwrap();
-        assert!(!caller.is_current(&store).await.unwrap());
+        assert_eq!(caller.now(&store).await.unwrap(), None);
         assert!(matches!(who(&with_cookie, "192.168.1.9", &store).await, Err(Unknown::NotLetIn)));
         // An invitation's own secret is no cookie.
         let invited = admission::invite(&store, Invite::default(), now).await.unwrap();

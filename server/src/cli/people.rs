@@ -9,7 +9,10 @@ use clap::{
 use espalier_proto::{access::Role, text::Name};
 
 use super::Database;
-use crate::{access::admission::LONGEST, store::folded};
+use crate::{
+    access::admission::{LONGEST, UNNAMED_DEVICE},
+    store::folded,
+};
 
 /// Options of `invite`.
 #[derive(Debug, Args)]
@@ -25,7 +28,7 @@ pub struct Invite {
     #[arg(long = "for", value_name = "TIME", value_parser = parse_time)]
     pub lasts: Option<Duration>,
     /// How to call their device in `espalier device ls`.
-    #[arg(long, default_value = "device", value_parser = parse_name)]
+    #[arg(long, default_value = UNNAMED_DEVICE, value_parser = parse_name)]
     pub name: String,
     /// Where others reach the server, such as <https://trees.example>; if not given, the addresses of this machine.
     #[arg(long, value_name = "URL", value_parser = parse_url)]

@@ -22,7 +22,7 @@ use super::{
 };
 use crate::{
     access::{
-        admission::{self, Invite},
+        admission::{self, Invite, UNNAMED_LINK},
         cookie,
     },
     hosts,
@@ -34,8 +34,6 @@ use crate::{
 const MOST: usize = 100;
 /// How long a link waits that is for no time of its own.
 const WAITS: Duration = Duration::from_hours(MAX_LINK_HOURS as u64);
-/// What a device is called that nobody has named.
-const UNNAMED: &str = "link";
 
 pub(super) async fn list(
     State(shared): State<Shared>,
@@ -60,7 +58,7 @@ pub(super) async fn add(
     Body(NewLink { role, hours, name }): Body<NewLink>,
 ) -> Result<impl IntoResponse, Failure> {
     there(&shared, &tree).await?;
-    let name = name.map_or_else(|| UNNAMED.to_owned(), String::from);
+    let name = name.map_or_else(|| UNNAMED_LINK.to_owned(), String::from);
     if of(&shared, &tree).await?.len() >= MOST {
         let problem = Problem::new(Reason::TooMany, format!("The tree has {MOST} links; revoke one first."));
         return Err(problem.at("tree", format!("a tree with fewer than {MOST} links")).into());

@@ -19,7 +19,7 @@ use espalier_proto::{
     library::{NewSession, SessionCreated, SessionTree},
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
-use espalier_session::{Access, DocumentError, Principal, RestoreError, Session};
+use espalier_session::{DocumentError, Principal, RestoreError, Session};
 
 use tokio::time::interval;
 
@@ -32,7 +32,7 @@ use super::{
 use crate::{
     SIMULATION_VERSION,
     access::{self, Action, Caller, Peer, Rate, SecretHash},
-    live::{self, OpenError, SessionHandle},
+    live::{self, Grants, OpenError, SessionHandle},
     memory::{self, Full, Growing, Need, Use},
     name,
     pool::Class,
@@ -242,21 +242,19 @@ fn no_memory(full: &Full) -> (CloseCode, String) {
     (CloseCode::TryAgainLater, problem.in_close())
 }
 
-/// What somebody may do in a session that they may join.
-async fn admit(
-    shared: &Shared,
-    caller: Result<Caller, Failure>,
-    session: &str,
-) -> Result<(Caller, Access), Failure> {
+/// Somebody who may join a session.
+async fn admit(shared: &Shared, caller: Result<Caller, Failure>, session: &str) -> Result<Caller, Failure> {
     let caller = caller?;
     shared.ask(&caller, Action::JoinSession, Named::Session(session)).await?;
-    let edits = shared.ask(&caller, Action::EditSession, Named::Session(session)).await;
-    Ok((caller, if edits.is_ok() { Access::Edit } else { Access::Look }))
+    Ok(caller)
 }
 
-async fn connect(socket: WebSocket, shared: &Shared, name: &str, (caller, access): (Caller, Access)) {
+async fn connect(socket: WebSocket, shared: &Shared, name: &str, caller: Caller) {
     let (code, sentence) = match shared.sessions.open(name).await {
-        Ok(Some(session)) => return live::serve(socket, session, access, let_out(shared, &caller)).await,
+        Ok(Some(session)) => {
+            let entrant = caller.entrant();
+            return live::serve(socket, session, entrant, |grants| let_out(shared, caller, grants)).await;
+        }
         Ok(None) => (CloseCode::UnknownSession, "There is no such session."),
         Err(OpenError::Memory(full)) => {
             let (code, sentence) = no_memory(&full);
@@ -277,17 +275,25 @@ async fn connect(socket: WebSocket, shared: &Shared, name: &str, (caller, access
     live::turn_away(socket, code, sentence).await;
 }
 
-/// Waits until somebody is let in no longer, and says so (`AC4`).
-async fn let_out(shared: &Shared, caller: &Caller) -> String {
+/// Waits until somebody is let in no longer, and says so (`AC4`); tells meanwhile what they may do when that changes
+/// (`AU3`).
+async fn let_out(shared: &Shared, mut caller: Caller, grants: Grants) -> String {
     if !caller.is_revocable() {
         return pending().await;
     }
     let mut ticks = interval(LOOKING);
-    // A database that cannot be read lets nobody out.
-    while caller.is_current(&*shared.store).await.unwrap_or(true) {
+    loop {
+        match caller.now(&*shared.store).await {
+            Ok(Some(now)) if now != caller => {
+                grants.grant(now.role()).await;
+                caller = now;
+            }
+            // A database that cannot be read lets nobody out.
+            Ok(Some(_)) | Err(_) => {}
+            Ok(None) => return access::not_let_in().in_close(),
+        }
         ticks.tick().await;
     }
-    access::not_let_in().in_close()
 }
 
 /// What was saved of a tree.

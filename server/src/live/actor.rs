@@ -244,14 +244,16 @@ impl Actor {
     fn requested(&mut self, request: Request) -> Option<Input> {
         self.patience = IDLE;
         Some(match request {
-            Request::Join(outbox, access, answer) => {
+            Request::Join(outbox, entrant, answer) => {
                 let client = ClientId(self.next_client);
                 // Where nobody takes the number, nobody would disconnect it.
                 answer.send(client).ok()?;
                 self.next_client += 1;
                 self.clients.insert(client, outbox);
-                Input::Connected(client, access)
+                Input::Connected(client, entrant)
             }
+            Request::Grant(client, role) => Input::Granted(client, role),
+            Request::Heard(client) => Input::Heard(client),
             Request::Text(client, text) => Input::Text(client, text),
             Request::Binary(client) => Input::Binary(client),
             Request::Written(client, count) => Input::Written(client, count),
@@ -350,6 +352,16 @@ impl Actor {
             Output::Frame(client, frame) => {
                 if let Some(outbox) = self.clients.get(&client) {
                     outbox.send(Outgoing::Frame(frame));
+                }
+            }
+            Output::Volatile(client, frame) => {
+                if let Some(outbox) = self.clients.get(&client) {
+                    outbox.show(frame);
+                }
+            }
+            Output::Ping(client) => {
+                if let Some(outbox) = self.clients.get(&client) {
+                    outbox.ping();
                 }
             }
             Output::Close(client, code, sentence) => {

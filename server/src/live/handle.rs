@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use espalier_proto::{Command, Mesh, Pause, PlacedObstacle, Problem};
-use espalier_session::{Access, ClientId, Principal, ReadDocument};
+use espalier_proto::{Command, Mesh, Pause, PlacedObstacle, Problem, access::Role};
+use espalier_session::{ClientId, Entrant, Principal, ReadDocument};
 use espalier_settings::ParameterValues;
 use tokio::sync::{mpsc, oneshot};
 use tokio_util::sync::CancellationToken;
@@ -13,9 +13,13 @@ use super::outbox::Outbox;
 /// What is asked of a session.
 #[derive(Debug)]
 pub(super) enum Request {
-    Join(Outbox, Access, oneshot::Sender<ClientId>),
+    Join(Outbox, Entrant, oneshot::Sender<ClientId>),
+    /// They may do what this role may, from now on.
+    Grant(ClientId, Role),
     Text(ClientId, String),
     Binary(ClientId),
+    /// Somebody is there.
+    Heard(ClientId),
     /// So many control messages have gone out.
     Written(ClientId, usize),
     Leave(ClientId),
@@ -76,9 +80,9 @@ impl SessionHandle {
         self.requests.send(request).await.map_err(|_| Ended)
     }
 
-    pub(super) async fn join(&self, outbox: Outbox, access: Access) -> Result<ClientId, Ended> {
+    pub(super) async fn join(&self, outbox: Outbox, entrant: Entrant) -> Result<ClientId, Ended> {
         let (answer, answered) = oneshot::channel();
-        self.send(Request::Join(outbox, access, answer)).await?;
+        self.send(Request::Join(outbox, entrant, answer)).await?;
         answered.await.map_err(|_| Ended)
     }
 

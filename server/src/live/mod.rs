@@ -11,4 +11,4 @@ mod turn;
 pub use handle::{Ended, SessionFigures, SessionHandle};
 pub use registry::{Looked, Sessions};
 pub use restoring::OpenError;
-pub use socket::{serve, turn_away};
+pub use socket::{Grants, serve, turn_away};

@@ -1,12 +1,13 @@
 //! What waits to be written to one socket.
 //!
 //! The lane has no bound of its own: the session counts unread control messages (`FL3`) and sends frames only as
-//! far as the client's window reaches (`FL1`).
+//! far as the client's window reaches (`FL1`). Beside it lies what is written when the lane is empty: one frame of
+//! presence, which a newer one replaces, and the question whether somebody is there (`PS`).
 
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use espalier_proto::version::CloseCode;
-use tokio::sync::mpsc;
+use tokio::sync::{Notify, mpsc};
 use tokio_util::sync::CancellationToken;
 
 /// Something to write.
@@ -20,6 +21,7 @@ pub(super) enum Outgoing {
 #[derive(Clone, Debug)]
 pub(super) struct Outbox {
     lane: mpsc::UnboundedSender<Outgoing>,
+    beside: Arc<Beside>,
     closing: Closing,
 }
 
@@ -27,7 +29,42 @@ pub(super) struct Outbox {
 #[derive(Debug)]
 pub(super) struct Outgoings {
     pub(super) lane: mpsc::UnboundedReceiver<Outgoing>,
+    pub(super) beside: Arc<Beside>,
     pub(super) closing: Closing,
+}
+
+/// What is written when the lane is empty.
+#[derive(Debug, Default)]
+pub(super) struct Beside {
+    waiting: Mutex<Waiting>,
+    put: Notify,
+}
+
+/// What lies beside the lane.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(super) struct Waiting {
+    /// The newest frame of presence.
+    pub(super) presence: Option<Arc<[u8]>>,
+    /// Whether it is to be asked if somebody is there.
+    pub(super) ping: bool,
+}
+
+impl Beside {
+    fn put(&self, change: impl FnOnce(&mut Waiting)) {
+        change(&mut self.waiting.lock().unwrap_or_else(PoisonError::into_inner));
+        self.put.notify_one();
+    }
+
+    /// Waits until something lies here, and takes it.
+    pub(super) async fn take(&self) -> Waiting {
+        loop {
+            let waiting = std::mem::take(&mut *self.waiting.lock().unwrap_or_else(PoisonError::into_inner));
+            if waiting != Waiting::default() {
+                return waiting;
+            }
+            self.put.notified().await;
+        }
+    }
 }
 
 /// Why and how the socket is to be closed, once that is decided.
@@ -46,14 +83,25 @@ pub(super) struct Farewell {
 
 pub(super) fn lane() -> (Outbox, Outgoings) {
     let (sender, receiver) = mpsc::unbounded_channel();
-    let closing = Closing::default();
-    (Outbox { lane: sender, closing: closing.clone() }, Outgoings { lane: receiver, closing })
+    let (closing, beside) = (Closing::default(), Arc::<Beside>::default());
+    let outbox = Outbox { lane: sender, beside: Arc::clone(&beside), closing: closing.clone() };
+    (outbox, Outgoings { lane: receiver, beside, closing })
 }
 
 impl Outbox {
     pub(super) fn send(&self, outgoing: Outgoing) {
         // The socket may be gone already; its end tells the session so.
         let _ = self.lane.send(outgoing);
+    }
+
+    /// Takes the place of the frame of presence that still waits, if one does.
+    pub(super) fn show(&self, frame: Arc<[u8]>) {
+        self.beside.put(|waiting| waiting.presence = Some(frame));
+    }
+
+    /// Asks whether somebody is there; twice is once where the first question still waits.
+    pub(super) fn ping(&self) {
+        self.beside.put(|waiting| waiting.ping = true);
     }
 
     pub(super) fn close(&self, code: CloseCode, sentence: String) {
@@ -104,6 +152,18 @@ mod tests {
         }
         assert_eq!(outgoings.lane.recv().await, None);
         assert_eq!(outgoings.closing.farewell().code, CloseCode::InternalError);
+    }
+
+    #[tokio::test]
+    async fn ps2_of_presence_the_newest_waits_alone() {
+        let (outbox, outgoings) = lane();
+        for number in 0..200 {
+            outbox.show([number].into());
+            outbox.ping();
+        }
+        assert_eq!(outgoings.beside.take().await, Waiting { presence: Some([199].into()), ping: true });
+        outbox.show([7].into());
+        assert_eq!(outgoings.beside.take().await, Waiting { presence: Some([7].into()), ping: false });
     }
 
     #[tokio::test]

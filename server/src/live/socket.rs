@@ -6,8 +6,9 @@ use axum::{
     body::Bytes,
     extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket},
 };
+use espalier_proto::access::Role;
 use espalier_proto::version::{CloseCode, MAX_MESSAGE_BYTES};
-use espalier_session::{Access, ClientId};
+use espalier_session::{ClientId, Entrant};
 use futures_util::{
     SinkExt, StreamExt,
     stream::{SplitSink, SplitStream},
@@ -34,23 +35,39 @@ const CLOSING: Duration = Duration::from_secs(2);
 /// The same of a server that stops: the next one waits for its end.
 const STOPPING: Duration = Duration::from_millis(800);
 
-/// Connects a socket with a session, where it may do this, until one of them ends; or until it may not go on, for the
-/// reason that `let_out` gives.
-pub async fn serve(
+/// Tells a session what somebody may do from now on.
+#[derive(Clone, Debug)]
+pub struct Grants {
+    session: SessionHandle,
+    client: ClientId,
+}
+
+impl Grants {
+    /// They may do what this role may.
+    pub async fn grant(&self, role: Role) {
+        // Fails when the session has ended, and the socket with it.
+        let _ = self.session.send(Request::Grant(self.client, role)).await;
+    }
+}
+
+/// Connects a socket with a session for somebody until one of them ends; or until they may not go on, for the
+/// reason that `let_out` gives, which also tells what they may do when that changes.
+pub async fn serve<LetOut: Future<Output = String>>(
     socket: WebSocket,
     session: SessionHandle,
-    access: Access,
-    let_out: impl Future<Output = String>,
+    entrant: Entrant,
+    let_out: impl FnOnce(Grants) -> LetOut,
 ) {
     let (outbox, outgoings) = outbox::lane();
     let closing = outgoings.closing.clone();
-    let Ok(client) = session.join(outbox, access).await else {
+    let Ok(client) = session.join(outbox, entrant).await else {
         return turn_away(socket, CloseCode::GoingAway, "The session is being put away; come back.").await;
     };
     let (sink, stream) = socket.split();
     let mut reading = pin!(read(stream, &session, client, &closing));
     {
         let mut writing = pin!(write(sink, outgoings, &session, client));
+        let let_out = let_out(Grants { session: session.clone(), client });
         let watching = async {
             let sentence = let_out.await;
             closing.decide(Farewell { code: CloseCode::CannotOpen, sentence });
@@ -103,7 +120,8 @@ async fn read(
             Ok(Message::Text(text)) => Request::Text(client, text.as_str().into()),
             Ok(Message::Binary(_)) => Request::Binary(client),
             // A goodbye is answered while the next message is asked for, of which there is none.
-            Ok(Message::Close(_) | Message::Pong(_)) => continue,
+            Ok(Message::Close(_)) => continue,
+            Ok(Message::Pong(_)) => Request::Heard(client),
             Ok(Message::Ping(_)) => {
                 sleep_until(next_ping).await;
                 next_ping = Instant::now() + PING_PAUSE;
@@ -177,6 +195,14 @@ async fn forward(
                 None => return Ok(()),
             },
             () = outgoings.closing.decided() => return Ok(()),
+            waiting = outgoings.beside.take() => {
+                if waiting.ping {
+                    sink.send(Message::Ping(Bytes::new())).await?;
+                }
+                if let Some(frame) = waiting.presence {
+                    sink.send(Message::Binary(Bytes::from_owner(frame))).await?;
+                }
+            }
             _ = pings.tick() => sink.send(Message::Ping(Bytes::new())).await?,
         }
     }

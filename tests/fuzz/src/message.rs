@@ -1,6 +1,7 @@
 //! What a client sends to a session, from its first message on.
 
-use espalier_session::{Access, ClientId, Input, JournalEntry, Output, Session};
+use espalier_proto::access::Role;
+use espalier_session::{ClientId, Entrant, Input, JournalEntry, Output, Session};
 
 use crate::{METAMERS, SEED, command};
 
@@ -14,7 +15,7 @@ pub fn read(bytes: &[u8]) -> bool {
     let snapshot = Session::seedling(SEED, METAMERS);
     let Ok(session) = Session::restore("fuzzed", 1, Some(&snapshot), SEED, []) else { return false };
     let mut house = House { session, journal: Vec::new(), slices: 0, is_open: true };
-    house.handle(Input::Connected(CLIENT, Access::Edit));
+    house.handle(Input::Connected(CLIENT, Entrant::new("somebody", Role::Editor)));
     for message in bytes.split(|&byte| byte == b'\n') {
         if !house.is_open {
             return false;
@@ -48,6 +49,8 @@ pub fn seeds() -> Vec<Vec<u8>> {
         r#"{"type":"ping","nonce":3}"#,
         r#"{"type":"received","sequence":1}"#,
         r#"{"type":"predict","rows":[],"steps":2}"#,
+        r#"{"type":"here","pointer":{"kind":"wood","row":1,"along":0.5,"offset":[0,1,0]},"tool":"brush","radius":2}"#,
+        r#"{"type":"follow","device":1}"#,
         r#"{"type":"command","id":1,"command":{"kind":"undo"}}"#,
     ];
     vec![all.join("\n").into_bytes(), all[..6].join("\n").into_bytes(), questions.join("\n").into_bytes()]

@@ -20,6 +20,7 @@ mod logging;
 mod memory;
 mod obstacles;
 mod people;
+mod presence;
 mod python;
 mod shaping;
 mod shared_tree;

@@ -3,12 +3,15 @@
 use std::path::Path;
 
 use espalier_tests::{
+    client,
     http::{self, Answer},
     program::{self, Finished},
     scratch::Scratch,
     server::Server,
 };
+use futures_util::SinkExt;
 use serde_json::{Value, json};
+use tokio_tungstenite::tungstenite::Message;
 
 use super::people::{ask, name, printed_by};
 
@@ -84,6 +87,46 @@ fn ac9_users_are_listed_changed_and_removed_while_the_server_runs() {
     assert_eq!(actions, expected);
     assert_eq!((&events[1]["who"], &events[2]["outcome"]), (&json!("login Bo"), &json!("401")));
     assert_eq!(said(&["ls"], ""), "");
+}
+
+#[tokio::test]
+async fn au3_a_role_changes_while_its_user_is_connected() {
+    let scratch = Scratch::new();
+    let database = scratch.path("trees.db");
+    let server = Server::start_with(&database, 0, &["--auth"]);
+    assert_eq!(user(&["add", "Bo"], &database, "battery staple").code, 0);
+    let bo = cookie(&server, "Bo", "battery staple");
+    let created = ask(&server, "POST", "/api/v1/sessions", &bo, r#"{"seed":7}"#).json();
+    let session = created["session"].as_str().expect("it has a name").to_owned();
+    let value = bo.strip_prefix("cookie: ").expect("it is a header");
+    let mut socket = client::open_with(server.port(), &session, &[("cookie", value)]).await;
+    let hello = json!({ "type": "hello", "protocol": 1, "client": "browser-1" });
+    socket.send(client::text(&hello)).await.expect("it is sent");
+    for (role, expected) in [("viewer", "refused"), ("owner", "acknowledged")] {
+        assert_eq!(user(&["role", "Bo", role], &database, "").code, 0);
+        let told = until(&mut socket, "role").await;
+        assert_eq!(told["role"], role);
+        let id = if role == "viewer" { 1 } else { 2 };
+        let command = json!({ "type": "command", "id": id, "command": { "kind": "grow", "steps": 1 } });
+        socket.send(client::text(&command)).await.expect("it is sent");
+        assert_eq!(until(&mut socket, expected).await["id"], id);
+    }
+}
+
+/// The next message of a type.
+async fn until(socket: &mut client::Socket, kind: &str) -> Value {
+    loop {
+        match client::next(socket).await {
+            Some(Message::Text(text)) => {
+                let message: Value = serde_json::from_str(&text).expect("it is JSON");
+                if message["type"] == kind {
+                    return message;
+                }
+            }
+            Some(Message::Binary(_)) => {}
+            other => panic!("{other:?} instead of {kind}"),
+        }
+    }
 }
 
 #[test]

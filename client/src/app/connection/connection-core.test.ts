@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { type Command, type DocumentState, type Parameters, PROTOCOL_VERSION, type Resume } from "../../wire/generated";
-import { type ClientRecord, ConnectionCore, type Effect, PING_AFTER, PONG_WITHIN } from "./connection-core";
+import { type ClientRecord, ConnectionCore, type Effect, PING_AFTER, PONG_WITHIN, WATCHFUL } from "./connection-core";
 
 const state: DocumentState = {
   step: 0,
@@ -379,6 +379,16 @@ describe("liveness", () => {
     core.tick(PING_AFTER + PONG_WITHIN);
     expect(kinds(core.effects())).toEqual(["close"]);
     expect(core.phase).toBe("waiting");
+  });
+
+  it("PS3: while others are shown, notices within four seconds that the server is out of reach", () => {
+    const { core, connect } = setUp();
+    core.watchful = true;
+    connect(0);
+    core.tick(WATCHFUL);
+    expect(core.effects()).toMatchObject([{ kind: "send", message: { type: "ping" } }]);
+    core.tick(2 * WATCHFUL);
+    expect([2 * WATCHFUL, core.phase]).toEqual([4000, "waiting"]);
   });
 
   it("any sign of life answers the question", () => {

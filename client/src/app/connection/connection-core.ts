@@ -14,6 +14,8 @@ import type { PageMessage } from "./page-message";
 export const PING_AFTER = 3000;
 /** How long a ping may stay unanswered before the socket counts as dead. */
 export const PONG_WITHIN = 5000;
+/** Both, while others are shown: what is shown of them must be true (`PS3`). */
+export const WATCHFUL = 2000;
 /** How long a socket may take to open and greet. */
 export const OPEN_WITHIN = 8000;
 const BACKOFF_FIRST = 250;
@@ -42,6 +44,9 @@ export type Effect =
   | { readonly kind: "message"; readonly message: PageMessage }
   | { readonly kind: "cannot-open"; readonly sentence: string }
   | { readonly kind: "refused"; readonly problem: Problem; readonly command?: Command };
+
+/** What a page says that is no command: it is not numbered, and not said again. */
+export type Told = Extract<ClientMessage, { type: "predict" | "here" | "follow" | "gather" }>;
 
 export interface CoreOptions {
   /** Draws a new client key. */
@@ -85,6 +90,8 @@ export class ConnectionCore {
   #garbled = 0;
   #garbledAt = 0;
   #effects: Effect[] = [];
+  /** Whether others are shown. */
+  watchful = false;
 
   constructor(options: CoreOptions) {
     this.#options = options;
@@ -221,8 +228,8 @@ export class ConnectionCore {
     return epoch === this.#epoch;
   }
 
-  /** Asks the server something that is no command; false if there is none to ask. */
-  ask(message: Extract<ClientMessage, { type: "predict" }>): boolean {
+  /** Tells or asks the server something that is no command; false if there is none to hear it. */
+  tell(message: Told): boolean {
     if (this.#phase !== "connected") {
       return false;
     }
@@ -317,13 +324,13 @@ export class ConnectionCore {
   #heard(now: number): void {
     if (this.#phase === "connected") {
       this.#pinged = null;
-      this.#deadline = now + PING_AFTER;
+      this.#deadline = now + (this.watchful ? WATCHFUL : PING_AFTER);
     }
   }
 
   #ping(now: number): void {
     this.#pinged = now;
-    this.#deadline = now + PONG_WITHIN;
+    this.#deadline = now + (this.watchful ? WATCHFUL : PONG_WITHIN);
     this.#nonce += 1;
     this.#send({ type: "ping", nonce: this.#nonce });
   }

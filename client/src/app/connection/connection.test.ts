@@ -108,9 +108,9 @@ describe("connection", () => {
 
   it("asks for a ghost only while there is a server", () => {
     const { connection, socket } = setUp();
-    expect(connection.predict([4], 10)).toBe(false);
+    expect(connection.tell({ type: "predict", rows: [4], steps: 10 })).toBe(false);
     socket(0).welcome();
-    expect(connection.predict([4], 10)).toBe(true);
+    expect(connection.tell({ type: "predict", rows: [4], steps: 10 })).toBe(true);
     expect(socket(0).sent.filter(({ type }) => type === "predict")).toEqual([
       { type: "predict", rows: [4], steps: 10 },
     ]);

@@ -8,6 +8,7 @@ import {
   type FrameHead,
   type Phase,
   type StopReason,
+  type Told,
 } from "./connection-core";
 import type { PageMessage } from "./page-message";
 import type { RowStore } from "./row-store";
@@ -34,7 +35,7 @@ export interface ConnectionEvents<Aside> {
   commands(sent: number, settled: number): void;
   /** The server says what the page has to show. */
   message(message: PageMessage): void;
-  /** A branch that is being bent, or a prediction. */
+  /** A branch that is being bent, a prediction, or what others do. */
   aside(aside: Aside): void;
   /** The server cannot open the session, however often one asks; it says why. */
   cannotOpen(sentence: string): void;
@@ -109,11 +110,16 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
     return this.#core.unsettled(kind);
   }
 
-  /** Asks for a ghost: how the plants would grow on without some branches; false while no session is connected. */
-  predict(rows: number[], steps: number): boolean {
-    const asked = this.#core.ask({ type: "predict", rows, steps });
+  /** Says something that is no command; false while no session is connected. */
+  tell(message: Told): boolean {
+    const heard = this.#core.tell(message);
     this.#settle();
-    return asked;
+    return heard;
+  }
+
+  /** Whether others are shown, so that it is to be noticed soon when the server is out of reach. */
+  set watchful(watchful: boolean) {
+    this.#core.watchful = watchful;
   }
 
   record(): ClientRecord {

@@ -11,7 +11,7 @@ import { explained } from "../problems/explained";
 import { RequestFailed, turnedAway } from "../requests/request";
 import { leaveRecord, newClientKey, takeRecord } from "./client-record";
 import { Connection, type ConnectionEvents, type Socket } from "./connection";
-import type { Phase, StopReason } from "./connection-core";
+import type { Phase, StopReason, Told } from "./connection-core";
 import { PartedSessions } from "./parted-sessions";
 import { mayReload } from "./reload-guard";
 import type { RowStore } from "./row-store";
@@ -217,9 +217,16 @@ export class SessionLink implements PageEvents {
     return this.#connection?.unsettled(kind) ?? 0;
   }
 
-  /** Asks for a ghost; false while no session is connected. */
-  predict(rows: number[], steps: number): boolean {
-    return this.#connection?.predict(rows, steps) ?? false;
+  /** Says something that is no command; false while no session is connected. */
+  tell(message: Told): boolean {
+    return this.#connection?.tell(message) ?? false;
+  }
+
+  /** Whether others are shown (`PS3`). */
+  set watchful(watchful: boolean) {
+    if (this.#connection) {
+      this.#connection.watchful = watchful;
+    }
   }
 
   /** Ends what is in progress and lets the session go. */

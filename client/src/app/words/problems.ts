@@ -282,6 +282,10 @@ export const REFUSALS = {
 
 /** What is said besides: of a field that has better words for a reason, of hints and notices. */
 export const PROBLEMS = {
+  "problems.too-often.gather": [
+    "Everyone was brought to a view just now. Again in {least} s.",
+    "Eben wurden alle zu einer Ansicht geholt. Wieder in {least} s.",
+  ],
   "problems.out-of-reach": ["No bud is near enough to grow here.", "Keine Knospe ist nah genug, um hier zu wachsen."],
   "problems.nothing-grew": [
     "Nothing could grow here: the space is taken, or something is in the way.",

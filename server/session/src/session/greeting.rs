@@ -11,9 +11,9 @@ use serde_json::Value;
 use super::Session;
 use crate::{
     clients::{Client, ConnectedClient, PredictionView, View, Watch},
+    entrant::Entrant,
     io::ClientId,
     principal::Principal,
-    rights::Access,
     to_proto::Held,
     window::Window,
 };
@@ -21,9 +21,11 @@ use crate::{
 /// How long a client may take for its hello, in milliseconds (`HS1`).
 const HELLO_MS: u64 = 10_000;
 impl Session {
-    pub(super) fn connect(&mut self, client: ClientId, access: Access) {
+    pub(super) fn connect(&mut self, client: ClientId, entrant: Entrant) {
         self.forget(client);
-        self.clients.insert(client, Client { access, ..Client::default() });
+        let access = entrant.access();
+        let state = Client { entrant, access, unread: 0, notified_after: None, connected: None };
+        self.clients.insert(client, state);
         self.upkeep.hellos.push_back((self.now + HELLO_MS, client));
     }
 
@@ -71,6 +73,7 @@ impl Session {
         let resume = resume.filter(|resume| resume.epoch == self.epoch && is_consistent(resume));
         let resumed = resume.is_some();
         let view = View::Stale(resume.map_or(Held::Nothing, Held::Chunks));
+        let presence = self.enter_room(client, &principal);
         if let Some(client) = self.clients.get_mut(&client) {
             client.connected = Some(ConnectedClient {
                 principal,
@@ -79,6 +82,7 @@ impl Session {
                 view,
                 watch: Watch::default(),
                 prediction_view: PredictionView::default(),
+                presence,
             });
         }
         let welcome = ServerMessage::Welcome {
@@ -119,6 +123,7 @@ impl Session {
         let Some(Client { connected: Some(connected), .. }) = self.clients.remove(&id) else { return };
         connected.prediction_view.cancel();
         self.author_left(&connected.principal, id);
+        self.leave_room(connected.presence.device);
         self.upkeep.state_changed = true;
     }
 }

@@ -218,6 +218,7 @@ impl Session {
             self.broadcast_text(&text);
         }
         self.tell_who_is_done();
+        self.keep_room();
     }
 
     /// Tells those of whose commands nothing is left to do, once they have been told what came of them (`CM11`).
@@ -296,8 +297,9 @@ impl Session {
         let pause = unkept.then(|| upkeep.next_snapshot());
         let hello = upkeep.hellos.front().map(|(due, _)| *due);
         let absence = upkeep.absences.front().map(|(due, _)| *due);
-        let room = self.pausing.due.filter(|_| self.home.is_some());
-        let earliest = [state, timeline, widths, pause, hello, absence, room].into_iter().flatten().min();
+        let memory = self.pausing.due.filter(|_| self.home.is_some());
+        let room = self.room_due();
+        let earliest = [state, timeline, widths, pause, hello, absence, memory, room].into_iter().flatten().min();
         if earliest != upkeep.wake_at {
             self.upkeep.wake_at = earliest;
             self.outputs.extend(earliest.map(Output::WakeAt));

@@ -243,6 +243,48 @@ fn lm10_a_prediction_has_up_to_100_steps() {
 }
 
 #[test]
+fn lm19_what_is_said_of_oneself_has_bounds() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    let camera = |field: &str, value: f32| {
+        let mut camera = json!({ "target": [0.0, 8.0, 0.0], "yaw": 0.0, "pitch": 0.0, "distance": 40.0 });
+        camera[field] = json!(value);
+        json!({ "type": "here", "camera": camera })
+    };
+    let sketch = |count: usize| json!({ "type": "here", "sketch": vec![[0.0, 1.0, 0.0]; count] });
+    let offset = |x: f32| {
+        let pointer = json!({ "kind": "wood", "row": 1, "along": 1.0, "offset": [x, 0.0, 0.0] });
+        json!({ "type": "here", "pointer": pointer })
+    };
+    for good in [
+        camera("yaw", -180.0),
+        camera("pitch", 90.0),
+        camera("distance", 10_000.0),
+        sketch(1),
+        sketch(48),
+        offset(-16.0),
+    ] {
+        world.send(client, &good);
+        assert!(world.peer(client).problems().is_empty(), "{good}");
+    }
+    for (bad, field) in [
+        (camera("yaw", 181.0), "camera.yaw"),
+        (camera("pitch", -90.5), "camera.pitch"),
+        (camera("distance", 0.0), "camera.distance"),
+        (sketch(0), "sketch"),
+        (sketch(49), "sketch"),
+        (offset(16.5), "pointer.offset[0]"),
+        (json!({ "type": "here", "radius": 41 }), "radius"),
+        (json!({ "type": "here", "tool": "Big Brush" }), "tool"),
+        (json!({ "type": "here", "name": " " }), "name"),
+    ] {
+        world.send(client, &bad);
+        let problem = world.peer(client).problems().pop().unwrap();
+        assert_eq!(problem.field.as_deref(), Some(field), "{bad}");
+    }
+}
+
+#[test]
 fn lm1_a_large_message_closes() {
     let mut world = World::new();
     let client = world.join("birch-01");

@@ -27,6 +27,7 @@ mod obstacles;
 #[path = "../../benches/guidance/overlaps.rs"]
 mod overlaps;
 mod pausing;
+mod presence;
 mod refusals;
 mod rights;
 mod rows;

@@ -66,6 +66,22 @@ pub(crate) fn messages() -> Vec<Value> {
         json!({ "type": "hello", "protocol": 1, "client": "birch-01", "resume": resume }),
         json!({ "type": "received", "sequence": 1, "kind": 2 }),
         json!({ "type": "predict", "rows": [1], "steps": 3 }),
+        json!({
+            "type": "here",
+            "pointer": { "kind": "wood", "row": 3, "along": 0.5, "offset": [0.5, 0.0, -1.0] },
+            "radius": 2.0,
+            "tool": "brush",
+            "sketch": [[0.0, 1.0, 2.0]],
+            "camera": { "target": [0.0, 8.0, 0.0], "yaw": 90.0, "pitch": -5.0, "distance": 40.0 },
+            "away": true,
+            "name": "Ann",
+        }),
+        json!({ "type": "here", "pointer": { "kind": "space", "position": [0.5, 1.0, 2.0] } }),
+        json!({ "type": "follow", "device": 2 }),
+        json!({
+            "type": "gather",
+            "camera": { "target": [0.0, 8.0, 0.0], "yaw": 90.0, "pitch": -5.0, "distance": 40.0 },
+        }),
         json!({ "type": "ping", "nonce": 1 }),
     ]
 }

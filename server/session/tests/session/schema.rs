@@ -83,6 +83,13 @@ fn cm10_what_the_server_says_keeps_to_the_schema() {
     for message in [
         json!({ "type": "acknowledged", "id": 3 }),
         json!({ "type": "done", "id": 3 }),
+        json!({ "type": "role", "role": "viewer" }),
+        json!({ "type": "people", "you": 1, "more": 0, "people": [{
+            "person": 1,
+            "name": "Ann",
+            "role": "editor",
+            "devices": [{ "device": 1, "state": "away", "tool": "brush", "follows": 2 }],
+        }] }),
         json!({ "type": "refused", "id": 3, "problem": { "code": "refused", "reason": "no-room", "message": "no" } }),
         json!({ "type": "appearance", "appearance": espalier_settings::Appearance::default() }),
         json!({ "type": "parameters", "parameters": espalier_settings::ParameterValues::default() }),

@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 
 use espalier_proto::{
-    BendFrame, ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, PlacedObstacle, Problem, Resume,
-    ServerMessage,
+    BendFrame, ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, PlacedObstacle, PresenceFrame,
+    Problem, Resume, ServerMessage,
+    access::Role,
     version::{CloseCode, PROTOCOL_VERSION},
 };
 use espalier_session::{
-    Access, ActId, ClientId, Document, Input, JournalEntry, Output, PredictionRun, Principal, ReadDocument,
-    ReadId, Session, Tail, Urgency, Work,
+    Access, ActId, ClientId, Document, Entrant, Input, JournalEntry, Output, PredictionRun, Principal,
+    ReadDocument, ReadId, Session, Tail, Urgency, Work,
 };
 use serde_json::{Value, json};
 
@@ -24,6 +25,14 @@ pub struct Peer {
     pub frames: Vec<Frame>,
     pub bend_frames: Vec<BendFrame>,
     pub ghosts: Vec<GhostFrame>,
+    /// Frames of presence, each with the time when it came.
+    pub presence: Vec<(u64, PresenceFrame)>,
+    /// Bytes of those.
+    pub presence_bytes: usize,
+    /// Times when it was asked whether it is there.
+    pub pings: Vec<u64>,
+    /// Does not say that it is there.
+    pub asleep: bool,
     pub mirror: Mirror,
     pub closed: Option<CloseCode>,
     /// Why it was closed.
@@ -172,6 +181,22 @@ impl World {
                 peer.mirror.apply(&frame);
                 peer.frames.push(frame);
             }
+            Output::Volatile(ClientId(id), bytes) => {
+                let peer = self.peers.get_mut(&id).expect("a frame goes to a connection that was made");
+                assert!(peer.closed.is_none(), "nothing follows a close");
+                assert!(!peer.unanswered.iter().any(|(kind, _)| *kind == 4), "PS2: one at a time");
+                let frame = PresenceFrame::decode(&bytes).expect("every frame of presence is valid");
+                peer.unanswered.push((4, frame.sequence));
+                peer.presence_bytes += bytes.len();
+                peer.presence.push((self.now, frame));
+            }
+            Output::Ping(ClientId(id)) => {
+                let peer = self.peers.get_mut(&id).expect("a question goes to a connection that was made");
+                peer.pings.push(self.now);
+                if !peer.asleep {
+                    self.answers.push(Input::Heard(ClientId(id)));
+                }
+            }
             Output::Close(ClientId(id), code, reason) => {
                 let peer = self.peers.get_mut(&id).expect("a close goes to a connection that was made");
                 assert_eq!(peer.closed.replace(code), None, "a socket closes once");
@@ -251,12 +276,12 @@ impl World {
             if peer.closed.is_some() {
                 continue;
             }
-            if !peer.deaf && peer.unread > 0 {
+            if !peer.deaf && !peer.asleep && peer.unread > 0 {
                 self.read_texts(id);
             }
             let peer = &self.peers[&id];
             let is_answered = peer.in_flight.is_empty() && peer.unanswered.is_empty();
-            if !peer.slow && !is_answered {
+            if !peer.slow && !peer.asleep && !is_answered {
                 self.answer_frames(id);
             }
         }
@@ -298,10 +323,16 @@ impl World {
     }
 
     pub fn connect_with(&mut self, access: Access) -> u64 {
+        let role = if access == Access::Edit { Role::Editor } else { Role::Viewer };
+        let stranger = Entrant::new(format!("stranger {}", self.next_client), role);
+        self.connect_as(stranger)
+    }
+
+    pub fn connect_as(&mut self, entrant: Entrant) -> u64 {
         let id = self.next_client;
         self.next_client += 1;
         self.peers.insert(id, Peer::default());
-        self.handle(Input::Connected(ClientId(id), access));
+        self.handle(Input::Connected(ClientId(id), entrant));
         id
     }
 

@@ -5,9 +5,9 @@ mod memory;
 
 use std::time::Duration;
 
-use espalier_proto::{Notice, ServerMessage, version::CloseCode};
+use espalier_proto::{Notice, ServerMessage, access::Role, version::CloseCode};
 use espalier_session::{
-    Access, ClientId, Document, JournalEntry, Principal, ReadDocument, RestoreError, Session,
+    ClientId, Document, Entrant, JournalEntry, Principal, ReadDocument, RestoreError, Session,
 };
 use tokio::time::timeout;
 
@@ -71,7 +71,7 @@ impl House {
     async fn visit_to(&self, name: &str) -> Visitor {
         let session = self.sessions.open(name).await.unwrap().unwrap();
         let (outbox, outgoings) = outbox::lane();
-        let client = session.join(outbox, Access::Edit).await.unwrap();
+        let client = session.join(outbox, Entrant::new("somebody", Role::Editor)).await.unwrap();
         let mut visitor = Visitor { session, client, outgoings };
         visitor.say(HELLO).await;
         visitor

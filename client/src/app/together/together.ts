@@ -1,0 +1,31 @@
+import { signal } from "@preact/signals";
+import type { OpenedFrame } from "../../wire/envelope";
+import type { ServerMessage } from "../../wire/generated";
+
+export type PeopleHere = Extract<ServerMessage, { type: "people" }>;
+export type Gathered = Extract<ServerMessage, { type: "gathered" }>;
+
+/** Takes what others do, once the code that shows it is there. */
+export interface Listener {
+  receive(frame: OpenedFrame): void;
+  gathered(call: Gathered): void;
+  /** Follows the camera of a device, or none any more. */
+  follow(device: number | null): void;
+  /** Brings everyone to what this page shows; false where nobody can be told. */
+  gather(): boolean;
+}
+
+/** What the server tells of others who have the tree open, and who on this page listens. */
+export class Together {
+  /** Who is here, as was told last; null while nobody knows. */
+  readonly people = signal<PeopleHere | null>(null);
+  /** The device whose camera this page follows. */
+  readonly followed = signal<number | null>(null);
+  listener: Listener | null = null;
+
+  /** What was told may be true no longer. */
+  forget(): void {
+    this.people.value = null;
+    this.followed.value = null;
+  }
+}

@@ -1,0 +1,331 @@
+//! Who is here and what they do, told to those who ask (`PS`). Nothing of it is journaled, acknowledged or queued.
+
+use std::collections::BTreeMap;
+
+use espalier_proto::{
+    Camera, ClientMessage, Device, Person, Problem, Reason, ServerMessage, access::Role,
+    version::MAX_SHOWN_DEVICES,
+};
+
+use super::Session;
+use crate::{
+    clients::ConnectedClient,
+    io::{ClientId, Output},
+    presence::{FramesOfTick, Presence, Register, Said},
+    rights::{Access, forbidden},
+};
+
+/// Frames go out no more often than this, in milliseconds (`PS2`).
+const TICK_MS: u64 = 50;
+/// The list of people goes out no more often than this, in milliseconds.
+const PEOPLE_MS: u64 = 250;
+/// Two devices or more are asked so often whether they are there, in milliseconds (`PS3`).
+const PING_MS: u64 = 2_000;
+/// One that says nothing for so long is gone, in milliseconds,
+const SILENCE_MS: u64 = 4_500;
+/// or later where much is on its way to it, for which it may take so long a byte; but no later than this.
+const BYTES_PER_MS: u64 = 16;
+const LONGEST_SILENCE_MS: u64 = 15_000;
+/// Everyone is brought to a view no more often than this, in milliseconds (`PS5`).
+const GATHER_MS: u64 = 10_000;
+
+/// The presence of a session as a whole.
+#[derive(Debug, Default)]
+pub(super) struct Room {
+    pub(super) register: Register,
+    /// Counts frames.
+    tick: u32,
+    tick_due: u64,
+    people_changed: bool,
+    people_due: u64,
+    /// When devices are asked next whether they are there; nothing while one is alone.
+    ping_due: Option<u64>,
+    gather_due: u64,
+}
+
+impl Session {
+    /// Somebody has said hello.
+    pub(super) fn enter_room(&mut self, client: ClientId, principal: &crate::Principal) -> Presence {
+        let here: Vec<_> = self.present().map(|presence| (presence.device, presence.person)).collect();
+        let person =
+            self.clients.get(&client).map(|client| client.entrant.person.clone()).unwrap_or_default();
+        let (device, person) = self.room.register.enter(principal, &person, &here);
+        self.room.people_changed = true;
+        Presence::new(device, person, self.now)
+    }
+
+    /// A device has left.
+    pub(super) fn leave_room(&mut self, device: u32) {
+        for connected in self.clients.values_mut().filter_map(|client| client.connected.as_mut()) {
+            connected.presence.follows.take_if(|followed| *followed == device);
+        }
+        self.room.people_changed = true;
+    }
+
+    /// What a page says of itself and its person (`PS1`).
+    pub(super) fn here(&mut self, client: ClientId, said: Said, name: Option<&str>) {
+        let Some(state) = self.clients.get(&client) else { return };
+        let shows = [
+            (said.tool.is_some(), "tool"),
+            (said.radius.is_some(), "radius"),
+            (!said.sketch.is_empty(), "sketch"),
+        ];
+        let shown = shows.into_iter().find(|(is_there, _)| *is_there && state.access == Access::Look);
+        if let Some((_, field)) = shown {
+            let problem = forbidden().at(field, "nothing, of somebody who may not edit");
+            return self.send(client, &ServerMessage::Problem { problem });
+        }
+        let Some(connected) = self.connected_mut(client) else { return };
+        let is_another = connected.presence.say(said);
+        let person = connected.presence.person;
+        let is_renamed = name.is_some_and(|name| self.room.register.name(person, name));
+        self.room.people_changed |= is_another || is_renamed;
+    }
+
+    /// A page follows the camera of a device, or none (`PS4`).
+    pub(super) fn follow(&mut self, client: ClientId, device: Option<u32>) {
+        let followed = device.filter(|device| self.present().any(|present| present.device == *device));
+        let Some(connected) = self.connected_mut(client) else { return };
+        connected.presence.follows = followed.filter(|followed| *followed != connected.presence.device);
+        self.room.people_changed = true;
+    }
+
+    /// Somebody brings everyone to a view (`PS5`).
+    pub(super) fn gather(&mut self, client: ClientId, camera: Camera) {
+        let Some(state) = self.clients.get(&client) else { return };
+        let Some(by) = state.connected.as_ref().map(|connected| connected.presence.device) else { return };
+        let problem = if state.access == Access::Look {
+            Some(forbidden().at("type", "gather of somebody who may edit"))
+        } else if self.now < self.room.gather_due {
+            let left = (self.room.gather_due - self.now).div_ceil(1000);
+            let message = "everyone was brought to a view a moment ago";
+            Some(Problem::new(Reason::TooOften, message).at("gather", format!("after {left} s")))
+        } else {
+            None
+        };
+        if let Some(problem) = problem {
+            return self.send(client, &ServerMessage::Problem { problem });
+        }
+        self.room.gather_due = self.now + GATHER_MS;
+        let others = self.listeners().into_iter().filter(|other| *other != client).collect::<Vec<_>>();
+        for other in others {
+            self.send(other, &ServerMessage::Gathered { by, camera });
+        }
+    }
+
+    /// There was a sign of a client.
+    pub(super) fn hear(&mut self, client: ClientId) {
+        let now = self.now;
+        let Some(connected) = self.connected_mut(client) else { return };
+        connected.presence.heard_at = now;
+        let was_gone = std::mem::take(&mut connected.presence.is_gone);
+        self.room.people_changed |= was_gone;
+    }
+
+    /// The client has drawn the frames up to this one.
+    pub(super) fn received_presence(&mut self, client: ClientId, sequence: u32) {
+        let Some(connected) = self.connected_mut(client) else { return };
+        connected.presence.in_flight.take_if(|waiting| *waiting <= sequence);
+    }
+
+    /// Somebody may do more or less from now on (`AU3`).
+    pub(super) fn grant(&mut self, client: ClientId, role: Role) {
+        let Some(state) = self.clients.get_mut(&client) else { return };
+        state.entrant.role = role;
+        state.access = state.entrant.access();
+        let access = state.access;
+        let Some(connected) = state.connected.as_mut() else { return };
+        if access == Access::Look {
+            connected.presence.lay_down();
+        }
+        let principal = connected.principal.clone();
+        self.room.people_changed = true;
+        self.send(client, &ServerMessage::Role { role });
+        if access == Access::Look {
+            self.upkeep.overdue.insert(principal);
+        }
+    }
+
+    /// Does what is due now: asks who is there, and tells what is new.
+    pub(super) fn keep_room(&mut self) {
+        self.ask_who_is_there();
+        if self.room.people_changed && self.now >= self.room.people_due {
+            self.room.people_changed = false;
+            self.room.people_due = self.now + PEOPLE_MS;
+            self.tell_people();
+        }
+        if self.next_tick().is_some_and(|due| due <= self.now) {
+            self.tick();
+        }
+    }
+
+    /// When something is due next.
+    pub(super) fn room_due(&self) -> Option<u64> {
+        let room = &self.room;
+        let has_listeners = self.present().any(|present| present.listens);
+        let people = (room.people_changed && has_listeners).then_some(room.people_due);
+        let silence = room.ping_due.and_then(|_| self.silences().min());
+        [people, room.ping_due, silence, self.next_tick()].into_iter().flatten().min()
+    }
+
+    fn ask_who_is_there(&mut self) {
+        if self.present().count() < 2 {
+            self.room.ping_due = None;
+            return;
+        }
+        if self.room.ping_due.is_none() {
+            // Whoever was alone was asked nothing, so that their silence says nothing.
+            let now = self.now;
+            let connected = self.clients.values_mut().filter_map(|client| client.connected.as_mut());
+            connected.for_each(|connected| connected.presence.heard_at = now);
+        }
+        if self.room.ping_due.is_none_or(|due| due <= self.now) {
+            self.room.ping_due = Some(self.now + PING_MS);
+            let asked = self.clients.iter().filter(|(_, client)| client.connected.is_some());
+            self.outputs.extend(asked.map(|(&client, _)| Output::Ping(client)));
+        }
+        for connected in self.clients.values_mut().filter_map(|client| client.connected.as_mut()) {
+            if !connected.presence.is_gone && silent_at(connected) <= self.now {
+                connected.presence.is_gone = true;
+                self.room.people_changed = true;
+            }
+        }
+    }
+
+    /// When each device that is here will have been silent for too long.
+    fn silences(&self) -> impl Iterator<Item = u64> {
+        let connected = self.clients.values().filter_map(|client| client.connected.as_ref());
+        connected.filter(|connected| !connected.presence.is_gone).map(silent_at)
+    }
+
+    fn tell_people(&mut self) {
+        let (people, more) = self.people_here();
+        for client in self.listeners() {
+            let Some(you) = self.connected_mut(client).map(|connected| connected.presence.device) else {
+                continue;
+            };
+            self.send(client, &ServerMessage::People { you, people: people.clone(), more });
+        }
+    }
+
+    /// Those who are shown to each other, and how many devices are here beside theirs.
+    fn people_here(&self) -> (Vec<Person>, u32) {
+        let shown = self.shown();
+        let mut people: BTreeMap<u32, Person> = BTreeMap::new();
+        for client in self.clients.values() {
+            let Some(ConnectedClient { presence, .. }) = &client.connected else { continue };
+            if shown.is_none_or(|last| presence.device <= last) {
+                let given = client.entrant.name.as_deref();
+                let name = self.room.register.name_of(presence.person).or(given).map(str::to_owned);
+                let role = client.entrant.role;
+                let person = people.entry(presence.person).or_insert_with(|| Person {
+                    person: presence.person,
+                    name,
+                    role,
+                    devices: Vec::new(),
+                });
+                person.role = person.role.max(role);
+                person.devices.push(Device {
+                    device: presence.device,
+                    state: presence.state(),
+                    tool: presence.tool.clone(),
+                    follows: presence.follows,
+                });
+            }
+        }
+        let mut people: Vec<Person> = people.into_values().collect();
+        people.iter_mut().for_each(|person| person.devices.sort_by_key(|device| device.device));
+        let more = self.present().count().saturating_sub(MAX_SHOWN_DEVICES);
+        (people, more as u32)
+    }
+
+    /// The last device that is shown, if not all are.
+    fn shown(&self) -> Option<u32> {
+        let mut devices: Vec<u32> = self.present().map(|present| present.device).collect();
+        devices.sort_unstable();
+        devices.get(MAX_SHOWN_DEVICES..).filter(|rest| !rest.is_empty())?;
+        devices.get(MAX_SHOWN_DEVICES - 1).copied()
+    }
+
+    /// When the next frame is due: something is new, or somebody who can take a frame again lacks something.
+    fn next_tick(&self) -> Option<u64> {
+        if !self.present().any(|present| present.listens) {
+            return None;
+        }
+        let news = self.present().filter_map(|present| present.due(self.is_followed(present.device)));
+        let late = self.present().any(|present| self.lacks(present)).then_some(0);
+        news.chain(late).min().map(|due| due.max(self.room.tick_due))
+    }
+
+    fn tick(&mut self) {
+        self.room.tick_due = self.now + TICK_MS;
+        self.room.tick = self.room.tick.wrapping_add(1);
+        let (tick, now) = (self.room.tick, self.now);
+        let followed: Vec<u32> = self.present().filter_map(|present| present.follows).collect();
+        for connected in self.clients.values_mut().filter_map(|client| client.connected.as_mut()) {
+            let is_followed = followed.contains(&connected.presence.device);
+            connected.presence.stamp(tick, now, is_followed);
+        }
+        let (mut frames, shown) = (FramesOfTick::default(), self.shown());
+        let mut sent = Vec::new();
+        for (&client, state) in &self.clients {
+            let Some(ConnectedClient { presence, .. }) = &state.connected else { continue };
+            if self.lacks(presence) {
+                let told = self.present().filter(|present| shown.is_none_or(|last| present.device <= last));
+                sent.push((client, frames.after(presence.seen, (self.epoch, tick), told)));
+            }
+        }
+        for (client, frame) in sent {
+            if let Some(connected) = self.connected_mut(client) {
+                (connected.presence.seen, connected.presence.in_flight) = (tick, Some(tick));
+                self.outputs.push_back(Output::Volatile(client, frame));
+            }
+        }
+    }
+
+    /// Whether a device is told of others, can take a frame, and has not been told all of the others.
+    fn lacks(&self, device: &Presence) -> bool {
+        let can_take = device.listens && device.in_flight.is_none();
+        let mut others = self.present().filter(|other| other.device != device.device);
+        can_take && others.any(|other| other.newest() > device.seen)
+    }
+
+    fn is_followed(&self, device: u32) -> bool {
+        self.present().any(|present| present.follows == Some(device))
+    }
+
+    fn present(&self) -> impl Iterator<Item = &Presence> {
+        let connected = self.clients.values().filter_map(|client| client.connected.as_ref());
+        connected.map(|connected| &connected.presence)
+    }
+
+    /// Whoever is told of others.
+    fn listeners(&self) -> Vec<ClientId> {
+        let listens = |connected: &ConnectedClient| connected.presence.listens;
+        let listeners =
+            self.clients.iter().filter(|(_, client)| client.connected.as_ref().is_some_and(listens));
+        listeners.map(|(&client, _)| client).collect()
+    }
+}
+
+/// When a device will have been silent for too long. A slow link is no absence.
+fn silent_at(connected: &ConnectedClient) -> u64 {
+    let on_its_way = connected.window.bytes() as u64 / BYTES_PER_MS;
+    connected.presence.heard_at + (SILENCE_MS + on_its_way).min(LONGEST_SILENCE_MS)
+}
+
+/// What a `here` says, and the name in it.
+pub(super) fn said(message: ClientMessage) -> Option<(Said, Option<String>)> {
+    let ClientMessage::Here { pointer, radius, tool, sketch, camera, away, name } = message else {
+        return None;
+    };
+    let said = Said {
+        pointer,
+        radius,
+        tool: tool.map(String::from),
+        sketch: sketch.map(Vec::from).unwrap_or_default(),
+        camera,
+        is_away: away,
+    };
+    Some((said, name.map(String::from)))
+}
