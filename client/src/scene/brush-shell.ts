@@ -37,6 +37,12 @@ export class BrushShell {
     this.mesh.visible = shown.length > 0;
   }
 
+  /** Its first place and its radius, while it is shown. */
+  get shown(): readonly [number, number, number, number] | null {
+    const { x, y, z, w } = this.places[0]!;
+    return this.mesh.visible ? [x, y, z, w] : null;
+  }
+
   hide(): void {
     this.mesh.visible = false;
   }

@@ -272,6 +272,11 @@ export class Viewport {
     this.stir();
   }
 
+  /** The first place of the brush and its radius, while it is shown. */
+  get brush(): readonly [number, number, number, number] | null {
+    return this.world.brush.shown;
+  }
+
   hideBrush(): void {
     this.world.brush.hide();
     this.stir();

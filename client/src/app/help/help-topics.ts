@@ -89,6 +89,7 @@ const WHOLE = [
   ["save", { sheet: "save" }],
   ["library", { sheet: "library" }],
   ["share", { sheet: "share" }],
+  ["people", { sheet: "people" }],
   ["variations", { sheet: "variations" }],
   ["download", { sheet: "download" }],
   ["install"],

@@ -9,6 +9,7 @@ export const SHEET_NAMES = [
   "library",
   "versions",
   "share",
+  "people",
   "variations",
   "download",
   "help",

@@ -32,6 +32,7 @@ import {
   SUN,
   SYMMETRY,
   TIMELINE,
+  TOGETHER,
   TOOL_PARTS,
   TOUR,
   VAIN,
@@ -96,6 +97,7 @@ function Workspace({ studio }: { studio: Studio }) {
     return attachWorkspace(studio, canvas.current);
   }, [studio]);
   const tool = useToolViews(studio);
+  const company = usePart(studio, TOGETHER, (studio.document.value?.people ?? 1) > 1);
   const prediction = usePart(studio, PREDICTION, studio.branches.prediction.rows.value !== null);
   const repeats = descriptorOf(studio.tools.chosen.value).isSymmetric === true && isRepeating(studio);
   const SymmetryMark = usePart(studio, SYMMETRY, repeats);
@@ -116,6 +118,7 @@ function Workspace({ studio }: { studio: Studio }) {
       {tool?.views.Marks && <tool.views.Marks tool={tool.made} page={studio} />}
       {prediction && <prediction.PredictionMarks studio={studio} />}
       <HoldRing studio={studio} />
+      {company && <company.Company studio={studio} />}
       {VainMark && <VainMark studio={studio} />}
       {studio.layout.bare.value ? <ShowAll studio={studio} /> : <Bars studio={studio} />}
       {SunHandle && <SunHandle studio={studio} />}
@@ -165,6 +168,7 @@ function Bars({ studio }: { studio: Studio }) {
   const TourCard = usePart(studio, TOUR, studio.tour.step.value !== null);
   const TimelineStrip = usePart(studio, TIMELINE, isWorthShowing(studio.time.timeline.value));
   const Chips = usePart(studio, CHIPS, studio.document.value !== null);
+  const company = TOGETHER.content.value;
   const Slowness = usePart(studio, SLOWNESS, studio.stage.cardless.value || studio.slowness.value !== null, true);
   const DrawModeLegend = usePart(studio, DRAW_MODE_LEGEND, studio.drawMode.value !== "lit");
   const mayChange = studio.rights.mayChange.value;
@@ -186,6 +190,7 @@ function Bars({ studio }: { studio: Studio }) {
       <div class="chips" role="status">
         {Chips && <Chips studio={studio} />}
         {Slowness && <Slowness studio={studio} />}
+        {company && <company.CompanyChips studio={studio} />}
       </div>
       {DrawModeLegend && <DrawModeLegend studio={studio} />}
     </>

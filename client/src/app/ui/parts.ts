@@ -53,6 +53,11 @@ export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
     height: "9rem",
     part: new Part(async () => (await import("./sheets/share/share-sheet")).ShareSheet),
   },
+  people: {
+    title: "sheets.people",
+    height: "14rem",
+    part: new Part(async () => (await import("./sheets/people-sheet")).PeopleSheet),
+  },
   variations: {
     title: "sheets.variations",
     size: "wide",
@@ -124,6 +129,9 @@ export const NAMES = new Part(async () => (await import("./notices/button-label"
 /** Files that are dropped on the page. */
 export const FILE_DROP = new Part(async () => (await import("./notices/file-drop")).FileDrop);
 
+/** Others who have the tree open, once there are any. */
+export const TOGETHER = new Part(() => import("./together/company"));
+
 export const RECENT = new Part(async () => (await import("./notices/recent-trees")).RecentTrees);
 
 /** All of them, those first that are needed first. */
@@ -139,6 +147,7 @@ const ALL: readonly Part<unknown>[] = [
   SYMMETRY,
   VAIN,
   SUN,
+  TOGETHER,
   RECENT,
   ...Object.values(SHEETS).map(({ part }) => part),
 ];

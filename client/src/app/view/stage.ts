@@ -67,6 +67,11 @@ export class Stage {
     });
   }
 
+  /** The view itself, while there is one. */
+  get view(): Viewport | null {
+    return this.#view;
+  }
+
   attach(view: Viewport, canvas: HTMLCanvasElement): void {
     this.#view = view;
     this.#canvas = canvas;

@@ -233,6 +233,15 @@ export const HELP = {
     "link together people invite collaborate multiplayer url send qr code guest revoke",
     "Link zusammen Leute einladen gemeinsam schicken Adresse QR-Code Gast widerrufen",
   ],
+  "help.topic.people": ["Who is here", "Wer hier ist"],
+  "help.topic.people.text": [
+    "Others who have this tree open: their pointers in their colours, the tool they hold, and whether they are away. Follow what somebody sees until your first own touch, or bring everyone to what you see",
+    "Andere, die diesen Baum offen haben: ihre Zeiger in ihren Farben, das Werkzeug, das sie halten, und ob sie weg sind. Folge dem, was jemand sieht, bis zu deiner ersten eigenen Berührung, oder hole alle zu dem, was du siehst",
+  ],
+  "help.topic.people.words": [
+    "presence cursor pointer colour follow camera gather together collaborate multiplayer name",
+    "Anwesenheit Zeiger Cursor Farbe folgen Kamera versammeln zusammen gemeinsam Name",
+  ],
   "help.topic.variations": ["Variations", "Variationen"],
   "help.topic.variations.text": [
     "Up to a thousand trees like a species or a saved tree, each from a seed of its own, grown into files of any format while you draw on; the menu of a tree in the library begins them, and their files are kept for an hour",

@@ -21,6 +21,7 @@ import { SETTINGS } from "./settings";
 import { SHEETS } from "./sheets";
 import { SUN } from "./sun";
 import { TIMELINE } from "./timeline";
+import { TOGETHER } from "./together";
 import { SHAPING } from "./tools";
 import { TRANSFERS } from "./transfers";
 import { VARIATIONS } from "./variations";
@@ -51,6 +52,7 @@ export const LATER = {
   ...SHAPING,
   ...HELP,
   ...CHIPS,
+  ...TOGETHER,
   ...TRANSFERS,
   ...VARIATIONS,
   ...TIMELINE,

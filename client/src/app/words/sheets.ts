@@ -86,6 +86,7 @@ export const SHEET_TITLES = {
   "sheets.library": ["Library", "Bibliothek"],
   "sheets.versions": ["Versions", "Versionen"],
   "sheets.download": ["Download this tree", "Diesen Baum herunterladen"],
+  "sheets.people": ["Who is here", "Wer hier ist"],
   "sheets.share": ["Share this tree", "Diesen Baum teilen"],
   "sheets.variations": ["Grow variations", "Variationen wachsen lassen"],
   "sheets.help": ["How to draw a tree", "So zeichnet man einen Baum"],

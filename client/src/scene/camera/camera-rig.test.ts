@@ -35,6 +35,41 @@ describe("the camera", () => {
     expect(rig.step(1 / 60)).toBe(false);
   });
 
+  it("goes along with another camera, the shorter way round, and does not take that for the user's hand", () => {
+    const rig = new CameraRig();
+    rig.keep(tree);
+    rig.orbit(-1500, 0);
+    settle(rig);
+    const [moves, before] = [rig.moves, rig.view.yaw];
+    const other = { target: [1, 9, 2] as [number, number, number], yaw: 0.5, pitch: 0.2, distance: 33 };
+    rig.accompany(other);
+    settle(rig);
+    expect(rig.moves).toBe(moves);
+    expect(rig.view).toEqual({ ...other, yaw: rig.view.yaw });
+    expect(Math.cos(rig.view.yaw - 0.5)).toBeCloseTo(1, 9);
+    expect(Math.abs(rig.view.yaw - before)).toBeLessThanOrEqual(Math.PI);
+    expect(other.target).toEqual([1, 9, 2]);
+  });
+
+  it("comes back from a visit to where it was, unless the user has moved it there", () => {
+    const rig = new CameraRig();
+    rig.keep(tree);
+    settle(rig);
+    const before = structuredClone(rig.view);
+    const other = { target: [1, 9, 2] as [number, number, number], yaw: 0.5, pitch: 0.2, distance: 33 };
+    rig.visit(other);
+    settle(rig);
+    expect(rig.view.distance).toBe(33);
+    rig.restore();
+    settle(rig);
+    expect(rig.view).toEqual(before);
+    rig.visit(other);
+    rig.orbit(10, 0);
+    rig.restore();
+    settle(rig);
+    expect(rig.view.distance).toBe(33);
+  });
+
   it("turns to the front the shorter way, also while it is on its way elsewhere", () => {
     for (const [pixels, turns] of [
       [-200, 0],

@@ -154,6 +154,24 @@ export class CameraRig {
     Object.assign(this.view, structuredClone(this.goal));
   }
 
+  /** Goes along with another camera; that is no move of the user's. */
+  accompany(view: CameraView): void {
+    const turns = Math.round((this.goal.yaw - view.yaw) / (2 * Math.PI));
+    Object.assign(this.goal, view, { target: [...view.target], yaw: view.yaw + 2 * Math.PI * turns });
+    this.narrow = null;
+    this.easing = false;
+    this.limit();
+  }
+
+  /** Eases to where another camera is; `restore` leads back. */
+  visit(view: CameraView): void {
+    this.moves += 1;
+    this.before = structuredClone(this.goal);
+    this.fittedBox = null;
+    this.accompany(view);
+    this.easing = true;
+  }
+
   /** Eases back to where the camera was before the last `fit`, unless the user has moved it since. */
   restore(): void {
     if (!this.before) return;

@@ -1,5 +1,5 @@
 import { CameraRig } from "./camera-rig";
-import type { Box } from "./camera-view";
+import type { Box, CameraView } from "./camera-view";
 import { Sight } from "./sight";
 import type { View } from "./view";
 
@@ -65,6 +65,18 @@ export class ViewCamera {
   /** Eases back to where it was before the last fit, unless the user has moved it since. */
   restore(): void {
     this.rig.restore();
+    this.options.stirred();
+  }
+
+  /** Goes along with another camera; that is no move of the user's. */
+  accompany(view: CameraView): void {
+    this.rig.accompany(view);
+    this.options.stirred();
+  }
+
+  /** Eases to where another camera is; `restore` leads back. */
+  visit(view: CameraView): void {
+    this.rig.visit(view);
     this.options.stirred();
   }
 

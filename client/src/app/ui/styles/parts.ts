@@ -18,3 +18,4 @@ import "./variations.css";
 import "./help.css";
 import "./recent.css";
 import "./vain.css";
+import "./together.css";

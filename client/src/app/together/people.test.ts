@@ -1,0 +1,43 @@
+import { describe, expect, it } from "vitest";
+import { changesOf, companions, isFollowed } from "./people";
+import type { PeopleHere } from "./together";
+
+const HERE: PeopleHere = {
+  type: "people",
+  you: 1,
+  more: 0,
+  people: [
+    {
+      person: 1,
+      role: "owner",
+      name: "Ann",
+      devices: [
+        { device: 1, state: "here" },
+        { device: 4, state: "away" },
+      ],
+    },
+    { person: 2, role: "editor", devices: [{ device: 2, state: "here", follows: 1 }] },
+  ],
+};
+
+describe("people", () => {
+  it("PS3: one's own other device is a companion, this one is not", () => {
+    expect(companions(HERE).map(({ device, name }) => [device.device, name])).toEqual([
+      [2, "Guest 2"],
+      [4, "Ann"],
+    ]);
+    expect(companions(null)).toEqual([]);
+  });
+
+  it("PS4: a page knows that it is followed", () => {
+    expect([isFollowed(HERE), isFollowed({ ...HERE, you: 2 }), isFollowed(null)]).toEqual([true, false, false]);
+  });
+
+  it("has come or left who has no device or the first one", () => {
+    const alone = { ...HERE, people: HERE.people.slice(0, 1) };
+    expect(changesOf(alone, HERE).came.map(({ person }) => person)).toEqual([2]);
+    expect(changesOf(HERE, alone).left.map(({ person }) => person)).toEqual([2]);
+    const phone = { ...HERE, people: [{ ...HERE.people[0]!, devices: [{ device: 4, state: "here" as const }] }] };
+    expect(changesOf(alone, phone)).toEqual({ came: [], left: [] });
+  });
+});

@@ -1,0 +1,45 @@
+import type { Device, Person } from "../../wire/generated";
+import { personColour } from "../document/timeline/authors";
+import { say } from "../words/say";
+import type { PeopleHere } from "./together";
+
+/** A device of somebody else, or another one of one's own. */
+export interface Companion {
+  readonly device: Device;
+  readonly person: Person;
+  readonly name: string;
+  readonly colour: string;
+}
+
+/** What somebody is called. */
+export function nameOf({ name, person }: Person): string {
+  return name ?? say("together.guest", { number: person });
+}
+
+/** All devices but this one, by their numbers. */
+export function companions(here: PeopleHere | null): Companion[] {
+  const all = (here?.people ?? []).flatMap((person) =>
+    person.devices.map((device) => ({
+      device,
+      person,
+      name: nameOf(person),
+      colour: personColour(person.person),
+    })),
+  );
+  return all.filter(({ device }) => device.device !== here?.you).sort((a, b) => a.device.device - b.device.device);
+}
+
+/** Whether this page's camera is followed. */
+export function isFollowed(here: PeopleHere | null): boolean {
+  return companions(here).some(({ device }) => device.follows === here?.you);
+}
+
+/** Who has come and who has left, by their numbers. */
+export function changesOf(before: PeopleHere, after: PeopleHere): { came: Person[]; left: Person[] } {
+  const numbers = ({ people }: PeopleHere) => new Set(people.map(({ person }) => person));
+  const [old, now] = [numbers(before), numbers(after)];
+  return {
+    came: after.people.filter(({ person }) => !old.has(person)),
+    left: before.people.filter(({ person }) => !now.has(person)),
+  };
+}

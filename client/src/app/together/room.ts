@@ -1,0 +1,202 @@
+import type { OpenedFrame } from "../../wire/envelope";
+import { BOUNDS, MAX_SKETCH_PLACES } from "../../wire/generated";
+import { readPresence } from "../../wire/presence-frame";
+import type { Studio } from "../studio";
+import { nearestBase } from "../view/places";
+import { say } from "../words/say";
+import { place, seen, seenIn, told, within } from "./cameras";
+import { Others } from "./others";
+import { pointerAt, thinned } from "./own-pointer";
+import { type Here, OwnWords } from "./own-words";
+import { companions, isFollowed } from "./people";
+import type { Gathered, Listener } from "./together";
+
+/** How often a page says what is new of itself, in milliseconds. */
+const PAUSE = 50;
+
+/** What a page says of itself while others are there, and what it does about what they say. */
+export class Room implements Listener {
+  readonly others: Others;
+  #studio: Studio;
+  #words = new OwnWords();
+  /** Where the pointer is on the canvas. */
+  #place: { readonly x: number; readonly y: number } | null = null;
+  #pointer: Here["pointer"] | null = null;
+  /** How often the user had moved the camera when this page began to follow. */
+  #moves = 0;
+
+  constructor(studio: Studio) {
+    this.#studio = studio;
+    const { stage, table } = studio;
+    this.others = new Others({
+      placeOf: (row) => stage.placeOf(row),
+      parentOf: (row) => table.parent[row] ?? -1,
+    });
+  }
+
+  /** Listens and speaks until what this returns was called. */
+  enter(canvas: HTMLCanvasElement): () => void {
+    const { together, link } = this.#studio;
+    together.listener = this;
+    const stop = new AbortController();
+    const options = { signal: stop.signal };
+    const at = ({ offsetX: x, offsetY: y }: PointerEvent) => {
+      this.#place = { x, y };
+      this.#pointer = null;
+    };
+    canvas.addEventListener("pointermove", at, options);
+    canvas.addEventListener("pointerdown", at, options);
+    canvas.addEventListener("pointerleave", ({ pointerType }) => pointerType === "touch" || this.#leave(), options);
+    // The first touch of one's own ends what others lead.
+    canvas.addEventListener("pointerdown", () => this.follow(null), options);
+    canvas.addEventListener("wheel", () => this.follow(null), options);
+    document.addEventListener("visibilitychange", () => this.#speak(), options);
+    const timer = setInterval(() => this.#speak(), PAUSE);
+    const stopConnecting = link.phase.subscribe((phase) => {
+      if (phase === "connected") {
+        this.#words.again();
+        this.#speak();
+      }
+    });
+    const stopWatching = together.people.subscribe((here) => {
+      const all = companions(here);
+      link.watchful = all.length > 0;
+      this.others.keep(new Set(all.map(({ device }) => device.device)));
+      const followed = together.followed.peek();
+      if (here !== null && followed !== null && !all.some(({ device }) => device.device === followed)) {
+        this.follow(null);
+      }
+    });
+    return () => {
+      stop.abort();
+      clearInterval(timer);
+      stopConnecting();
+      stopWatching();
+      together.listener = null;
+    };
+  }
+
+  receive({ body }: OpenedFrame): void {
+    this.others.take(readPresence(body), performance.now());
+    const followed = this.#studio.together.followed.peek();
+    const camera = followed === null ? null : this.others.camera(followed);
+    if (camera) {
+      this.#studio.stage.view?.camera.accompany(seenIn(camera));
+    }
+  }
+
+  /** Somebody brings everyone to their view; a hand that draws is left alone. */
+  gathered({ by, camera }: Gathered): void {
+    const { together, tools, stage, toasts } = this.#studio;
+    const name = companions(together.people.peek()).find(({ device }) => device.device === by)?.name;
+    if (tools.drawing.peek() || !stage.view) {
+      return;
+    }
+    this.follow(null);
+    stage.view.camera.visit(seen(camera));
+    const back = { label: say("together.back"), act: () => stage.view?.camera.restore() };
+    toasts.show(say("together.gathered", { name: name ?? say("together.guest", { number: by }) }), back);
+  }
+
+  /** Follows the camera of a device, or none any more. */
+  follow(device: number | null): void {
+    const { together, link, stage } = this.#studio;
+    if (together.followed.peek() === device) {
+      return;
+    }
+    together.followed.value = device;
+    link.tell(device === null ? { type: "follow" } : { type: "follow", device });
+    this.#moves = stage.view?.camera.moves ?? 0;
+    const camera = device === null ? null : this.others.camera(device);
+    if (camera) {
+      stage.view?.camera.accompany(seenIn(camera));
+    }
+  }
+
+  /** Brings everyone to what this page shows; false where it shows nothing. */
+  gather(): boolean {
+    const { link, stage } = this.#studio;
+    const view = stage.view?.camera.rig.view;
+    return view !== undefined && link.tell({ type: "gather", camera: told(view) });
+  }
+
+  #leave(): void {
+    this.#place = null;
+    this.#pointer = null;
+  }
+
+  #speak(): void {
+    const { together, link, stage, document: figures, settings } = this.#studio;
+    if (!link.connected || ((figures.peek()?.people ?? 1) < 2 && together.people.peek() === null)) {
+      return;
+    }
+    const view = stage.view;
+    if (together.followed.peek() !== null && view && view.camera.moves !== this.#moves) {
+      this.follow(null);
+    }
+    const here = together.people.peek();
+    const camera = view ? told(view.camera.rig.view) : null;
+    const name = settings.author.peek().trim();
+    const words = this.#words.next(performance.now(), this.#here(), camera, name, isFollowed(here));
+    if (words !== null) {
+      link.tell(words);
+    }
+  }
+
+  /** What others may see of this page; who may only look shows that they are there. */
+  #here(): Omit<Here, "camera" | "name"> {
+    const { stage, tools, outline, rights } = this.#studio;
+    if (document.hidden) {
+      return { type: "here", away: true };
+    }
+    const view = stage.view;
+    if (!rights.mayChange.peek() || !view) {
+      return { type: "here" };
+    }
+    const here: Omit<Here, "camera" | "name"> = { type: "here", tool: tools.chosen.peek() };
+    const brush = view.brush;
+    if (brush) {
+      const [x, y, z, radius] = brush;
+      here.pointer = { kind: "space", position: place([x, y, z]) };
+      here.radius = within(radius, BOUNDS.BrushRadius.least, BOUNDS.BrushRadius.most);
+    } else {
+      const pointer = this.#pointerNow();
+      if (pointer) {
+        here.pointer = pointer;
+      }
+    }
+    const shown = outline.shown.peek();
+    if (shown?.stage === "drawing" && shown.points.length > 1) {
+      here.sketch = this.#line(shown.points);
+    }
+    return here;
+  }
+
+  #pointerNow(): Here["pointer"] | null {
+    const { stage, table } = this.#studio;
+    if (this.#place === null || !stage.view) {
+      return null;
+    }
+    const { x, y } = this.#place;
+    // It stays on the wood that it was put on, whatever becomes of that.
+    this.#pointer ??= pointerAt(x, y, stage.view, table, {
+      placeOf: (row) => stage.placeOf(row),
+      parentOf: (row) => table.parent[row] ?? -1,
+    });
+    return this.#pointer;
+  }
+
+  #line(points: readonly (readonly [number, number])[]): [number, number, number][] {
+    const { stage, table } = this.#studio;
+    const view = stage.view;
+    const [first] = points;
+    if (!view || !first) {
+      return [];
+    }
+    const through = view.pick(first[0], first[1], 24)?.point ?? nearestBase(table, view, first[0], first[1]);
+    return thinned(points, MAX_SKETCH_PLACES).flatMap(([x, y]) => {
+      const at = view.pointOnPlane(x, y, through);
+      return at ? [place(at)] : [];
+    });
+  }
+}
