@@ -23,7 +23,7 @@ const HERE: PeopleHere = {
 describe("people", () => {
   it("PS3: one's own other device is a companion, this one is not", () => {
     expect(companions(HERE).map(({ device, name }) => [device.device, name])).toEqual([
-      [2, "Guest 2"],
+      [2, "Person 2"],
       [4, "Ann"],
     ]);
     expect(companions(null)).toEqual([]);

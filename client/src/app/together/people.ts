@@ -13,7 +13,7 @@ export interface Companion {
 
 /** What somebody is called. */
 export function nameOf({ name, person }: Person): string {
-  return name ?? say("together.guest", { number: person });
+  return name ?? say("together.unnamed", { number: person });
 }
 
 /** All devices but this one, by their numbers. */

@@ -40,9 +40,12 @@ export class Room implements Listener {
     together.listener = this;
     const stop = new AbortController();
     const options = { signal: stop.signal };
-    const at = ({ offsetX: x, offsetY: y }: PointerEvent) => {
-      this.#place = { x, y };
-      this.#pointer = null;
+    const at = ({ offsetX: x, offsetY: y, isPrimary }: PointerEvent) => {
+      // Of several fingers the first points.
+      if (isPrimary) {
+        this.#place = { x, y };
+        this.#pointer = null;
+      }
     };
     canvas.addEventListener("pointermove", at, options);
     canvas.addEventListener("pointerdown", at, options);
@@ -88,14 +91,20 @@ export class Room implements Listener {
   /** Somebody brings everyone to their view; a hand that draws is left alone. */
   gathered({ by, camera }: Gathered): void {
     const { together, tools, stage, toasts } = this.#studio;
-    const name = companions(together.people.peek()).find(({ device }) => device.device === by)?.name;
-    if (tools.drawing.peek() || !stage.view) {
+    const found = companions(together.people.peek()).find(({ device }) => device.device === by);
+    const name = found?.name ?? say("together.unnamed", { number: by });
+    const go = () => {
+      this.follow(null);
+      stage.view?.camera.visit(seen(camera));
+      together.visits.value += 1;
+    };
+    if (tools.drawing.peek()) {
+      toasts.show(say("together.called", { name }), { label: say("together.go"), act: go });
       return;
     }
-    this.follow(null);
-    stage.view.camera.visit(seen(camera));
+    go();
     const back = { label: say("together.back"), act: () => stage.view?.camera.restore() };
-    toasts.show(say("together.gathered", { name: name ?? say("together.guest", { number: by }) }), back);
+    toasts.show(say("together.gathered", { name }), back);
   }
 
   /** Follows the camera of a device, or none any more. */
@@ -127,14 +136,15 @@ export class Room implements Listener {
 
   #speak(): void {
     const { together, link, stage, document: figures, settings } = this.#studio;
-    if (!link.connected || ((figures.peek()?.people ?? 1) < 2 && together.people.peek() === null)) {
+    const here = together.people.peek();
+    const isAlone = here === null ? (figures.peek()?.people ?? 1) < 2 : companions(here).length === 0;
+    if (!link.connected || isAlone) {
       return;
     }
     const view = stage.view;
     if (together.followed.peek() !== null && view && view.camera.moves !== this.#moves) {
       this.follow(null);
     }
-    const here = together.people.peek();
     const camera = view ? told(view.camera.rig.view) : null;
     const name = settings.author.peek().trim();
     const words = this.#words.next(performance.now(), this.#here(), camera, name, isFollowed(here));

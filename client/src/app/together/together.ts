@@ -21,6 +21,8 @@ export class Together {
   readonly people = signal<PeopleHere | null>(null);
   /** The device whose camera this page follows. */
   readonly followed = signal<number | null>(null);
+  /** How often somebody has brought this page to their view. */
+  readonly visits = signal(0);
   listener: Listener | null = null;
 
   /** What was told may be true no longer. */

@@ -1,6 +1,6 @@
 /** Others who have the tree open. */
 export const TOGETHER = {
-  "together.guest": ["Guest {number}", "Gast {number}"],
+  "together.unnamed": ["Person {number}", "Person {number}"],
   "together.you": ["{name} (you)", "{name} (du)"],
   "together.show": ["Who is here: {names}", "Wer hier ist: {names}"],
   "together.came": ["{name} is here", "{name} ist da"],
@@ -26,6 +26,8 @@ export const TOGETHER = {
   ],
   "together.gather.done": ["Everyone is brought to your view", "Alle kommen zu deiner Ansicht"],
   "together.gathered": ["{name} has brought you here", "{name} hat dich hierher geholt"],
+  "together.called": ["{name} brings everyone to their view", "{name} holt alle zu seiner Ansicht"],
+  "together.go": ["Go there", "Hingehen"],
   "together.back": ["Back", "Zurück"],
   "together.name": ["What others call you", "Wie andere dich nennen"],
   "together.alone": ["Nobody else has this tree open now.", "Sonst hat gerade niemand diesen Baum offen."],

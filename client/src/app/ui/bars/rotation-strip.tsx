@@ -26,7 +26,10 @@ export function RotationStrip({ studio }: { studio: Studio }) {
   };
   const [followed, follow] = useFollowing(studio.stage, show);
 
-  useAnimationFrames(held || followed, show);
+  const { together } = studio;
+  useAnimationFrames(held || followed || together.followed.value !== null, show);
+  // Somebody else has brought the view elsewhere.
+  useEffect(follow, [together.visits.value]);
   // A strip that is hidden while it is dragged lets go of the tree.
   useEffect(() => () => letGo.current(), []);
   const turn = (by: number) => {

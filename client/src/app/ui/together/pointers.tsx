@@ -27,7 +27,7 @@ export function Pointers({ studio, room, all }: PointersProps) {
       }
       const pointer = device.state === "here" ? room.others.pointer(device.device, now) : null;
       const at = pointer && project?.(pointer.at);
-      mark.dataset.shown = String(Boolean(at));
+      set(mark, "data-shown", String(Boolean(at)));
       if (!pointer || !at) {
         continue;
       }
@@ -35,16 +35,16 @@ export function Pointers({ studio, room, all }: PointersProps) {
       if (!name || !ball || !line) {
         continue;
       }
-      name.style.translate = `${at[0].toFixed(1)}px ${at[1].toFixed(1)}px`;
-      name.dataset.named = String(room.others.still(device.device, now) < NAMED_FOR);
-      ball.setAttribute("cx", at[0].toFixed(1));
-      ball.setAttribute("cy", at[1].toFixed(1));
-      ball.setAttribute("r", (pointer.radius * studio.stage.scaleAt(pointer.at)).toFixed(1));
+      set(name, "style", `translate: ${at[0].toFixed(1)}px ${at[1].toFixed(1)}px`);
+      set(name, "data-named", String(room.others.still(device.device, now) < NAMED_FOR));
+      set(ball, "cx", at[0].toFixed(1));
+      set(ball, "cy", at[1].toFixed(1));
+      set(ball, "r", (pointer.radius * studio.stage.scaleAt(pointer.at)).toFixed(1));
       const path = room.others.sketch(device.device).flatMap((place) => {
         const point = project?.(place);
         return point ? [`${point[0].toFixed(1)} ${point[1].toFixed(1)}`] : [];
       });
-      line.setAttribute("d", path.length > 1 ? `M${path.join("L")}Z` : "");
+      set(line, "d", path.length > 1 ? `M${path.join("L")}Z` : "");
     }
   });
   return (
@@ -71,6 +71,13 @@ export function Pointers({ studio, room, all }: PointersProps) {
       ))}
     </div>
   );
+}
+
+/** Changes nothing where nothing is new. */
+function set(element: Element, name: string, value: string): void {
+  if (element.getAttribute(name) !== value) {
+    element.setAttribute(name, value);
+  }
 }
 
 function parts(mark: HTMLElement): [HTMLElement | null, SVGElement | null, SVGElement | null] {
