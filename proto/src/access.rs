@@ -159,6 +159,14 @@ pub struct NewLink {
     pub name: Option<Name>,
 }
 
+/// `PATCH /api/v1/trees/{tree}/links/{link}`: let somebody do more or less (`AC12`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ChangeLink {
+    /// What they may do from now on.
+    pub role: LinkRole,
+}
+
 /// What a link may allow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(rename_all = "snake_case")]

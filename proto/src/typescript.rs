@@ -183,6 +183,7 @@ pub fn declarations() -> String {
         access::Way::decl(&config),
         access::NewLink::decl(&config),
         access::LinkRole::decl(&config),
+        access::ChangeLink::decl(&config),
         access::TreeLink::decl(&config),
         access::MadeLink::decl(&config),
     ] {

@@ -2518,6 +2518,12 @@ name?: string, };
 
 export type LinkRole = "viewer" | "editor";
 
+export type ChangeLink = { 
+/**
+ * What they may do from now on.
+ */
+role: LinkRole, };
+
 export type TreeLink = { 
 /**
  * Its identifier, which stays that of the device that came by it; no secret.

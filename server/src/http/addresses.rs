@@ -4,7 +4,10 @@ use std::{borrow::Cow, collections::BTreeMap, time::Duration};
 
 use axum::routing::{MethodRouter, delete, get, patch, post, put};
 use espalier_proto::{
-    access::{Admitted, AuditEvent, Entrance, ListedUser, LogIn, MadeLink, Me, NewLink, Redeem, TreeLink},
+    access::{
+        Admitted, AuditEvent, ChangeLink, Entrance, ListedUser, LogIn, MadeLink, Me, NewLink, Redeem,
+        TreeLink,
+    },
     library::{
         ChangeCollection, ChangeTree, ChangeVersion, CopyTree, ExportFormat, ExportProgress, NewCollection,
         NewSession, RestoreVersion, SaveTree, SaveVersion, SavedTree, SessionCreated, TreeAuthor,
@@ -216,6 +219,7 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/trees/{tree}/copies", Action::OpenTree, post(trees::copy), About::new("Duplicate a tree, or branch from a version; the answer is the new tree.").takes::<CopyTree>().gives::<SavedTree>(201)).up_to(MAX_SAID_BODY),
         route("GET /api/v1/trees/{tree}/links", Action::ShareTree, get(links::list), About::new("Who was invited to this tree alone, newest first (AC12).").gives::<Vec<TreeLink>>(200)),
         route("POST /api/v1/trees/{tree}/links", Action::ShareTree, post(links::add), About::new("Make a link that lets one device in for this tree; it is shown this once.").takes::<NewLink>().gives::<MadeLink>(201)).noted("link").once(),
+        route("PATCH /api/v1/trees/{tree}/links/{link}", Action::ShareTree, patch(links::change), About::new("Let whoever was invited do more or less; it holds at once, also where they are connected (AU3).").takes::<ChangeLink>().gives::<TreeLink>(200)).noted("link-role"),
         route("DELETE /api/v1/trees/{tree}/links/{link}", Action::ShareTree, delete(links::revoke), About::new("Revoke a link; who came by it is let in no longer.").gives_nothing()).noted("unlink"),
         route("PUT /api/v1/trees/{tree}/favourite", Action::SeeTree, put(collections::like), About::new("It is a favourite of whoever asks.").gives_nothing()),
         route("DELETE /api/v1/trees/{tree}/favourite", Action::SeeTree, delete(collections::unlike), About::new("It is none.").gives_nothing()),

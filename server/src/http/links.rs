@@ -10,7 +10,7 @@ use axum::{
 };
 use espalier_proto::{
     Problem, Reason,
-    access::{MadeLink, NewLink, TreeLink},
+    access::{ChangeLink, MadeLink, NewLink, TreeLink},
     version::MAX_LINK_HOURS,
 };
 
@@ -40,14 +40,6 @@ pub(super) async fn list(
     Path(tree): Path<String>,
 ) -> Result<Json<Vec<TreeLink>>, Failure> {
     there(&shared, &tree).await?;
-    let described = |pass: Pass| TreeLink {
-        id: pass.id,
-        name: pass.name,
-        role: pass.role,
-        since: pass.created_at,
-        until: pass.expires_at,
-        used: pass.kind == PassKind::Device,
-    };
     Ok(Json(of(&shared, &tree).await?.into_iter().map(described).collect()))
 }
 
@@ -76,6 +68,22 @@ pub(super) async fn add(
     Ok((StatusCode::CREATED, Extension(Made(id.clone())), Json(MadeLink { id, url })))
 }
 
+pub(super) async fn change(
+    State(shared): State<Shared>,
+    Path((tree, link)): Path<(String, String)>,
+    Body(ChangeLink { role }): Body<ChangeLink>,
+) -> Result<Json<TreeLink>, Failure> {
+    there(&shared, &tree).await?;
+    let found = of(&shared, &tree).await?.into_iter().find(|pass| pass.id == link);
+    let role = role.into();
+    match found {
+        Some(pass) if shared.store.change_pass(&link, role).await? => {
+            Ok(Json(described(Pass { role, ..pass })))
+        }
+        Some(_) | None => Err(no_link()),
+    }
+}
+
 pub(super) async fn revoke(
     State(shared): State<Shared>,
     Path((tree, link)): Path<(String, String)>,
@@ -86,7 +94,22 @@ pub(super) async fn revoke(
     if is_there && shared.store.take_pass(&link).await? {
         return Ok(StatusCode::NO_CONTENT);
     }
-    Err(Failure::none_such("link", "link", "the identifier of a link of this tree"))
+    Err(no_link())
+}
+
+fn no_link() -> Failure {
+    Failure::none_such("link", "link", "the identifier of a link of this tree")
+}
+
+fn described(pass: Pass) -> TreeLink {
+    TreeLink {
+        id: pass.id,
+        name: pass.name,
+        role: pass.role,
+        since: pass.created_at,
+        until: pass.expires_at,
+        used: pass.kind == PassKind::Device,
+    }
 }
 
 /// What lets people in for this tree alone, newest first.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use espalier_proto::Notice;
+use espalier_proto::{Notice, access::Role};
 use espalier_session::JournalEntry;
 
 #[cfg(test)]
@@ -229,6 +229,10 @@ impl Passes for AnyStore {
 
     async fn extend_pass(&self, id: &str, expires_at: &str) -> Result<(), StoreError> {
         delegate!(self.extend_pass(id, expires_at))
+    }
+
+    async fn change_pass(&self, id: &str, role: Role) -> Result<bool, StoreError> {
+        delegate!(self.change_pass(id, role))
     }
 
     async fn take_pass(&self, id: &str) -> Result<bool, StoreError> {

@@ -28,8 +28,8 @@ use self::library::{
     what_is_deleted_comes_back_whole, what_was_deleted_long_ago_goes,
 };
 use self::passes::{
-    a_pass_for_a_tree_goes_with_it, one_of_those_who_take_a_pass_has_it, passes_are_listed_by_kind,
-    passes_let_in_until_they_expire,
+    a_pass_for_a_tree_goes_with_it, a_pass_may_allow_something_else, one_of_those_who_take_a_pass_has_it,
+    passes_are_listed_by_kind, passes_let_in_until_they_expire,
 };
 use self::users::{a_login_has_the_role_of_its_user, a_name_is_one_person};
 use super::{
@@ -108,6 +108,7 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         passes_let_in_until_they_expire,
         one_of_those_who_take_a_pass_has_it,
         passes_are_listed_by_kind,
+        a_pass_may_allow_something_else,
         a_pass_for_a_tree_goes_with_it,
         a_name_is_one_person,
         a_login_has_the_role_of_its_user,

@@ -19,6 +19,9 @@ pub trait Passes {
     /// Lets a pass last until another time.
     async fn extend_pass(&self, id: &str, expires_at: &str) -> Result<(), StoreError>;
 
+    /// Lets a pass allow something else; whether it was there. What a login allows is its user's role.
+    async fn change_pass(&self, id: &str, role: Role) -> Result<bool, StoreError>;
+
     /// Takes a pass away. Of several who do so at once, one is told that it was there.
     async fn take_pass(&self, id: &str) -> Result<bool, StoreError>;
 

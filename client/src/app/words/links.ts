@@ -12,6 +12,8 @@ export const LINKS = {
   "links.role": ["They may", "Sie dürfen"],
   "links.role.viewer": ["Look", "Ansehen"],
   "links.role.editor": ["Draw and save", "Zeichnen und speichern"],
+  "links.let.editor": ["Let draw", "Zeichnen lassen"],
+  "links.let.viewer": ["Only let look", "Nur zusehen lassen"],
   "links.lasting": ["For", "Für"],
   "links.lasting.day": ["A day", "Einen Tag"],
   "links.lasting.week": ["A week", "Eine Woche"],

@@ -75,6 +75,31 @@ async fn ac12_owners_invite_to_a_tree_and_take_that_back() {
 }
 
 #[tokio::test]
+async fn ac12_who_was_invited_may_do_more_or_less_from_then_on() {
+    let (server, store) = server().await;
+    let owner = token(&store, Role::Owner, None).await;
+    let of_owner = |method: &Method, path: &str| request_of(&owner, method, path);
+    let (_, made) = asked(&server, of_owner(&Method::POST, LINKS), r#"{"role":"editor"}"#).await;
+    let own = format!("{LINKS}/{}", made["id"].as_str().unwrap());
+    let change = async |role: &str| {
+        asked(&server, of_owner(&Method::PATCH, &own), &json!({ "role": role }).to_string()).await
+    };
+    let (status, link) = change("viewer").await;
+    assert_eq!((status, &link["role"], &link["used"]), (200, &json!("viewer"), &json!(false)));
+    let cookie = come(&server, made["url"].as_str().unwrap()).await.expect("the link lets in");
+    let role = async || by(&server, &cookie, &Method::GET, "/api/v1/me").await.1["role"].clone();
+    assert_eq!(role().await, "viewer", "as it was when they came");
+    assert_eq!(change("editor").await.0, 200);
+    assert_eq!(role().await, "editor");
+    assert_eq!(change("owner").await.1["field"], "role");
+    assert_eq!(by(&server, &cookie, &Method::PATCH, &own).await.0, 403, "editors do not say who may what");
+    let elsewhere = own.replace("/ash/", "/yew/");
+    assert_eq!(asked(&server, of_owner(&Method::PATCH, &elsewhere), r#"{"role":"viewer"}"#).await.0, 404);
+    let events = asked(&server, request(&Method::GET, "/api/v1/audit"), "").await.1;
+    assert!(events.as_array().unwrap().iter().any(|event| event["action"] == "link-role"), "{events}");
+}
+
+#[tokio::test]
 async fn ac12_a_link_is_for_viewers_or_editors_from_an_hour_to_a_year() {
     let (server, _) = server().await;
     let add = async |body: &str| asked(&server, request(&Method::POST, LINKS), body).await;

@@ -52,6 +52,16 @@ pub(super) async fn one_of_those_who_take_a_pass_has_it(store: &impl Passes) {
     assert!(!taken().await);
 }
 
+pub(super) async fn a_pass_may_allow_something_else(store: &impl Passes) {
+    store.add_pass(hash(1), pass("tablet", PassKind::Device)).await.unwrap();
+    store.add_pass(hash(2), pass("phone", PassKind::Device)).await.unwrap();
+    assert!(store.change_pass("tablet", Role::Viewer).await.unwrap());
+    assert!(!store.change_pass("watch", Role::Viewer).await.unwrap());
+    let changed = Pass { role: Role::Viewer, ..pass("tablet", PassKind::Device) };
+    assert_eq!(store.pass(hash(1), NOW).await.unwrap(), Some(changed));
+    assert_eq!(store.pass(hash(2), NOW).await.unwrap(), Some(pass("phone", PassKind::Device)));
+}
+
 pub(super) async fn passes_are_listed_by_kind(store: &impl Passes) {
     for (byte, id, kind) in [
         (1, "a", PassKind::Device),

@@ -1,5 +1,7 @@
 //! Passes in the model.
 
+use espalier_proto::access::Role;
+
 use super::{
     super::{Missing, Pass, PassKind, Passes, StoreError, folding::folded},
     MemoryStore,
@@ -41,6 +43,12 @@ impl Passes for MemoryStore {
             expires_at.clone_into(&mut pass.expires_at);
         }
         Ok(())
+    }
+
+    async fn change_pass(&self, id: &str, role: Role) -> Result<bool, StoreError> {
+        let mut writing = self.writing()?;
+        let found = writing.passes.iter_mut().find(|(_, pass)| pass.id == id);
+        Ok(found.map(|(_, pass)| pass.role = role).is_some())
     }
 
     async fn take_pass(&self, id: &str) -> Result<bool, StoreError> {

@@ -14,6 +14,7 @@ use crate::access::SecretHash;
 pub(super) enum PassWrite {
     Add(SecretHash, Pass),
     Extend { id: String, expires_at: String },
+    Change { id: String, role: Role },
     Take(String),
     Purge(String),
 }
@@ -36,6 +37,11 @@ impl Passes for SqliteStore {
     async fn extend_pass(&self, id: &str, expires_at: &str) -> Result<(), StoreError> {
         let write = PassWrite::Extend { id: id.to_owned(), expires_at: expires_at.to_owned() };
         self.writer.write(Write::Pass(write)).await.map(drop)
+    }
+
+    async fn change_pass(&self, id: &str, role: Role) -> Result<bool, StoreError> {
+        let write = Write::Pass(PassWrite::Change { id: id.to_owned(), role });
+        Ok(self.writer.write(write).await? > 0)
     }
 
     async fn take_pass(&self, id: &str) -> Result<bool, StoreError> {
@@ -107,6 +113,9 @@ impl PassWrite {
             }
             Self::Extend { id, expires_at } => {
                 sqlx::query("UPDATE passes SET expires_at = ? WHERE id = ?").bind(expires_at).bind(id)
+            }
+            Self::Change { id, role } => {
+                sqlx::query("UPDATE passes SET role = ? WHERE id = ?").bind(role.name()).bind(id)
             }
             Self::Take(id) => sqlx::query("DELETE FROM passes WHERE id = ?").bind(id),
             Self::Purge(now) => sqlx::query("DELETE FROM passes WHERE expires_at <= ?").bind(now),

@@ -1,4 +1,4 @@
-import type { MadeLink, NewLink, TreeLink } from "../../../wire/generated";
+import type { LinkRole, MadeLink, NewLink, TreeLink } from "../../../wire/generated";
 import { ask } from "../../requests/request";
 
 /** What lets people in for a tree alone, newest first. */
@@ -9,6 +9,11 @@ export function listLinks(tree: string): Promise<readonly TreeLink[]> {
 /** Makes a link that lets one device in; its address is in this one answer. */
 export function makeLink(tree: string, link: NewLink): Promise<MadeLink> {
   return ask<MadeLink>("POST", pathOf(tree), link);
+}
+
+/** Whoever came by it, or comes, may do that from now on. */
+export function changeLink(tree: string, link: string, role: LinkRole): Promise<TreeLink> {
+  return ask<TreeLink>("PATCH", `${pathOf(tree)}/${encodeURIComponent(link)}`, { role });
 }
 
 /** Whoever came by it is let in no longer. */

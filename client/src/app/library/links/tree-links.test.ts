@@ -37,6 +37,13 @@ function desk() {
         there.unshift({ id, name, role, since: "", until: "", used: false });
         return { id, url: `http://192.168.1.7:7700/pair#${id}` };
       },
+      changeLink: async (_, id, role) => {
+        or();
+        const found = there.findIndex((link) => link.id === id);
+        const changed = { ...there[found]!, role };
+        there[found] = changed;
+        return changed;
+      },
       revokeLink: async (_, id) => {
         or();
         there.splice(
@@ -50,6 +57,16 @@ function desk() {
 }
 
 describe("the links of a tree", () => {
+  it("AC12: who was invited may do something else from then on", async () => {
+    const { links, there, failures, trouble } = desk();
+    await links.make({ role: "editor", name: "Ann" });
+    await links.change("link-0", "viewer");
+    expect([links.list.value?.[0]?.role, there[0]?.role]).toEqual(["viewer", "viewer"]);
+    trouble.next = refused(403);
+    await links.change("link-0", "editor");
+    expect([failures.length, links.list.value?.[0]?.role]).toEqual([1, "viewer"]);
+  });
+
   it("AC12: one that is made is listed, and it is seen when somebody comes by it", async () => {
     const { links, there, clock, asked } = desk();
     const end = links.follow();

@@ -1,5 +1,5 @@
 import { computed, signal } from "@preact/signals";
-import type { MadeLink, NewLink, TreeLink } from "../../../wire/generated";
+import type { LinkRole, MadeLink, NewLink, TreeLink } from "../../../wire/generated";
 import type { Clock } from "../../page/clock";
 import { RequestFailed } from "../../requests/request";
 import type * as api from "./link-api";
@@ -9,7 +9,7 @@ const EVERY = 3000;
 
 export interface TreeLinksOptions {
   readonly tree: string;
-  readonly api: Pick<typeof api, "listLinks" | "makeLink" | "revokeLink">;
+  readonly api: Pick<typeof api, "listLinks" | "makeLink" | "changeLink" | "revokeLink">;
   readonly clock: Clock;
   /** A link was not made or not revoked. */
   readonly failed: (error: unknown) => void;
@@ -82,6 +82,16 @@ export class TreeLinks {
       this.#options.failed(error);
     }
     this.making.value = false;
+    await this.look();
+  }
+
+  /** Whoever came by a link, or comes, may do that from now on. */
+  async change(id: string, role: LinkRole): Promise<void> {
+    try {
+      await this.#options.api.changeLink(this.#options.tree, id, role);
+    } catch (error) {
+      this.#options.failed(error);
+    }
     await this.look();
   }
 

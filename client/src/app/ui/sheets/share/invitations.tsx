@@ -150,7 +150,12 @@ function LinkList({ links }: { readonly links: TreeLinks }) {
   ) : (
     <ul class="links" aria-label={say("links.list")}>
       {list.map((link) => (
-        <LinkRow key={link.id} link={link} onRevoke={() => links.revoke(link.id)} />
+        <LinkRow
+          key={link.id}
+          link={link}
+          onChange={(role) => links.change(link.id, role)}
+          onRevoke={() => links.revoke(link.id)}
+        />
       ))}
     </ul>
   );

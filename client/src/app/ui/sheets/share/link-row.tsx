@@ -1,17 +1,23 @@
 import { useState } from "preact/hooks";
-import type { TreeLink } from "../../../../wire/generated";
+import type { LinkRole, TreeLink } from "../../../../wire/generated";
 import { momentText } from "../../../words/date-text";
 import { type Key, say } from "../../../words/say";
 import { ConfirmRow } from "../confirm-row";
 
 interface LinkRowProps {
   readonly link: TreeLink;
+  /** They may do that from now on. */
+  readonly onChange: (role: LinkRole) => Promise<void>;
   readonly onRevoke: () => Promise<void>;
 }
 
-/** Who was invited, since when and until when; and a way to take that back, which is asked about once. */
-export function LinkRow({ link: { name, role, since, until, used }, onRevoke }: LinkRowProps) {
+/**
+ * Who was invited, since when and until when; ways to let them do more or less, which holds at once, and to take it all
+ * back, which is asked about once.
+ */
+export function LinkRow({ link: { name, role, since, until, used }, onChange, onRevoke }: LinkRowProps) {
   const [asks, setAsks] = useState(false);
+  const other = role === "viewer" ? "editor" : "viewer";
   return (
     <li class="link-row" data-used={used}>
       <div>
@@ -29,14 +35,19 @@ export function LinkRow({ link: { name, role, since, until, used }, onRevoke }: 
           onKeep={() => setAsks(false)}
         />
       ) : (
-        <button
-          type="button"
-          class="small"
-          aria-label={say("links.revoke.which", { name })}
-          onClick={() => setAsks(true)}
-        >
-          {say("links.revoke")}
-        </button>
+        <div class="link-acts">
+          <button type="button" class="small" onClick={() => void onChange(other)}>
+            {say(`links.let.${other}`)}
+          </button>
+          <button
+            type="button"
+            class="small"
+            aria-label={say("links.revoke.which", { name })}
+            onClick={() => setAsks(true)}
+          >
+            {say("links.revoke")}
+          </button>
+        </div>
       )}
     </li>
   );
