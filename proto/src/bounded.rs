@@ -111,11 +111,11 @@ bounded! {
     SphereRadius: f32 from 0.1, to 500.0, read deserialize_f32;
     /// Width, height or depth of a box, in internode lengths (`LM6`).
     BoxSide: f32 from 0.1, to 1000.0, read deserialize_f32;
-    /// Turn of a camera around the vertical, in degrees (`LM19`).
+    /// Turn of a camera around the vertical, in degrees (`LM20`).
     Yaw: f32 from -180.0, to 180.0, read deserialize_f32;
-    /// Height of a camera above the horizontal, in degrees (`LM19`).
+    /// Height of a camera above the horizontal, in degrees (`LM20`).
     Pitch: f32 from -90.0, to 90.0, read deserialize_f32;
-    /// From a camera to what it looks at, in internode lengths (`LM19`).
+    /// From a camera to what it looks at, in internode lengths (`LM20`).
     EyeDistance: f32 from 0.1, to 10_000.0, read deserialize_f32;
     /// What the coordinates of a mesh are multiplied by (`LM6`).
     Scale: f32 from 0.001, to 1000.0, read deserialize_f32;

@@ -118,7 +118,7 @@ several! {
         format!("three numbers, x and z {ACROSS}, y {UPWARDS}");
     /// A place on a plane, in internode lengths (`LM5`).
     PlanePoint: Vec2 = [f32; 2], [ACROSS; 2], format!("two numbers, {ACROSS}");
-    /// From a place on wood to where a pointer is, in internode lengths (`LM19`).
+    /// From a place on wood to where a pointer is, in internode lengths (`LM20`).
     Offset: Vec3 = [f32; 3], [NEAR; 3], format!("three numbers, {NEAR}");
     /// Width, height and depth of a box, in internode lengths (`LM6`).
     BoxSize: Vec3 = [f32; 3], [BoxSide::RANGE; 3], format!("three numbers, {}", BoxSide::RANGE);

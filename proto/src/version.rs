@@ -59,10 +59,10 @@ pub const MAX_STAGES: usize = 128;
 /// The greatest age that a stage of a programme can have (`LM13`).
 pub const MAX_AGE: u32 = 10_000;
 
-/// The most places of what somebody shows others while they draw it (`LM19`).
+/// The most places of what somebody shows others while they draw it (`LM20`).
 pub const MAX_SKETCH_PLACES: usize = 48;
 
-/// The most devices that people are shown of each other (`LM19`).
+/// The most devices that people are shown of each other (`LM20`).
 pub const MAX_SHOWN_DEVICES: usize = 64;
 
 /// The most obstacles in a scene (`LM6`).

@@ -8,7 +8,7 @@ import { besideWood } from "./wood-place";
 
 /** A pointer is on wood that is so near, in pixels. */
 const NEAR = 24;
-/** The farthest that an offset from wood may be (LM19). */
+/** The farthest that an offset from wood may be (LM20). */
 const FARTHEST_OFFSET = 16;
 
 type Table = Parameters<typeof nearestBase>[0];

@@ -35,7 +35,7 @@ describe("what a page says of itself", () => {
 });
 
 describe("cameras", () => {
-  it("LM19: any turn is told within its bounds, and is the same view", () => {
+  it("LM20: any turn is told within its bounds, and is the same view", () => {
     for (const yaw of [-40, -3.2, 0, 1.5, 3.2, 100]) {
       const view = { target: [0, 8, 0] as [number, number, number], yaw, pitch: -0.1, distance: 40 };
       const camera = told(view);
@@ -48,7 +48,7 @@ describe("cameras", () => {
 });
 
 describe("a line that is being drawn", () => {
-  it("LM19: is told by so many places, its ends among them", () => {
+  it("LM20: is told by so many places, its ends among them", () => {
     const line = Array.from({ length: 500 }, (_, i) => i);
     const told = thinned(line, 48);
     expect([told.length, told[0], told[47]]).toEqual([48, 0, 499]);

@@ -299,7 +299,8 @@ impl Session {
         let absence = upkeep.absences.front().map(|(due, _)| *due);
         let memory = self.pausing.due.filter(|_| self.home.is_some());
         let room = self.room_due();
-        let earliest = [state, timeline, widths, pause, hello, absence, memory, room].into_iter().flatten().min();
+        let earliest =
+            [state, timeline, widths, pause, hello, absence, memory, room].into_iter().flatten().min();
         if earliest != upkeep.wake_at {
             self.upkeep.wake_at = earliest;
             self.outputs.extend(earliest.map(Output::WakeAt));

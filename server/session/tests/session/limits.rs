@@ -243,7 +243,7 @@ fn lm10_a_prediction_has_up_to_100_steps() {
 }
 
 #[test]
-fn lm19_what_is_said_of_oneself_has_bounds() {
+fn lm20_what_is_said_of_oneself_has_bounds() {
     let mut world = World::new();
     let client = world.join("birch-01");
     let camera = |field: &str, value: f32| {
