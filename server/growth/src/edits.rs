@@ -1,7 +1,7 @@
 //! What a person does to a scene (TreeSketch §3.3): the plants change in a step of its own, and light, space and
 //! the generator know of it at once, so that growth goes on from there.
 
-use espalier_plant::{AxisId, BrokenPlant, Carried, Future, MetamerId, Motion};
+use espalier_plant::{AxisId, BrokenPlant, Carried, Claim, Future, MetamerId, Motion, Settled};
 use glam::Vec3;
 
 use crate::{
@@ -74,6 +74,27 @@ impl<G: Generator> Simulation<G> {
             }
             axis
         }))
+    }
+
+    /// Settles anew which wood stands, with some steps not in force ([`espalier_plant::Plant::settle`]), as an edit:
+    /// strokes in progress go on. Nothing lies ahead of the present.
+    ///
+    /// # Errors
+    /// Where wood would stand outside the world; then nothing changes.
+    pub fn settle(&mut self, claims: &[Claim]) -> Result<Settled, EditError> {
+        let settled = self.scene.plant.settle(claims);
+        if settled.is_recorded {
+            let before = self.plant().step();
+            let shift = self.scene.go_to(before + 1);
+            let arrived = shift.metamers_in.iter().chain(shift.moved.iter().map(|(id, _)| id));
+            if !arrived.into_iter().all(|&id| is_in_world(self.plant().metamers().end(id))) {
+                self.scene.go_to(before);
+                self.scene.plant.stash_future();
+                return Err(EditError::OutOfWorld);
+            }
+            self.generator.follow(&self.scene, &Change::Edited);
+        }
+        Ok(settled)
     }
 
     /// Sets, changes or removes a width constraint: the diameter of a metamer in internodes.

@@ -1,6 +1,6 @@
 //! Small plants.
 
-use espalier_plant::{AxisId, Internode, MetamerId, Plant};
+use espalier_plant::{AxisId, Claim, Internode, MetamerId, Plant};
 use glam::Vec3;
 use proptest::prelude::*;
 
@@ -13,6 +13,8 @@ pub enum Edit {
     Widen(u16, u8),
     /// Eighths of an internode that a branch is given as its radii.
     Give(u16, u8),
+    /// Settles which wood stands with these steps in force, and these drawn by a hand.
+    Settle(u64, u64),
 }
 
 /// Steps of buds (by a number that is folded into range) that grow, with what is done after it.
@@ -25,6 +27,7 @@ pub fn growth() -> impl Strategy<Value = Growth> {
         any::<u16>().prop_map(Edit::Prune),
         (any::<u16>(), 1u8..).prop_map(|(pick, eighths)| Edit::Widen(pick, eighths)),
         (any::<u16>(), 1u8..).prop_map(|(pick, eighths)| Edit::Give(pick, eighths)),
+        any::<(u64, u64)>().prop_map(|(force, hand)| Edit::Settle(force, hand)),
     ];
     prop::collection::vec((buds, prop::option::weighted(0.4, edit)), 0..20)
 }
@@ -40,17 +43,31 @@ pub fn grown(growth: &Growth) -> Plant {
             extend(&mut plant, axis, heading, 1.0);
         }
         plant.end_step();
-        if let Some(edit) = edit {
-            plant.begin_edit();
-            happen(&mut plant, *edit);
-            plant.end_step();
+        match edit {
+            None => {}
+            Some(Edit::Settle(force, hand)) => settle(&mut plant, *force, *hand),
+            Some(edit) => {
+                plant.begin_edit();
+                happen(&mut plant, *edit);
+                plant.end_step();
+            }
         }
     }
     plant
 }
 
+fn settle(plant: &mut Plant, force: u64, hand: u64) {
+    let bit = |bits: u64, step: u32| step == 0 || bits >> (step % 64) & 1 > 0;
+    let claim = |step| Claim { in_force: bit(force, step), by_hand: bit(hand, step) };
+    let claims: Vec<Claim> = (0..=plant.step()).map(claim).collect();
+    plant.settle(&claims);
+    plant.go_to(plant.last_step());
+}
+
 fn happen(plant: &mut Plant, edit: Edit) {
     match edit {
+        // It is a step of its own.
+        Edit::Settle(..) => {}
         Edit::Shed(pick) => {
             if let Some(axis) = living_axis(plant, pick).filter(|&axis| plant.axes().order(axis) > 0) {
                 plant.shed(&[axis]);

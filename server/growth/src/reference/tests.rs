@@ -1,6 +1,6 @@
 //! Random scenes are grown both ways, side by side, and must be the same after whatever happens to them.
 
-use espalier_plant::{AxisId, Carried, MetamerId, Motion, Plant};
+use espalier_plant::{AxisId, Carried, Claim, MetamerId, Motion, Plant};
 use glam::{Quat, Vec2, Vec3};
 use proptest::prelude::*;
 
@@ -30,6 +30,8 @@ enum Event {
     Place(u32),
     /// Grafts some branch onto some wood; every other time the branch itself goes.
     Graft(u32, u32),
+    /// Settles which wood stands with these steps in force, and these drawn by a hand.
+    Settle(u64, u64),
 }
 
 /// Some living wood.
@@ -111,6 +113,7 @@ fn events() -> impl Strategy<Value = Vec<Event>> {
         1 => any::<u32>().prop_map(Event::Place),
         1 => any::<(u32, u32)>().prop_map(|(branch, onto)| Event::Graft(branch, onto)),
         1 => (0f32..0.9, 0.5f32..3.0).prop_map(|(a, kappa)| Event::Light(a, kappa)),
+        2 => any::<(u64, u64)>().prop_map(|(force, hand)| Event::Settle(force, hand)),
     ];
     prop::collection::vec(event, 8..22)
 }
@@ -201,6 +204,14 @@ proptest! {
                     let to = fast.plant().step().saturating_sub(steps);
                     fast.go_to(to);
                     plain.go_to(to);
+                }
+                Event::Settle(force, hand) => {
+                    let bit = |bits: u64, step: u32| step == 0 || bits >> (step % 64) & 1 > 0;
+                    let claim = |step| Claim { in_force: bit(force, step), by_hand: bit(hand, step) };
+                    let claims: Vec<Claim> = (0..=fast.plant().step()).map(claim).collect();
+                    fast.stash_future();
+                    plain.stash_future();
+                    prop_assert_eq!(fast.settle(&claims), plain.settle(&claims));
                 }
                 Event::Sow(place) => {
                     fast.sow(place);

@@ -1,7 +1,7 @@
 //! Random lives of a scene: invariants hold, and what is derived is always what it would be if made afresh.
 
 use espalier_growth::ParameterValues;
-use espalier_plant::checks;
+use espalier_plant::{Claim, Condition, checks};
 use proptest::prelude::*;
 
 use super::*;
@@ -14,6 +14,8 @@ enum Event {
     Sow(Vec3),
     Shedding(f32),
     Shadow(f32),
+    /// Settles which wood stands with these steps in force, and these drawn by a hand.
+    Settle(u64, u64),
 }
 
 fn events() -> impl Strategy<Value = Vec<Event>> {
@@ -25,6 +27,7 @@ fn events() -> impl Strategy<Value = Vec<Event>> {
         1 => (-12f32..12.0, -12f32..12.0).prop_map(|(x, z)| Event::Sow(Vec3::new(x, 0.0, z))),
         1 => (0f32..0.3).prop_map(Event::Shedding),
         1 => (0f32..0.4).prop_map(Event::Shadow),
+        2 => any::<(u64, u64)>().prop_map(|(force, hand)| Event::Settle(force, hand)),
     ];
     prop::collection::vec(event, 1..10)
 }
@@ -45,6 +48,13 @@ fn happen(simulation: &mut Simulation, number: u32, event: &Event) {
         Event::Sow(place) => simulation.sow(*place),
         Event::Shedding(threshold) => set(simulation, |values| values.shedding_threshold = *threshold),
         Event::Shadow(strength) => set(simulation, |values| values.shadow_strength = *strength),
+        Event::Settle(force, hand) => {
+            let bit = |bits: u64, step: u32| step == 0 || bits >> (step % 64) & 1 > 0;
+            let claim = |step| Claim { in_force: bit(*force, step), by_hand: bit(*hand, step) };
+            let claims: Vec<Claim> = (0..=simulation.plant().step()).map(claim).collect();
+            simulation.stash_future();
+            simulation.settle(&claims).expect("nothing was moved");
+        }
     }
 }
 
@@ -71,6 +81,23 @@ proptest! {
     }
 
     #[test]
+    fn without_the_last_steps_light_and_vigor_are_those_of_before(seed: u32, events in events(), step: u16) {
+        let mut simulation = simulation(seed);
+        simulation.set_metamer_budget(6000);
+        for (number, event) in events.iter().filter(|event| !matches!(event, Event::Settle(..))).enumerate() {
+            happen(&mut simulation, number as u32, event);
+        }
+        simulation.stash_future();
+        let step = u32::from(step) % (simulation.plant().step() + 1);
+        let mut past = simulation.clone();
+        past.go_to(step);
+        let claims: Vec<Claim> =
+            (0..=simulation.plant().step()).map(|at| Claim { in_force: at <= step, by_hand: true }).collect();
+        simulation.settle(&claims).expect("nothing was moved");
+        prop_assert_eq!(looks(&mut simulation), looks(&mut past));
+    }
+
+    #[test]
     fn ungrown_steps_grow_again_alike(seed: u32, events in events(), back in 1u32..8) {
         let mut simulation = simulation(seed);
         simulation.set_metamer_budget(6000);
@@ -87,6 +114,18 @@ proptest! {
         simulation.go_to(end);
         prop_assert_eq!(simulation.plant().hash(), hash);
     }
+}
+
+/// Living metamers with the bits of their places, their tips, their light and their vigor.
+fn looks(simulation: &mut Simulation) -> Vec<(MetamerId, [u32; 3], u32, Condition)> {
+    simulation.show();
+    let plant = simulation.plant();
+    let living = (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id));
+    let of = |id: MetamerId| {
+        let metamers = plant.metamers();
+        (id, metamers.end(id).to_array().map(f32::to_bits), metamers.tips(id), metamers.condition(id))
+    };
+    living.map(of).collect()
 }
 
 #[test]

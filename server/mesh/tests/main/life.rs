@@ -1,6 +1,6 @@
 //! Random events in the life of a plant.
 
-use espalier_plant::{AxisId, Condition, Internode, MetamerId, Motion, Plant};
+use espalier_plant::{AxisId, Claim, Condition, Internode, MetamerId, Motion, Plant};
 use glam::{Quat, Vec3};
 use proptest::prelude::*;
 
@@ -24,6 +24,8 @@ pub enum Event {
     /// A branch, and radii that its wood is given, or none.
     Give(u16, Option<u8>),
     GoTo(u16),
+    /// Settles which wood stands with these steps in force, and these drawn by a hand.
+    Settle(u64, u64),
     Look(u16, u8, u8),
 }
 
@@ -39,6 +41,7 @@ pub fn events() -> impl Strategy<Value = Vec<Event>> {
         3 => any::<(u16, Option<u8>)>().prop_map(|(pick, width)| Event::Widen(pick, width)),
         1 => any::<(u16, Option<u8>)>().prop_map(|(pick, radius)| Event::Give(pick, radius)),
         2 => any::<u16>().prop_map(Event::GoTo),
+        2 => any::<(u64, u64)>().prop_map(|(force, hand)| Event::Settle(force, hand)),
         2 => any::<(u16, u8, u8)>().prop_map(|(pick, light, vigor)| Event::Look(pick, light, vigor)),
     ];
     prop::collection::vec(event, 1..60)
@@ -104,6 +107,14 @@ pub fn happen(plant: &mut Plant, event: &Event) {
             let motion = Motion { rotation, from: foot, to: plant.metamers().end(onto) };
             plant.graft(source, onto, &motion);
             plant.end_step();
+        }
+        Event::Settle(force, hand) => {
+            let bit = |bits: u64, step: u32| step == 0 || bits >> (step % 64) & 1 > 0;
+            let claim = |step| Claim { in_force: bit(*force, step), by_hand: bit(*hand, step) };
+            let claims: Vec<Claim> = (0..=plant.step()).map(claim).collect();
+            plant.stash_future();
+            plant.settle(&claims);
+            plant.go_to(plant.last_step());
         }
         Event::Widen(pick, width) => {
             if let Some(id) = wood(plant, *pick) {

@@ -95,17 +95,20 @@ pub(super) fn resettled(plant: &Plant, claims: &[Claim], standing: &Standing) ->
         }
         _ => None,
     });
-    let moves: Vec<Move<'_>> = moves.collect();
-    if moves.iter().all(|of| of.moved.metamers.is_empty() && of.moved.axes.is_empty()) {
+    // Before the first that was moved everything was where it grew.
+    let moves: Vec<Move<'_>> =
+        moves.skip_while(|of| of.moved.metamers.is_empty() && of.moved.axes.is_empty()).collect();
+    if moves.is_empty() {
         return Carried::default();
     }
-    Places::of(plant, moves, &standing.births).put(standing)
+    Places::of(plant, moves, standing).put(standing)
 }
 
 impl<'a> Places<'a> {
     /// The places of the present, and of what is dead those of its last step; then the moves that do not count are taken
     /// back, the last first. What they left where it was is where it was before them as well.
-    fn of(plant: &'a Plant, moves: Vec<Move<'a>>, births: &[u32]) -> Self {
+    fn of(plant: &'a Plant, moves: Vec<Move<'a>>, standing: &Standing) -> Self {
+        let Standing { births, axis_births, .. } = standing;
         let mut lives = Lives::of(plant, births);
         let known = |death: Option<u32>| death.map_or(NOW, |death| death.saturating_sub(1));
         let next = plant.step() + 1;
@@ -138,6 +141,10 @@ impl<'a> Places<'a> {
                 }
             }
             let before = |death: Option<u32>| death.unwrap_or(of.step).saturating_sub(1);
+            let moves_none = moved.metamers.is_empty() && moved.axes.is_empty();
+            if moves_none && of.settling.is_none_or(|settling| settling.metamers.is_empty()) {
+                continue;
+            }
             for (row, (_, since)) in rows.iter_mut().enumerate() {
                 if !kept_rows[row] && births[row] < of.step && *since >= of.step {
                     *since = before(lives.death(MetamerId::new(row), of.step));
@@ -145,7 +152,7 @@ impl<'a> Places<'a> {
             }
             for (row, (_, since)) in axes.iter_mut().enumerate() {
                 let axis = AxisId::new(row);
-                if !kept_axes[row] && plant.axis_birth(axis) < of.step && *since >= of.step {
+                if !kept_axes[row] && axis_births[row] < of.step && *since >= of.step {
                     *since = before(lives.axis_death(axis, of.step));
                 }
             }

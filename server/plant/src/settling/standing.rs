@@ -12,6 +12,7 @@ use crate::{
     edits::Edit,
     id::{AxisId, MetamerId},
     plant::Plant,
+    timeline::StepEnd,
 };
 
 /// How a metamer is.
@@ -37,6 +38,8 @@ impl State {
 pub(super) struct Standing {
     /// The step in which each metamer was born.
     pub(super) births: Vec<u32>,
+    /// The step in which the bud of each axis was born.
+    pub(super) axis_births: Vec<u32>,
     /// How each metamer is.
     pub(super) states: Vec<State>,
     /// Whether each metamer is drawn wood in force that nothing in force has cut.
@@ -89,7 +92,8 @@ impl<T: Default + Clone> Slots<T> {
 
 impl Standing {
     pub(super) fn of(plant: &Plant, claims: &[Claim]) -> Self {
-        let births = births(plant);
+        let births = births_of(plant, |end| end.metamers);
+        let axis_births = births_of(plant, |end| end.axes);
         let (cuts, axis_cuts) = cuts(plant, claims);
         let rows = || (0..plant.metamer_count()).map(MetamerId::new);
         // What died as it was born never stood.
@@ -133,7 +137,7 @@ impl Standing {
             }
         }
         let buds = (0..plant.axis_count()).map(AxisId::new).map(|axis| {
-            let birth = plant.axis_birth(axis);
+            let birth = axis_births[axis.index()];
             let bearer = plant.axes().bearer(axis);
             let below = bearer.map_or(Cut::default(), |bearer| cuts[bearer.index()]);
             let is_cut = below.and(axis_cuts[axis.index()]).last() > birth;
@@ -144,18 +148,18 @@ impl Standing {
                 }
                 None => ends[axis.index()].is_some(),
             };
-            is_there && !is_cut && !ended_by_itself(plant, claims, axis)
+            is_there && !is_cut && !ended_by_itself(plant, claims, axis, birth)
         });
         let buds = buds.collect();
-        Self { births, states, own, buds, ends }
+        Self { births, axis_births, states, own, buds, ends }
     }
 }
 
-/// The step in which each metamer was born.
-fn births(plant: &Plant) -> Vec<u32> {
-    let mut births = Vec::with_capacity(plant.metamer_count());
+/// The step in which each row of a column was born.
+fn births_of(plant: &Plant, column: impl Fn(&StepEnd) -> u32) -> Vec<u32> {
+    let mut births = Vec::new();
     for (end, step) in plant.timeline.ends[..=plant.step() as usize].iter().zip(0..) {
-        births.resize(end.metamers as usize, step);
+        births.resize(column(end) as usize, step);
     }
     births
 }
@@ -184,7 +188,7 @@ fn cuts(plant: &Plant, claims: &[Claim]) -> (Vec<Cut>, Vec<Cut>) {
 
 /// Whether a bud came to its end in a step in force without having been cut or shed: those of copies of wood without a
 /// bud, and of wood from elsewhere.
-fn ended_by_itself(plant: &Plant, claims: &[Claim], axis: AxisId) -> bool {
+fn ended_by_itself(plant: &Plant, claims: &[Claim], axis: AxisId, birth: u32) -> bool {
     let death = plant.axes.death.of(axis.index());
     if plant.is_axis_alive(axis) {
         return false;
@@ -192,5 +196,5 @@ fn ended_by_itself(plant: &Plant, claims: &[Claim], axis: AxisId) -> bool {
     let was_cut = |edit: &Edit| matches!(edit, Edit::Shed(_) | Edit::Pruned(_) | Edit::Resettled(_));
     let (before, end) = (plant.timeline.before(death), plant.timeline.ends[death as usize]);
     let cut_then = plant.timeline.edits[before.edits as usize..end.edits as usize].iter().any(was_cut);
-    death <= plant.axis_birth(axis) || (!cut_then && claim(claims, death).in_force)
+    death <= birth || (!cut_then && claim(claims, death).in_force)
 }

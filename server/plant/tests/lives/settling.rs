@@ -171,9 +171,16 @@ proptest! {
         claims[step].in_force = false;
         let ours = |id: &MetamerId| claims[plant.birth(*id) as usize].in_force;
         let before: Vec<MetamerId> = before.into_iter().filter(ours).collect();
+        let parts = plant.to_parts();
+        let edits = parts.ends[step - 1][2] as usize..parts.ends[step][2] as usize;
+        let moves = parts.edits[edits].iter().any(|edit| matches!(edit, Edit::Carried(_)));
+        let former = seen(&plant);
         settle(&mut plant, &claims);
+        let present = seen(&plant);
         for id in before {
             prop_assert!(plant.is_alive(id), "{id:?} fell");
+            let (was, is) = (former.metamers[&id].0, present.metamers[&id].0);
+            prop_assert!(moves || was == is, "{id:?} moved");
         }
     }
 

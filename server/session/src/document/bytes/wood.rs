@@ -270,3 +270,66 @@ fn read_resettled(reader: &mut Reader<'_>) -> Result<Resettled, DocumentError> {
         given: read_given(reader)?,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use espalier_plant::{Claim, Internode, Motion, Plant, checks};
+    use glam::Quat;
+
+    use super::*;
+
+    /// A stem of three, turned at its second metamer, whose last one falls, and its bud with it.
+    fn settled() -> Plant {
+        let mut plant = Plant::new(Vec3::ZERO);
+        let stem = AxisId::new(0);
+        for height in 1..=3u8 {
+            plant.begin_step();
+            let end = Vec3::Y * f32::from(height);
+            plant.extend(stem, &Internode { end, normal: Vec3::X, laterals: &[Vec3::X] });
+            plant.end_step();
+        }
+        plant.begin_edit();
+        let rotation = Quat::from_xyzw(0.0, 0.0, 0.6, 0.8);
+        plant.carry(&[MetamerId::new(2)], &[Motion { rotation, from: Vec3::Y, to: Vec3::Y }]);
+        plant.set_width(MetamerId::new(1), Some(0.5));
+        plant.give_radii(&[(MetamerId::new(2), Some(0.25))]).expect("living wood");
+        plant.end_step();
+        let claim = |step: u32| Claim { in_force: step < 3, by_hand: true };
+        let settled = plant.settle(&(0..=plant.step()).map(claim).collect::<Vec<_>>());
+        assert_eq!(settled.falls, [MetamerId::new(3)]);
+        plant.go_to(plant.last_step());
+        plant
+    }
+
+    #[test]
+    fn what_was_settled_is_read_as_it_was_written() {
+        let mut plant = settled();
+        let has_all = |edit: &Edit| {
+            let Edit::Resettled(edit) = edit else { return false };
+            let Resettled { metamers, axes, ends, severed, carried, widths, given } = &**edit;
+            let rows = [metamers.len(), ends.len(), severed.len(), carried.metamers.len(), widths.len()];
+            rows.iter().all(|&len| len > 0) && !axes.is_empty() && !given.metamers.is_empty()
+        };
+        assert!(plant.to_parts().edits.iter().any(has_all), "each part of the edit is written");
+        let written = plant.to_parts();
+        let (mut columns, mut timeline) = (Writer::default(), Writer::default());
+        write_columns(&mut columns, &written);
+        write_timeline(&mut timeline, &written);
+        let (columns, timeline) = (columns.into_bytes(), timeline.into_bytes());
+        let rows = read_columns(&mut Reader::new(&columns)).expect("columns");
+        let time = read_timeline(&mut Reader::new(&timeline)).expect("a timeline");
+        let PlantParts { widths, given_radii, .. } = written.clone();
+        let PlantParts { now, ends, edits, .. } = time;
+        let read = PlantParts { now, ends, edits, widths, given_radii, ..rows };
+        assert_eq!(read, written);
+        assert_eq!(Plant::from_parts(read).as_ref(), Ok(&plant));
+        plant.go_to(4);
+        let future = plant.stash_future();
+        let mut out = Writer::default();
+        write_future(&mut out, &future);
+        let future = read_future(&mut Reader::new(&out.into_bytes())).expect("a future");
+        plant.take_future(future).expect("it is taken where it was cut off");
+        plant.go_to(plant.last_step());
+        assert_eq!((checks::all(&plant), plant.to_parts()), (Ok(()), written));
+    }
+}
