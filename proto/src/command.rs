@@ -174,6 +174,10 @@ tagged_enum! {
         Undo {},
         /// Do again what was last undone or ungrown.
         Redo {},
+        /// Take back what this person did last and is in force, wherever it lies; what others drew stays (`UD1`).
+        TakeBack {},
+        /// Put in force again what this person took back last (`UD3`).
+        BringBack {},
         /// Change some of the parameters; growth from here on uses them.
         SetParameters {
             /// The fields to change.

@@ -32,6 +32,10 @@ pub enum OperationKind {
     Turn,
     /// A branch copied or moved.
     Graft,
+    /// Something taken back, wherever it lies on the line (`UD1`).
+    TakenBack,
+    /// Something that was taken back is in force again (`UD3`).
+    BroughtBack,
 }
 
 /// One operation on a line of time.
@@ -46,6 +50,10 @@ pub struct TimelineOperation {
     pub first: u32,
     /// The step it reached; the same as `first` where it took none.
     pub last: u32,
+    /// Whether its author has taken it back since (`UD1`).
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[ts(as = "Option<bool>", optional)]
+    pub away: bool,
 }
 
 /// Another line of time, as far as it differs from the present one.
@@ -151,7 +159,7 @@ mod tests {
     use super::*;
 
     fn operation(author: u32, first: u32, last: u32) -> TimelineOperation {
-        TimelineOperation { kind: OperationKind::Stroke, author, first, last }
+        TimelineOperation { kind: OperationKind::Stroke, author, first, last, away: false }
     }
 
     #[test]

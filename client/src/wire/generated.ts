@@ -1244,7 +1244,7 @@ bud?: number, } | { "kind": "stop", } | { "kind": "ungrow",
 /**
  * 1 to 1000 simulation steps.
  */
-steps: number, } | { "kind": "undo", } | { "kind": "redo", } | { "kind": "set_parameters", 
+steps: number, } | { "kind": "undo", } | { "kind": "redo", } | { "kind": "take_back", } | { "kind": "bring_back", } | { "kind": "set_parameters", 
 /**
  * The fields to change.
  */
@@ -1465,7 +1465,7 @@ cause?: string,
  */
 message: string, };
 
-export type OperationKind = "stroke" | "growth" | "lasso" | "parameters" | "appearance" | "seed" | "obstacle" | "bend" | "width" | "prune" | "turn" | "graft";
+export type OperationKind = "stroke" | "growth" | "lasso" | "parameters" | "appearance" | "seed" | "obstacle" | "bend" | "width" | "prune" | "turn" | "graft" | "taken_back" | "brought_back";
 
 export type TimelineOperation = { 
 /**
@@ -1483,7 +1483,11 @@ first: number,
 /**
  * The step it reached; the same as `first` where it took none.
  */
-last: number, };
+last: number, 
+/**
+ * Whether its author has taken it back since (`UD1`).
+ */
+away?: boolean, };
 
 export type TimelineFuture = { 
 /**

@@ -3,6 +3,8 @@
 mod bending;
 mod branches;
 mod bytes;
+mod deeds;
+mod folding;
 mod futures;
 mod generators;
 mod growing;
@@ -170,6 +172,8 @@ impl Document {
             Action::Ungrow { steps } => self.ungrow(steps.get()),
             Action::Undo {} => self.undo(),
             Action::Redo {} => self.redo(),
+            Action::TakeBack {} => self.take_back(cause),
+            Action::BringBack {} => self.bring_back(cause),
             Action::SetParameters { parameters } => self.set_parameters(cause, parameters),
             Action::SetProgramme { programme, keep } => self.set_programme(cause, programme.as_ref(), *keep),
             Action::FollowProgramme { parameters } => self.follow_programme(cause, parameters),
@@ -326,6 +330,8 @@ fn keeps_set(action: &Action) -> bool {
             | Action::MoveObstacle { .. }
             | Action::ReshapeObstacle { .. }
             | Action::RemoveObstacle { .. }
+            | Action::TakeBack {}
+            | Action::BringBack {}
     )
 }
 

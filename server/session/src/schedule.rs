@@ -53,6 +53,11 @@ impl GrowthSchedule {
         &self.courses[passed.max(1) - 1].1
     }
 
+    /// Whether it is one of the parameters that are set together, for they sum to 1.
+    pub(crate) fn is_weight(name: &str) -> bool {
+        WEIGHTS.contains(&name)
+    }
+
     /// What is done beside growing at an age.
     pub(crate) fn plan(&self) -> Option<&Arc<Plan>> {
         self.plan.as_ref()

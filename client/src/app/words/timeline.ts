@@ -16,6 +16,8 @@ export const OPERATIONS = {
   "operations.kind.prune": ["Pruning", "Schnitt"],
   "operations.kind.turn": ["Turn", "Drehung"],
   "operations.kind.graft": ["Graft", "Pfropfung"],
+  "operations.kind.taken_back": ["Taken back", "Zurückgenommen"],
+  "operations.kind.brought_back": ["Brought back", "Zurückgeholt"],
 } as const;
 
 /** The line of time. */

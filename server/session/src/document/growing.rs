@@ -41,7 +41,10 @@ impl Document {
         match pending {
             Pending::Brush(input) => {
                 let strokes: Vec<StrokeId> = input.pieces.iter().map(|piece| piece.stroke).collect();
-                self.resume_stroke();
+                let open = &self.strokes.open;
+                let author =
+                    open.iter().find(|open| strokes.contains(&open.id)).map(|open| open.author.clone());
+                self.resume_stroke(&author.unwrap_or_else(Principal::visitor));
                 self.step(&Step::Growth(input), observer);
                 strokes.into_iter().for_each(|stroke| self.hint_out_of_reach(stroke));
             }
@@ -74,7 +77,7 @@ impl Document {
             Pending::Settle { stroke, left } => {
                 let mut grows = false;
                 if left > 0 && !self.is_stopped() && self.simulation.has_guidance() {
-                    self.resume_stroke();
+                    self.resume_stroke(&stroke.author);
                     let step = Step::Growth(StepInput { chosen: stroke.chosen, ..StepInput::default() });
                     grows = self.step(&step, observer).metamers_grown > 0;
                 }
@@ -105,15 +108,14 @@ impl Document {
 
     /// A stroke grows on after somebody did something else meanwhile: what it grows from here on is an operation of
     /// its own, or undoing the other one would take it back as well (`CM5`).
-    fn resume_stroke(&mut self) {
+    fn resume_stroke(&mut self, author: &Principal) {
         let operations = &self.history.operations[..self.history.done];
         let belongs = |kind| matches!(kind, Kind::Stroke | Kind::Growth | Kind::Lasso);
         if operations.last().is_none_or(|last| belongs(last.kind)) {
+            self.history.take_part(author);
             return;
         }
-        let stroke = operations.iter().rev().find(|operation| operation.kind == Kind::Stroke);
-        let author = stroke.map_or_else(Principal::visitor, |stroke| stroke.author.clone());
-        self.record(Kind::Stroke, Cause::from(&author));
+        self.record(Kind::Stroke, Cause::from(author));
     }
 
     /// Steps still to be run; a lasso and a stroke that settles count as one each, for nobody knows.
@@ -161,7 +163,11 @@ impl Document {
     ) -> Result<(), Problem> {
         let chosen = self.chosen(bud)?;
         let until = until.map_or(u32::MAX, Age::get);
-        self.begin_steps(cause, steps.get(), Step::Age { chosen, until })
+        self.begin_steps(cause, steps.get(), Step::Age { chosen, until })?;
+        if chosen.is_some() {
+            self.history.choose();
+        }
+        Ok(())
     }
 
     /// So many steps of one generator become pending, as one operation.
@@ -172,6 +178,7 @@ impl Document {
         if self.strokes.is_empty() && !continues {
             self.record(Kind::Growth, cause);
         }
+        self.history.take_part(cause.author);
         self.pending.push_back(Pending::Steps { left: steps, has_grown: false, step });
         Ok(())
     }
@@ -198,6 +205,7 @@ impl Document {
         if self.strokes.is_empty() && !continues {
             self.record(Kind::Lasso, cause);
         }
+        self.history.take_part(cause.author);
         self.simulation.enclose(&envelope);
         let places: Vec<Vec3> = outline.iter().map(|at| plane.origin + right * at.x + up * at.y).collect();
         let lasso = self.opened_lasso(envelope, &places);

@@ -44,10 +44,14 @@ pub(super) enum Kind {
     Graft = 10,
     /// A change of looks.
     Appearance = 11,
+    /// A deed taken back (`UD1`).
+    TakenBack = 12,
+    /// A deed that was taken back is in force again (`UD3`).
+    BroughtBack = 13,
 }
 
 impl Kind {
-    const ALL: [Self; 12] = [
+    const ALL: [Self; 14] = [
         Self::Stroke,
         Self::Growth,
         Self::Parameters,
@@ -60,11 +64,18 @@ impl Kind {
         Self::Turn,
         Self::Graft,
         Self::Appearance,
+        Self::TakenBack,
+        Self::BroughtBack,
     ];
 
     /// Whether such an operation holds a set of parameters, looks or obstacles that no other holds.
     fn has_set(self) -> bool {
-        matches!(self, Self::Parameters | Self::Appearance | Self::Obstacle)
+        matches!(self, Self::Parameters | Self::Appearance | Self::Obstacle) || self.is_switch()
+    }
+
+    /// Whether such an operation says of another one whether it is in force.
+    pub fn is_switch(self) -> bool {
+        matches!(self, Self::TakenBack | Self::BroughtBack)
     }
 
     pub fn from_code(code: u8) -> Option<Self> {
@@ -94,6 +105,12 @@ pub(super) struct Operation {
     pub after: Setting,
     /// Places of wood that it keeps because it moved them (`LM11`).
     pub places: u32,
+    /// The operation of the line that it takes back or brings back.
+    pub deed: Option<u32>,
+    /// Whether several people did it at once, so that nobody alone may take it back.
+    pub is_joint: bool,
+    /// Whether it grew from a bud that somebody chose.
+    pub is_chosen: bool,
 }
 
 /// Operations that hold a set of their own.
@@ -179,6 +196,27 @@ impl History {
         self.current().map_or(&self.initial, |operation| &operation.after)
     }
 
+    /// The last operation is about this one.
+    pub fn concern(&mut self, deed: usize) {
+        if let Some(last) = self.operations.last_mut() {
+            last.deed = Some(deed as u32);
+        }
+    }
+
+    /// Somebody has a part in the last operation in force.
+    pub fn take_part(&mut self, author: &Principal) {
+        if let Some(last) = self.done.checked_sub(1).map(|last| &mut self.operations[last]) {
+            last.is_joint |= last.author != *author;
+        }
+    }
+
+    /// What the last operation in force grows, it grows from a bud that was chosen.
+    pub fn choose(&mut self) {
+        if let Some(last) = self.done.checked_sub(1).map(|last| &mut self.operations[last]) {
+            last.is_chosen = true;
+        }
+    }
+
     /// Adds an operation at step `now`, where nothing lies ahead.
     pub fn push(&mut self, kind: Kind, cause: Cause<'_>, now: u32, mut after: Setting) {
         debug_assert_eq!(self.done, self.operations.len(), "what lay ahead is a future by now");
@@ -197,6 +235,9 @@ impl History {
             last: now,
             after,
             places: 0,
+            deed: None,
+            is_joint: false,
+            is_chosen: false,
         });
         self.done += 1;
         self.latest = None;
@@ -213,10 +254,7 @@ impl History {
 
     /// Whether the last operation neither grew nor changed anything: undoing it would show nothing.
     pub fn is_idle(&self) -> bool {
-        let idle = |last: &Operation| {
-            last.first == last.last
-                && !matches!(last.kind, Kind::Parameters | Kind::Appearance | Kind::Obstacle)
-        };
+        let idle = |last: &Operation| last.first == last.last && !last.kind.has_set();
         self.done == self.operations.len() && self.current().is_some_and(idle)
     }
 
@@ -375,5 +413,11 @@ pub(super) fn hash_operations(operations: &[Operation], hash: &mut StableHash) {
         hash.word(operation.kind as u64);
         hash.word(u64::from(operation.first) | u64::from(operation.last) << 32);
         hash.word(u64::from(operation.places));
+        if let Some(deed) = operation.deed {
+            hash.word(u64::from(deed));
+        }
+        if operation.is_joint || operation.is_chosen {
+            hash.word(u64::from(operation.is_joint) | u64::from(operation.is_chosen) << 1);
+        }
     }
 }

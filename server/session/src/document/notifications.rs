@@ -17,14 +17,14 @@ impl Document {
     /// The present line of time and all others (`TT1`).
     pub fn timeline(&self) -> Timeline {
         let mut people = People::default();
-        let operations = people.name(&self.history.operations);
+        let operations = people.name(&self.history.operations, &self.history.away());
         let mut futures: Vec<TimelineFuture> = (self.futures.all.iter())
             .map(|future| TimelineFuture {
                 future: future.line,
                 from: future.fork.step,
                 on: future.on,
                 steps: future.rows.steps(),
-                operations: people.name(&future.operations),
+                operations: people.name(&future.operations, &[]),
             })
             .collect();
         futures.sort_by_key(|future| future.future);
@@ -77,11 +77,12 @@ impl Document {
 struct People<'a>(BTreeMap<&'a Principal, u32>);
 
 impl<'a> People<'a> {
-    fn name(&mut self, operations: &'a [Operation]) -> Vec<TimelineOperation> {
-        operations.iter().map(|operation| self.name_one(operation)).collect()
+    fn name(&mut self, operations: &'a [Operation], away: &[bool]) -> Vec<TimelineOperation> {
+        let away = away.iter().copied().chain(std::iter::repeat(false));
+        operations.iter().zip(away).map(|(operation, away)| self.name_one(operation, away)).collect()
     }
 
-    fn name_one(&mut self, operation: &'a Operation) -> TimelineOperation {
+    fn name_one(&mut self, operation: &'a Operation, away: bool) -> TimelineOperation {
         let next = self.0.len() as u32;
         let author = *self.0.entry(&operation.author).or_insert(next);
         let kind = match operation.kind {
@@ -97,7 +98,9 @@ impl<'a> People<'a> {
             Kind::Turn => OperationKind::Turn,
             Kind::Graft => OperationKind::Graft,
             Kind::Appearance => OperationKind::Appearance,
+            Kind::TakenBack => OperationKind::TakenBack,
+            Kind::BroughtBack => OperationKind::BroughtBack,
         };
-        TimelineOperation { kind, author, first: operation.first, last: operation.last }
+        TimelineOperation { kind, author, first: operation.first, last: operation.last, away }
     }
 }

@@ -2,6 +2,7 @@
 
 mod arranging;
 mod damage;
+mod deeds;
 pub(super) mod forks;
 mod generating;
 mod histories;

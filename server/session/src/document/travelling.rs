@@ -26,11 +26,7 @@ impl Document {
             self.keep_to_line();
             return Ok(());
         }
-        let nothing = || {
-            Problem::new(Reason::NothingToUndo, "there is nothing to undo")
-                .at("kind", "undo, where something was done")
-        };
-        let step = self.history.undo().ok_or_else(nothing)?;
+        let step = self.history.undo().ok_or_else(nothing_to_undo)?;
         self.travel(step);
         self.keep_to_line();
         Ok(())
@@ -38,11 +34,7 @@ impl Document {
 
     pub(super) fn redo(&mut self) -> Result<(), Problem> {
         let now = self.plant().step();
-        let nothing = || {
-            Problem::new(Reason::NothingToRedo, "there is nothing to redo")
-                .at("kind", "redo, where something was undone")
-        };
-        let step = self.history.redo(now).ok_or_else(nothing)?;
+        let step = self.history.redo(now).ok_or_else(nothing_to_redo)?;
         self.travel(step);
         self.keep_to_line();
         Ok(())
@@ -84,4 +76,14 @@ impl Document {
         self.simulation.go_to(step);
         self.keep_state();
     }
+}
+
+pub(super) fn nothing_to_undo() -> Problem {
+    Problem::new(Reason::NothingToUndo, "there is nothing to undo")
+        .at("kind", "undo, where something was done")
+}
+
+pub(super) fn nothing_to_redo() -> Problem {
+    Problem::new(Reason::NothingToRedo, "there is nothing to redo")
+        .at("kind", "redo, where something was undone")
 }

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::{guiding::lasso, mirror::Mirror, world::World};
 
-const KEYS: [&str; 4] = ["birch-01", "maple-01", "aspen-01", "cedar-01"];
+const KEYS: [&str; 5] = ["birch-01", "maple-01", "aspen-01", "cedar-01", "alder-01"];
 
 /// One thing someone does; `who` picks one of [`KEYS`].
 #[derive(Clone, Debug)]
@@ -39,6 +39,8 @@ fn command() -> impl Strategy<Value = Value> {
         2 => (1u32..8).prop_map(|steps| json!({ "kind": "ungrow", "steps": steps })),
         2 => Just(json!({ "kind": "undo" })),
         1 => Just(json!({ "kind": "redo" })),
+        4 => Just(json!({ "kind": "take_back" })),
+        2 => Just(json!({ "kind": "bring_back" })),
         2 => (0u32..3).prop_map(|stroke| json!({ "kind": "stroke_begin", "stroke": stroke })),
         4 => (0u32..3, prop::collection::vec(sample, 0..4))
             .prop_map(|(stroke, samples)| json!({ "kind": "stroke_move", "stroke": stroke, "samples": samples })),

@@ -34,6 +34,8 @@ pub(crate) fn commands() -> Vec<Value> {
         json!({ "kind": "ungrow", "steps": 2 }),
         json!({ "kind": "undo" }),
         json!({ "kind": "redo" }),
+        json!({ "kind": "take_back" }),
+        json!({ "kind": "bring_back" }),
         json!({ "kind": "set_parameters", "parameters": parameters, "gesture": 1 }),
         json!({ "kind": "set_programme", "programme": programme, "keep": true, "gesture": 1 }),
         json!({ "kind": "follow_programme", "parameters": ["apical_control"], "gesture": 1 }),

@@ -1,7 +1,7 @@
 import type { ComponentType } from "preact";
 import type { OperationKind } from "../../../wire/generated";
 import type { Key } from "../../words/say";
-import { BoxIcon, GrowthIcon, Icon, LassoIcon, NewIcon, SeedIcon } from "../icons";
+import { BoxIcon, GrowthIcon, Icon, LassoIcon, NewIcon, RedoIcon, SeedIcon, UndoIcon } from "../icons";
 import { BendIcon, GraftIcon, PruneIcon, TurnIcon, WidthIcon } from "../shaping-icons";
 
 /** A stroke with the brush at its end. */
@@ -38,6 +38,8 @@ const SORTS: Record<OperationKind, Sort> = {
   prune: { name: "operations.kind.prune", Icon: PruneIcon },
   turn: { name: "operations.kind.turn", Icon: TurnIcon },
   graft: { name: "operations.kind.graft", Icon: GraftIcon },
+  taken_back: { name: "operations.kind.taken_back", Icon: UndoIcon },
+  brought_back: { name: "operations.kind.brought_back", Icon: RedoIcon },
 };
 
 /** What an operation is called and looks like. */

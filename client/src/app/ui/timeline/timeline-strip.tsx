@@ -141,6 +141,7 @@ function Signs({ studio, timeline, width }: { studio: Studio; timeline: Timeline
             class="timeline-sign"
             key={from}
             data-undone={from >= timeline.done}
+            data-away={all.every(({ away }) => away)}
             style={{
               left: `${x}px`,
               "--author": alike("author") ? authorColour(first.author, people) : "var(--quiet)",

@@ -86,9 +86,9 @@ pub(super) const LOOKS: Kind = first(*b"LOOK", "looks", lengths::LOOKS);
 /// Meshes, every set of obstacles that an operation holds, and the present one.
 pub(super) const OBSTACLES: Kind = first(*b"OBST", "obstacles", lengths::OBSTACLES);
 /// The operations of the present line.
-pub(super) const HISTORY: Kind = first(*b"HIST", "history", lengths::HISTORY);
+pub(super) const HISTORY: Kind = Kind { version: 2, ..first(*b"HIST", "history", lengths::HISTORY) };
 /// All other lines; none if it is not there.
-pub(super) const FUTURES: Kind = first(*b"FUTU", "futures", lengths::FUTURES);
+pub(super) const FUTURES: Kind = Kind { version: 2, ..first(*b"FUTU", "futures", lengths::FUTURES) };
 /// Strokes and bends in progress; none if it is not there.
 pub(super) const GESTURES: Kind = first(*b"GEST", "gestures", lengths::GESTURES);
 /// The program that wrote the document; none if it is not there.

@@ -47,10 +47,10 @@ fn read_latest(reader: &mut Reader<'_>) -> Result<Option<Latest>, DocumentError>
 }
 
 pub(super) fn read_history(reader: &mut Reader<'_>, pool: &Pool) -> Result<History, DocumentError> {
-    reader.up_to(1)?;
+    let version = reader.up_to(2)?;
     let initial = pool.read_setting(reader)?;
     let done = reader.u32()? as usize;
-    let operations = read_operations(reader, pool)?;
+    let operations = read_operations(reader, pool, version)?;
     if done > operations.len() {
         return Err(damaged("more operations are in force than there are"));
     }
@@ -78,12 +78,12 @@ pub(super) fn write_futures(out: &mut Writer, futures: &Futures, pool: &Pool) {
 }
 
 pub(super) fn read_futures(reader: &mut Reader<'_>, pool: &Pool) -> Result<Futures, DocumentError> {
-    reader.up_to(1)?;
+    let version = reader.up_to(2)?;
     let (present, newest) = (reader.u32()?, reader.u32()?);
     let all = reader.list_up_to(MAX_FUTURES, |r| {
         let (line, on) = (r.u32()?, r.option()?);
         let fork = Fork { shared: r.u32()? as usize, step: r.u32()? };
-        let operations = read_operations(r, pool)?;
+        let operations = read_operations(r, pool, version)?;
         let rows = read_future(r)?;
         if rows.step() != fork.step {
             return Err(damaged("a future begins elsewhere than its rows"));
@@ -154,10 +154,17 @@ fn write_operations(out: &mut Writer, operations: &[Operation], pool: &Pool) {
         out.u32(operation.last);
         out.u32(operation.places);
         pool.write_setting(out, &operation.after);
+        out.option(operation.deed);
+        out.u8(u8::from(operation.is_joint) | u8::from(operation.is_chosen) << 1);
     });
 }
 
-fn read_operations(reader: &mut Reader<'_>, pool: &Pool) -> Result<Vec<Operation>, DocumentError> {
+/// Operations; before version 2 nobody took back deeds among others', and joint ones cannot be told apart.
+fn read_operations(
+    reader: &mut Reader<'_>,
+    pool: &Pool,
+    version: u16,
+) -> Result<Vec<Operation>, DocumentError> {
     reader.list(|r| {
         let kind = Kind::from_code(r.u8()?).ok_or_else(|| damaged("an operation of unknown kind"))?;
         let (author, gesture) = (Principal::named(r.text()?), r.option()?);
@@ -166,6 +173,12 @@ fn read_operations(reader: &mut Reader<'_>, pool: &Pool) -> Result<Vec<Operation
             return Err(damaged("an operation ends before it begins"));
         }
         let places = r.u32()?;
-        Ok(Operation { kind, author, gesture, first, last, places, after: pool.read_setting(r)? })
+        let after = pool.read_setting(r)?;
+        let (deed, flags) = if version < 2 { (None, 0) } else { (r.option()?, r.u8()?) };
+        if deed.is_some() != kind.is_switch() || flags > 3 {
+            return Err(damaged("an operation takes back what is no deed"));
+        }
+        let (is_joint, is_chosen) = (flags & 1 > 0, flags & 2 > 0);
+        Ok(Operation { kind, author, gesture, first, last, places, after, deed, is_joint, is_chosen })
     })
 }

@@ -1,0 +1,151 @@
+//! Deeds: what one person did, taken back and brought back wherever it lies on the line of time (`UD`).
+//!
+//! A deed is an operation. Whether it is in force follows from the operations after it that took deeds back and brought
+//! them back, so it travels in time as they do. What stands then, and what holds of parameters, looks and obstacles,
+//! follows from the deeds in force alone.
+
+use espalier_plant::Claim;
+use espalier_proto::{Problem, Reason};
+
+use super::{
+    Document,
+    branches::said,
+    history::{History, Kind, Operation},
+    travelling::{nothing_to_redo, nothing_to_undo},
+};
+use crate::{cause::Cause, principal::Principal};
+
+impl Operation {
+    /// Whether it is what one person did, who may take it back.
+    fn is_deed_of(&self, author: &Principal) -> bool {
+        self.author == *author && !self.is_joint && !self.kind.is_switch()
+    }
+
+    /// Whether a hand drew the wood that was born in it, rather than that it grew by itself.
+    pub(super) fn is_drawn(&self) -> bool {
+        self.is_chosen || matches!(self.kind, Kind::Stroke | Kind::Lasso | Kind::Seed | Kind::Graft)
+    }
+}
+
+impl History {
+    /// Which of the operations in force on the line have been taken back.
+    pub(super) fn away(&self) -> Vec<bool> {
+        let mut away = vec![false; self.operations.len()];
+        for operation in &self.operations[..self.done] {
+            let Some(deed) = operation.deed.and_then(|deed| away.get_mut(deed as usize)) else { continue };
+            *deed = operation.kind == Kind::TakenBack;
+        }
+        away
+    }
+
+    /// What counts of each step up to one.
+    pub(super) fn claims(&self, step: u32) -> Vec<Claim> {
+        let mut claims = vec![Claim::HAND; step as usize + 1];
+        for (operation, away) in self.operations[..self.done].iter().zip(self.away()) {
+            let steps = (operation.first + 1).min(step + 1)..(operation.last + 1).min(step + 1);
+            let claim = Claim { in_force: !away, by_hand: operation.is_drawn() };
+            claims[steps.start as usize..steps.end as usize].fill(claim);
+        }
+        claims
+    }
+
+    /// The deed that an author took back last, if they did nothing since.
+    fn taken_back_last(&self, author: &Principal) -> Option<usize> {
+        let away = self.away();
+        for operation in self.operations[..self.done].iter().rev().filter(|one| one.author == *author) {
+            match operation.deed.map(|deed| deed as usize).filter(|_| operation.kind.is_switch()) {
+                Some(deed) if away.get(deed) == Some(&true) => return Some(deed),
+                Some(_) => {}
+                None => return None,
+            }
+        }
+        None
+    }
+}
+
+impl Document {
+    /// Takes back the newest deed of an author that is in force and of which anything can go (`UD1`). A stroke or bend of
+    /// theirs ends first; where nothing else can be taken back, that is all.
+    pub(super) fn take_back(&mut self, cause: Cause<'_>) -> Result<(), Problem> {
+        self.require_no_bend_but_of(cause.author)?;
+        let has_ended = self.end_gestures_of(cause.author);
+        let done = if self.is_alone(cause.author) { self.undo() } else { self.take_back_newest(cause) };
+        if has_ended { Ok(()) } else { done }
+    }
+
+    fn take_back_newest(&mut self, cause: Cause<'_>) -> Result<(), Problem> {
+        let away = self.history.away();
+        for deed in (0..self.history.done).rev() {
+            let is_own = self.history.operations[deed].is_deed_of(cause.author);
+            if is_own && !away[deed] && self.switch(cause, Kind::TakenBack, deed)? {
+                return Ok(());
+            }
+        }
+        Err(nothing_to_undo())
+    }
+
+    /// Puts in force again what an author took back last (`UD3`).
+    pub(super) fn bring_back(&mut self, cause: Cause<'_>) -> Result<(), Problem> {
+        self.require_no_bend_but_of(cause.author)?;
+        if self.is_alone(cause.author) {
+            return self.redo();
+        }
+        let deed = self.history.taken_back_last(cause.author).ok_or_else(nothing_to_redo)?;
+        if self.switch(cause, Kind::BroughtBack, deed)? { Ok(()) } else { Err(nothing_to_redo()) }
+    }
+
+    /// Whether nobody else has done anything on the line, or is about to: then going back in time takes nothing from
+    /// anybody.
+    fn is_alone(&self, author: &Principal) -> bool {
+        let is_own = |operation: &Operation| operation.author == *author && !operation.is_joint;
+        self.history.operations.iter().all(is_own)
+            && self.strokes.open.iter().all(|open| open.author == *author)
+    }
+
+    /// Ends the strokes of an author where they are, and gives their bends up; whether there were any.
+    fn end_gestures_of(&mut self, author: &Principal) -> bool {
+        let open = (self.strokes.open.len(), self.bends.open.len());
+        for open in self.strokes.open.extract_if(.., |open| open.author == *author) {
+            self.simulation.end_stroke(open.id);
+        }
+        self.bends.open.retain(|bend| bend.author != *author);
+        let has_ended = open != (self.strokes.open.len(), self.bends.open.len());
+        if has_ended && self.strokes.is_empty() {
+            self.simulation.drop_guidance();
+            self.forget_idle();
+        }
+        has_ended
+    }
+
+    /// Records that a deed is in force no more, or again; whether that changed anything.
+    fn switch(&mut self, cause: Cause<'_>, kind: Kind, deed: usize) -> Result<bool, Problem> {
+        let recorded = self.record(kind, Cause { gesture: None, ..cause });
+        self.history.concern(deed);
+        let claims = self.history.claims(self.plant().step());
+        let settled = self.history.folded(&self.setting()).and_then(|setting| {
+            let settled = self.simulation.settle(&claims).map_err(said("kind"))?;
+            Ok((setting, settled))
+        });
+        let (setting, settled) = match settled {
+            Ok((setting, settled)) if settled.is_recorded || setting != self.setting() => (setting, settled),
+            unchanged => {
+                self.refuse(recorded);
+                return unchanged.map(|_| false);
+            }
+        };
+        self.set(&setting);
+        self.history.settle(setting);
+        self.history.keep_places(settled.falls.len() + settled.rises.len());
+        self.reach();
+        Ok(true)
+    }
+
+    /// Refuses to settle which wood stands under a bend of somebody else, which would end.
+    fn require_no_bend_but_of(&self, author: &Principal) -> Result<(), Problem> {
+        if self.bends.open.iter().all(|bend| bend.author == *author) {
+            return Ok(());
+        }
+        let message = "somebody else is bending a branch";
+        Err(Problem::new(Reason::BeingBent, message).at("kind", "what nobody else's bend is in the way of"))
+    }
+}

@@ -1,0 +1,304 @@
+//! Deeds of several people, taken back and brought back among one another.
+
+use std::collections::BTreeMap;
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::document::history::Kind as Deed;
+
+/// A stroke of somebody, sidewards at a height, so that it begins at wood that is there.
+fn draw(document: &mut Document, name: &str, number: u32, x: f32, y: f32) {
+    let mut apply = |action: Action| document.apply(&who(name), &plain(action)).expect("in good form");
+    apply(Action::StrokeBegin { stroke: number, bud: None });
+    let samples = list(vec![sample(0.0, y, 0.6), sample(x, y + 3.0, 0.6)]);
+    apply(Action::StrokeMove { stroke: number, samples });
+    apply(Action::StrokeEnd { stroke: number });
+}
+
+fn take_back(document: &mut Document, name: &str) -> Result<(), Problem> {
+    document.apply(&who(name), &plain(Action::TakeBack {}))
+}
+
+fn bring_back(document: &mut Document, name: &str) -> Result<(), Problem> {
+    document.apply(&who(name), &plain(Action::BringBack {}))
+}
+
+/// Living metamers and the bits of their places.
+fn wood(document: &Document) -> BTreeMap<u32, [u32; 3]> {
+    let plant = document.plant();
+    let living = (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id));
+    living.map(|id| (id.raw(), plant.metamers().end(id).to_array().map(f32::to_bits))).collect()
+}
+
+/// What some drew and nobody has cut.
+fn drawn(document: &Document, by: impl Fn(&Principal) -> bool) -> Vec<u32> {
+    let history = &document.history;
+    let mut plant = document.plant().clone();
+    plant.stash_future();
+    let held = plant.settle(&history.claims(document.plant().step())).held;
+    let mut drawn = Vec::new();
+    let operations = history.operations[..history.done].iter().zip(history.away());
+    for (operation, _) in operations.filter(|(one, away)| one.is_drawn() && !away && by(&one.author)) {
+        let is_of = |&row: &u32| {
+            let birth = document.plant().birth(MetamerId::new(row as usize));
+            birth > operation.first && birth <= operation.last
+        };
+        drawn.extend(wood(document).into_keys().filter(is_of));
+    }
+    drawn.retain(|&row| !held.contains(&MetamerId::new(row as usize)));
+    drawn
+}
+
+#[test]
+fn ud1_taking_back_leaves_what_others_drew_to_the_bit() {
+    let mut document = tree();
+    draw(&mut document, "bo", 1, 9.0, 4.0);
+    let without = wood(&document);
+    draw(&mut document, "cy", 1, -9.0, 5.0);
+    let cys = drawn(&document, |author| *author == who("cy"));
+    assert!(!cys.is_empty(), "cy's stroke has grown");
+    let before = wood(&document);
+    assert_eq!(take_back(&mut document, "bo"), Ok(()));
+    let after = wood(&document);
+    assert!(after.len() < before.len() && cys.iter().all(|row| after.get(row) == before.get(row)));
+    assert_eq!(bring_back(&mut document, "bo"), Ok(()));
+    assert_eq!(wood(&document), before, "UD3: all of it is back");
+    // Without both strokes the tree is that of before them.
+    assert_eq!(take_back(&mut document, "cy"), Ok(()));
+    assert_eq!(wood(&document), without);
+}
+
+#[test]
+fn ud6_the_line_says_what_is_away() {
+    use espalier_proto::OperationKind::{BroughtBack, TakenBack};
+    let mut document = tree();
+    draw(&mut document, "bo", 1, 9.0, 4.0);
+    let away = |document: &Document| {
+        document.timeline().operations.iter().map(|operation| operation.away).collect::<Vec<_>>()
+    };
+    assert_eq!(take_back(&mut document, "bo"), Ok(()));
+    assert_eq!(away(&document), [false, true, false]);
+    assert_eq!(bring_back(&mut document, "bo"), Ok(()));
+    assert_eq!(away(&document), [false; 4]);
+    assert_eq!(kinds(&document)[2..], [TakenBack, BroughtBack]);
+    // Before it was taken back it was not.
+    let step = document.timeline().operations[1].last;
+    apply(&mut document, &plain(Action::GoTo { step }));
+    assert_eq!(away(&document), [false; 4]);
+}
+
+#[test]
+fn ud2_a_stroke_of_somebody_else_goes_on() {
+    let mut document = tree();
+    draw(&mut document, "bo", 1, 9.0, 4.0);
+    let cy = |document: &mut Document, action: Action| {
+        document.apply(&who("cy"), &plain(action)).expect("in good form");
+    };
+    cy(&mut document, Action::StrokeBegin { stroke: 7, bud: None });
+    let samples = list(vec![sample(0.0, 5.0, 0.6), sample(-5.0, 7.0, 0.6)]);
+    cy(&mut document, Action::StrokeMove { stroke: 7, samples });
+    assert_eq!(take_back(&mut document, "bo"), Ok(()));
+    assert_eq!(document.open_strokes(&who("cy")), [7]);
+    let before = wood(&document).len();
+    cy(&mut document, Action::StrokeMove { stroke: 7, samples: list(vec![sample(-12.0, 9.0, 0.6)]) });
+    assert!(wood(&document).len() > before, "it grows on");
+    cy(&mut document, Action::StrokeEnd { stroke: 7 });
+}
+
+#[test]
+fn ud2_a_bend_of_somebody_else_is_not_ended() {
+    let mut document = tree();
+    draw(&mut document, "bo", 1, 9.0, 4.0);
+    let path = long_path(&document, 6);
+    let (base, touches) = (path[5].raw(), held(vec![path[0].raw()]));
+    apply(&mut document, &plain(Action::BendBegin { bend: 1, base, touches, stretch: Share::nearest(0.2) }));
+    for action in [Action::TakeBack {}, Action::BringBack {}] {
+        let before = document.hash();
+        let problem = document.apply(&who("bo"), &plain(action)).expect_err("ann is bending");
+        assert_eq!((problem.reason, document.hash()), (Reason::BeingBent, before));
+    }
+}
+
+#[test]
+fn ud3_only_what_was_taken_back_last_comes_back() {
+    let mut document = tree();
+    draw(&mut document, "bo", 1, 9.0, 4.0);
+    let refused = |result: Result<(), Problem>| result.map_err(|problem| problem.reason);
+    assert_eq!(refused(bring_back(&mut document, "bo")), Err(Reason::NothingToRedo));
+    assert_eq!(take_back(&mut document, "bo"), Ok(()));
+    draw(&mut document, "bo", 2, -9.0, 4.0);
+    assert_eq!(refused(bring_back(&mut document, "bo")), Err(Reason::NothingToRedo));
+    assert_eq!(refused(take_back(&mut document, "cy")), Err(Reason::NothingToUndo));
+}
+
+#[test]
+fn ud4_alone_they_are_undo_and_redo() {
+    let (mut one, mut other) = (tree(), tree());
+    for document in [&mut one, &mut other] {
+        draw(document, "ann", 1, 9.0, 4.0);
+    }
+    apply(&mut one, &plain(Action::TakeBack {}));
+    apply(&mut other, &plain(Action::Undo {}));
+    assert_eq!(one.hash(), other.hash());
+    apply(&mut one, &plain(Action::BringBack {}));
+    apply(&mut other, &plain(Action::Redo {}));
+    assert_eq!(one.hash(), other.hash());
+}
+
+#[test]
+fn ud4_what_several_drew_at_once_is_passed_over() {
+    let mut document = tree();
+    let mut act =
+        |name: &str, action: Action| document.apply(&who(name), &plain(action)).expect("in good form");
+    for (name, x) in [("bo", 6.0), ("cy", -6.0)] {
+        act(name, Action::StrokeBegin { stroke: 1, bud: None });
+        let samples = list(vec![sample(0.0, 5.0, 0.6), sample(x, 7.0, 0.6)]);
+        act(name, Action::StrokeMove { stroke: 1, samples });
+    }
+    for name in ["bo", "cy"] {
+        act(name, Action::StrokeEnd { stroke: 1 });
+    }
+    let before = document.hash();
+    for name in ["bo", "cy"] {
+        let refused = take_back(&mut document, name).map_err(|problem| problem.reason);
+        assert_eq!((refused, document.hash()), (Err(Reason::NothingToUndo), before));
+    }
+}
+
+#[test]
+fn ud5_a_field_shows_what_the_last_deed_in_force_says() {
+    let mut document = tree();
+    let set = |document: &mut Document, name: &str, patch: ParametersPatch| {
+        document.apply(&who(name), &plain(Action::SetParameters { parameters: patch })).expect("in range");
+    };
+    let control = |value| ParametersPatch { apical_control: Some(value), ..ParametersPatch::default() };
+    let first = document.parameters();
+    set(&mut document, "bo", control(0.5));
+    set(&mut document, "bo", ParametersPatch { branching_angle: Some(70.0), ..ParametersPatch::default() });
+    set(&mut document, "cy", control(0.55));
+    let angle = |document: &Document| document.parameters().branching_angle;
+    let of = |document: &Document| document.parameters().apical_control;
+    assert_eq!(take_back(&mut document, "bo"), Ok(()));
+    assert_eq!((angle(&document), of(&document)), (first.branching_angle, 0.55));
+    assert_eq!(take_back(&mut document, "cy"), Ok(()));
+    assert_eq!(of(&document), 0.5, "bo's is the last in force");
+    assert_eq!(take_back(&mut document, "bo"), Ok(()));
+    assert_eq!(document.parameters(), first);
+    assert_eq!(bring_back(&mut document, "cy"), Ok(()));
+    assert_eq!(of(&document), 0.55);
+}
+
+#[derive(Clone, Debug)]
+enum Event {
+    Draw(i8, u8),
+    Grow(u8),
+    Prune(u16),
+    Turn(u16),
+    Graft(u16, u16, bool),
+    Widen(u16),
+    Control(u8),
+    Seed(i8),
+    TakeBack,
+    BringBack,
+    Undo,
+    GoTo(u16),
+}
+
+fn events() -> impl Strategy<Value = Vec<(u8, Event)>> {
+    let event = prop_oneof![
+        6 => (-12i8..12, 1u8..12).prop_map(|(x, y)| Event::Draw(x, y)),
+        1 => (1u8..3).prop_map(Event::Grow),
+        1 => any::<u16>().prop_map(Event::Prune),
+        1 => any::<u16>().prop_map(Event::Turn),
+        1 => any::<(u16, u16, bool)>().prop_map(|(row, onto, keep)| Event::Graft(row, onto, keep)),
+        1 => any::<u16>().prop_map(Event::Widen),
+        1 => (45u8..60).prop_map(Event::Control),
+        1 => (-9i8..9).prop_map(Event::Seed),
+        8 => Just(Event::TakeBack),
+        4 => Just(Event::BringBack),
+        1 => Just(Event::Undo),
+        1 => any::<u16>().prop_map(Event::GoTo),
+    ];
+    prop::collection::vec((0u8..5, event), 4..40)
+}
+
+/// Lets somebody do something, if it can be done.
+fn happen(document: &mut Document, number: u32, name: &str, event: &Event) -> Result<(), Problem> {
+    let living: Vec<u32> = wood(document).into_keys().filter(|&row| row > 0).collect();
+    let row = |pick: u16| living.get(usize::from(pick) % living.len().max(1)).copied().unwrap_or(0);
+    let action = match *event {
+        Event::Draw(x, y) => {
+            draw(document, name, number, f32::from(x), f32::from(y));
+            return Ok(());
+        }
+        Event::Grow(steps) => Action::Grow { steps: Steps::nearest(steps.into()), until: None, bud: None },
+        Event::Prune(pick) => Action::Prune { rows: list(vec![row(pick)]) },
+        Event::Turn(pick) => {
+            let rotation = UnitRotation::nearest(Quat::from_xyzw(0.0, 0.6, 0.0, 0.8));
+            Action::TurnBranch { row: row(pick), rotation }
+        }
+        Event::Graft(pick, onto, keep) => {
+            let rotation = UnitRotation::nearest(Quat::from_xyzw(0.6, 0.0, 0.0, 0.8));
+            Action::Graft { row: row(pick), onto: row(onto), rotation, keep }
+        }
+        Event::Widen(pick) => Action::SetWidth { row: row(pick), diameter: Some(Diameter::nearest(0.7)) },
+        Event::Control(hundredths) => {
+            return document.apply(&who(name), &patch(f32::from(hundredths) / 100.0));
+        }
+        Event::Seed(x) => Action::PlantSeed { position: Position::nearest(Vec3::X * f32::from(x) * 3.0) },
+        Event::TakeBack => Action::TakeBack {},
+        Event::BringBack => Action::BringBack {},
+        Event::Undo => Action::Undo {},
+        Event::GoTo(step) => Action::GoTo { step: u32::from(step) % (document.plant().last_step() + 1) },
+    };
+    document.apply(&who(name), &plain(action))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn ud1_five_people_take_back_their_own(events in events()) {
+        let mut document = Document::new(5);
+        document.set_metamer_budget(4000);
+        for (number, (person, event)) in (1..).zip(&events) {
+            let name = format!("person {person}");
+            let before = wood(&document);
+            let others = drawn(&document, |author| *author != who(&name));
+            let done = happen(&mut document, number, &name, event);
+            prop_assert_eq!(espalier_plant::checks::all(document.plant()), Ok(()));
+            if !matches!(event, Event::TakeBack) || done.is_err() {
+                continue;
+            }
+            let history = &document.history;
+            let moves = history.current().and_then(|last| last.deed).is_some_and(|deed| {
+                matches!(history.operations[deed as usize].kind, Deed::Turn | Deed::Graft | Deed::Bend)
+            });
+            let after = wood(&document);
+            for row in others {
+                prop_assert!(after.contains_key(&row), "{} fell", row);
+                prop_assert!(moves || before[&row] == after[&row], "{} moved", row);
+            }
+        }
+        // What is written is read again, and goes back and forth.
+        let mut again = Document::from_bytes(&document.to_bytes()).expect("it was just written");
+        prop_assert_eq!(again.hash(), document.hash());
+        for step in [0, document.plant().last_step()] {
+            for document in [&mut document, &mut again] {
+                apply(document, &plain(Action::GoTo { step }));
+            }
+            prop_assert_eq!(again.hash(), document.hash());
+        }
+        // Once everybody has taken back everything there is the seedling.
+        let mut people = (0..5).map(|person| format!("person {person}")).collect::<Vec<_>>();
+        while !people.is_empty() {
+            people.retain(|name| take_back(&mut document, name).is_ok());
+        }
+        let away = document.history.away();
+        if document.history.operations[..document.history.done].iter().zip(away).all(|(one, away)| away || one.kind.is_switch()) {
+            prop_assert_eq!(wood(&document).into_keys().collect::<Vec<_>>(), [0]);
+            prop_assert_eq!(document.parameters(), Document::new(5).parameters());
+        }
+    }
+}
