@@ -38,7 +38,7 @@ pub(super) async fn ready(State(shared): State<Shared>) -> Result<&'static str, 
         return Err(Failure::new(Reason::Stopping, "The server is stopping."));
     }
     shared.store.check_place().await?;
-    if shared.memory.budget().left() == 0 {
+    if shared.memory.look().left() == 0 {
         let sentence = "The server has no memory left for anybody who comes.";
         return Err(Failure::new(Reason::MemoryFull, sentence).after(AGAIN));
     }
@@ -72,7 +72,7 @@ pub(super) async fn status(State(shared): State<Shared>) -> Result<Json<ServerSt
         });
     }
     sessions.sort_by(|a, b| b.memory_bytes.cmp(&a.memory_bytes).then_with(|| a.name.cmp(&b.name)));
-    let budget = shared.memory.budget();
+    let budget = shared.memory.look();
     let used = |(what, name): (Use, &str)| MemoryUse { what: name.into(), bytes: budget.taken_for(what) };
     Ok(Json(ServerStatus {
         version: env!("CARGO_PKG_VERSION").into(),
@@ -124,17 +124,15 @@ fn written(shared: &Shared, sessions: &[Looked]) -> String {
     let seconds = commits.took.as_secs_f64();
     out.one(Kind::Counter, "espalier_commits_seconds_total", "Seconds that transactions took.", seconds);
 
-    {
-        let budget = shared.memory.budget();
-        out.one(Kind::Gauge, "espalier_memory_budget_bytes", "Memory that may be taken.", budget.all());
-        let mut figure =
-            out.figure(Kind::Gauge, "espalier_memory_taken_bytes", "Memory that is taken, by what for.");
-        for (what, name) in Use::ALL {
-            figure.value(&[("for", name)], budget.taken_for(what));
-        }
-        let help = "How often there was no memory for what was asked.";
-        out.one(Kind::Counter, "espalier_memory_refused_total", help, budget.refused());
+    let budget = shared.memory.look();
+    out.one(Kind::Gauge, "espalier_memory_budget_bytes", "Memory that may be taken.", budget.all());
+    let mut figure =
+        out.figure(Kind::Gauge, "espalier_memory_taken_bytes", "Memory that is taken, by what for.");
+    for (what, name) in Use::ALL {
+        figure.value(&[("for", name)], budget.taken_for(what));
     }
+    let help = "How often there was no memory for what was asked.";
+    out.one(Kind::Counter, "espalier_memory_refused_total", help, budget.refused());
     if let Some(bytes) = resident_memory_bytes() {
         out.one(Kind::Gauge, "process_resident_memory_bytes", "Resident memory of the process.", bytes);
     }

@@ -280,6 +280,6 @@ mod tests {
         drop(other);
         let taken = address.oneshot(with(Body::from("abcdefghij"))).await.unwrap();
         assert_eq!(taken.status(), StatusCode::OK);
-        assert_eq!(memory.budget().taken(), 0);
+        assert_eq!(memory.look().taken(), 0);
     }
 }

@@ -44,7 +44,7 @@ pub enum Need {
 const KEPT_FOR_DRAWING: u64 = 15;
 
 /// Bytes that may be taken, and those that are.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Budget {
     all: u64,
     taken: [u64; Use::ALL.len()],

@@ -27,7 +27,7 @@ impl Claim {
     /// Takes more, to this many, or says that there are not so many left; gives back what is beyond.
     pub fn become_of(&mut self, need: Need, bytes: u64) -> Result<(), Full> {
         if let Some(more) = bytes.checked_sub(self.bytes).filter(|&more| more > 0) {
-            let taken = self.memory.budget().take(self.what, need, more);
+            let taken = self.memory.sums().take(self.what, need, more);
             if let Err(full) = taken {
                 self.memory.0.short.notify_waiters();
                 return Err(full);
@@ -42,7 +42,7 @@ impl Claim {
     /// As many as are in use, whether or not there are so many left.
     pub fn own_up(&mut self, bytes: u64) {
         if bytes > self.bytes {
-            self.memory.budget().own_up(self.what, bytes - self.bytes);
+            self.memory.sums().own_up(self.what, bytes - self.bytes);
         } else {
             self.give_back(self.bytes - bytes);
         }
@@ -51,7 +51,7 @@ impl Claim {
 
     fn give_back(&self, bytes: u64) {
         if bytes > 0 {
-            self.memory.budget().give_back(self.what, bytes);
+            self.memory.sums().give_back(self.what, bytes);
             self.memory.0.freed.notify_waiters();
         }
     }
@@ -139,6 +139,6 @@ mod tests {
         room.settle(1000);
         assert!(room.bytes() < weights::session(10_000), "{}", room.bytes());
         drop(room);
-        assert_eq!(memory.budget().taken(), 0);
+        assert_eq!(memory.look().taken(), 0);
     }
 }

@@ -68,7 +68,7 @@ impl Memory {
 
     /// Takes so much, or says that there is not so much left.
     pub fn take(&self, what: Use, need: Need, bytes: u64) -> Result<Claim, Full> {
-        let taken = self.budget().take(what, need, bytes);
+        let taken = self.sums().take(what, need, bytes);
         match taken {
             Ok(()) => Ok(Claim::new(self.clone(), what, bytes)),
             Err(full) => {
@@ -97,8 +97,13 @@ impl Memory {
         self.0.short.notified().await;
     }
 
-    /// What is taken, to look at and to change.
-    pub fn budget(&self) -> MutexGuard<'_, Budget> {
+    /// What is taken at this moment: a copy, so that whoever looks keeps nobody from taking.
+    pub fn look(&self) -> Budget {
+        self.sums().clone()
+    }
+
+    /// What is taken, to change.
+    fn sums(&self) -> MutexGuard<'_, Budget> {
         self.0.budget.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -121,6 +126,6 @@ mod tests {
         memory.short().await;
         drop(first);
         assert_eq!(waiting.await.unwrap(), Ok(100));
-        assert_eq!(memory.budget().taken(), 0, "all is given back");
+        assert_eq!(memory.look().taken(), 0, "all is given back");
     }
 }

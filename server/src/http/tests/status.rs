@@ -20,7 +20,7 @@ async fn sv1_a_server_lives_where_it_is_not_ready() {
     for path in ["/live", "/ready", "/health"] {
         assert_eq!(get(path).await.0, StatusCode::OK, "{path}");
     }
-    let left = shared.memory.budget().left();
+    let left = shared.memory.look().left();
     let all = shared.memory.take(Use::Job, Need::Other, left).unwrap();
     let (status, problem) = get("/ready").await;
     assert_eq!(status, StatusCode::SERVICE_UNAVAILABLE);

@@ -16,7 +16,7 @@ fn short_of(bytes: u64) -> House {
 
 /// All that others may take, but for this much.
 fn taken_but(house: &House, left: u64) -> Claim {
-    let all = house.memory.budget().left();
+    let all = house.memory.look().left();
     house.memory.take(Use::Job, Need::Other, all - left).unwrap()
 }
 
@@ -99,7 +99,7 @@ async fn lm19_sessions_that_want_more_than_there_is_are_all_answered() {
                 _ => None,
             })
             .await;
-        assert!(house.memory.budget().taken() <= house.memory.budget().all());
+        assert!(house.memory.look().taken() <= house.memory.look().all());
     }
     assert!(resting > 0, "there is less than they want");
 }
