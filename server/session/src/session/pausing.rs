@@ -49,7 +49,8 @@ impl Session {
     /// The document came home: it rests, or does not any more.
     pub(super) fn came_home(&mut self, hold: Option<Pause>) {
         if hold == Some(Pause::Memory) {
-            self.pausing.due = Some(self.now + ROOM_MS);
+            // Slices that show the tree to somebody meanwhile do not put it off.
+            self.pausing.due.get_or_insert(self.now + ROOM_MS);
         }
         self.pausing.why = hold;
     }

@@ -62,6 +62,23 @@ fn lm19_growth_rests_while_there_is_no_room_and_then_goes_on_as_if_it_had_not() 
 }
 
 #[test]
+fn lm19_people_who_come_do_not_put_off_growth_that_rests() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.room = [1500, 1500];
+    world.command(client, 1, grow(40));
+    world.settle();
+    assert_eq!(state(&world, client).paused, Some(Pause::Memory));
+    world.room = [u64::MAX; 2];
+    for key in ["maple-01", "maple-02", "maple-03", "maple-04"] {
+        world.join(key);
+        world.pass(400);
+    }
+    world.settle();
+    assert_eq!((state(&world, client).paused, state(&world, client).step), (None, 40));
+}
+
+#[test]
 fn lm19_who_draws_goes_on_where_growth_rests() {
     let mut world = World::new();
     let client = world.join("birch-01");
