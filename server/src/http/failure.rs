@@ -19,7 +19,7 @@ use serde::{Deserialize, de::DeserializeOwned};
 use crate::{
     access::{self, Unknown},
     document::FormatRow,
-    live::{Ended, OpenError},
+    live::{Ended, OpenError, Unread},
     memory::{AGAIN, Full},
     pool::Panicked,
     similar::asked_for,
@@ -197,6 +197,15 @@ impl From<Full> for Failure {
 impl From<Ended> for Failure {
     fn from(Ended: Ended) -> Self {
         Self::new(Reason::SessionEnded, "The session has just ended; try again.")
+    }
+}
+
+impl From<Unread> for Failure {
+    fn from(unread: Unread) -> Self {
+        match unread {
+            Unread::Ended => Ended.into(),
+            Unread::Memory(full) => full.into(),
+        }
     }
 }
 

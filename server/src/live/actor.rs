@@ -8,9 +8,7 @@ use std::{
 };
 
 use espalier_proto::{Pause, version::CloseCode};
-use espalier_session::{
-    ActId, ClientId, Input, JournalEntry, Output, PredictionRun, ReadDocument, ReadId, Session, Work,
-};
+use espalier_session::{ActId, ClientId, Input, JournalEntry, Output, PredictionRun, Session, Work};
 use tokio::{
     sync::{mpsc, oneshot},
     time::{Instant, sleep_until, timeout},
@@ -19,7 +17,9 @@ use tokio_util::sync::CancellationToken;
 
 use super::{
     handle::{Outcome, Request, SessionFigures, SessionHandle},
+    leaving::{End, Standing},
     outbox::{Outbox, Outgoing},
+    readers::Readers,
     restoring::Opened,
     turn::turn_of,
 };
@@ -80,8 +80,7 @@ pub(super) struct Actor {
     task: mpsc::UnboundedSender<ActorTask>,
     clients: BTreeMap<ClientId, Outbox>,
     next_client: u64,
-    reads: BTreeMap<u64, oneshot::Sender<ReadDocument>>,
-    next_read: u64,
+    readers: Readers,
     acts: BTreeMap<u64, oneshot::Sender<Outcome>>,
     next_act: u64,
     wake_at: Option<Instant>,
@@ -91,16 +90,6 @@ pub(super) struct Actor {
     patience: Duration,
     /// Tasks that are still running.
     under_way: usize,
-}
-
-/// Why a session leaves the memory.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum End {
-    Idle,
-    /// With growth that rests, and goes on when somebody comes.
-    Resting,
-    Stopping,
-    Failed,
 }
 
 impl Actor {
@@ -114,6 +103,7 @@ impl Actor {
         let (sender, requests) = mpsc::channel(MAILBOX);
         let (task, tasks) = mpsc::unbounded_channel();
         let handle = SessionHandle::new(sender);
+        let readers = Readers::new(services.memory.patience());
         let actor = Self {
             name,
             session,
@@ -127,8 +117,7 @@ impl Actor {
             task,
             clients: BTreeMap::new(),
             next_client: 1,
-            reads: BTreeMap::new(),
-            next_read: 1,
+            readers,
             acts: BTreeMap::new(),
             next_act: 1,
             wake_at: None,
@@ -148,7 +137,10 @@ impl Actor {
         self.requests.close();
         match end {
             End::Idle => tracing::info!(session = self.name, "nobody is here any more"),
-            End::Resting => tracing::info!(session = self.name, "nobody waits for what rests"),
+            End::Resting => {
+                tracing::info!(session = self.name, "nobody is here, and what rests makes room");
+                self.readers.turn_all_away();
+            }
             End::Stopping => self.close_all(CloseCode::GoingAway, "The server is stopping."),
             End::Failed => {
                 tracing::error!(session = self.name, "the session failed and will be loaded again");
@@ -182,10 +174,11 @@ impl Actor {
         loop {
             let wake_at = self.wake_at;
             let was_empty = self.clients.is_empty();
-            let (may_leave, rests) = (self.may_leave(), self.rests());
-            let idle_at = (may_leave || rests).then(|| self.empty_since + self.patience);
-            // With a snapshot that is made as it leaves.
-            let may_hurry = self.is_alone() && self.session.is_settled();
+            self.readers.note(Instant::now(), self.session.paused());
+            let refuse_at = self.readers.due();
+            let standing = self.standing();
+            let (in_time, in_haste) = (standing.end_in_time(), standing.end_where_memory_is_short());
+            let idle_at = self.empty_since + self.patience;
             let input = tokio::select! {
                 biased;
                 () = self.services.stop.cancelled() => return Ok(End::Stopping),
@@ -195,10 +188,13 @@ impl Actor {
                     self.wake_at = None;
                     Some(Input::Woken)
                 }
-                () = until(idle_at) => return Ok(if rests { End::Resting } else { End::Idle }),
+                () = until(refuse_at) => {
+                    self.readers.turn_away(Instant::now());
+                    None
+                }
+                end = then(sleep_until(idle_at), in_time) => return Ok(end),
                 // Where nobody is, others are served first.
-                () = self.services.memory.short(), if rests => return Ok(End::Resting),
-                () = self.services.memory.short(), if may_hurry => return Ok(End::Idle),
+                end = then(self.services.memory.short(), in_haste) => return Ok(end),
             };
             if let Some(input) = input {
                 self.handle(input)?;
@@ -209,19 +205,15 @@ impl Actor {
         }
     }
 
-    /// Whether nobody is here, and nothing is under way.
-    fn is_alone(&self) -> bool {
-        self.clients.is_empty() && self.under_way == 0 && self.reads.is_empty() && self.acts.is_empty()
-    }
-
-    /// Whether nobody is here, and a snapshot holds everything that was done.
-    fn may_leave(&self) -> bool {
-        self.is_alone() && self.session.is_idle()
-    }
-
-    /// Whether nobody is here, and what is to be done rests. The journal holds it for whoever comes.
-    fn rests(&self) -> bool {
-        self.clients.is_empty() && self.under_way == 0 && self.session.paused().is_some()
+    fn standing(&self) -> Standing {
+        Standing {
+            is_empty: self.clients.is_empty(),
+            is_still: self.under_way == 0,
+            owes_answers: !self.readers.is_empty() || !self.acts.is_empty(),
+            is_settled: self.session.is_settled(),
+            is_kept: self.session.is_idle(),
+            paused: self.session.paused(),
+        }
     }
 
     /// Sees to it that what was accepted is durable, done, and in a snapshot, so that nothing is left to be replayed.
@@ -261,12 +253,7 @@ impl Actor {
                 self.clients.remove(&client);
                 Input::Disconnected(client)
             }
-            Request::Read(answer) => {
-                let read = self.next_read;
-                self.next_read += 1;
-                self.reads.insert(read, answer);
-                Input::Read(ReadId(read))
-            }
+            Request::Read(answer) => Input::Read(self.readers.ask(Instant::now(), answer)),
             Request::Act(principal, command, answer) => {
                 let act = self.next_act;
                 self.next_act += 1;
@@ -374,11 +361,7 @@ impl Actor {
             Output::Predict(prediction) => self.start_prediction(prediction),
             Output::Snapshot { through, bytes } => self.keep_snapshot(through, bytes),
             Output::Notified => self.forget_notices(),
-            Output::Document { read, document } => {
-                if let Some(answer) = self.reads.remove(&read.0) {
-                    let _ = answer.send(document);
-                }
-            }
+            Output::Document { read, document } => self.readers.answer(read, document),
             Output::Acted { act, outcome } => {
                 if let Some(answer) = self.acts.remove(&act.0) {
                     let _ = answer.send(outcome);
@@ -502,6 +485,17 @@ impl Actor {
 /// The session must be loaded again from what is durable.
 #[derive(Debug)]
 struct Failed;
+
+/// Ends so once that has happened, if it may end.
+async fn then(happened: impl Future<Output = ()>, end: Option<End>) -> End {
+    match end {
+        Some(end) => {
+            happened.await;
+            end
+        }
+        None => std::future::pending().await,
+    }
+}
 
 async fn until(instant: Option<Instant>) {
     match instant {

@@ -8,7 +8,10 @@ use espalier_settings::ParameterValues;
 use tokio::sync::{mpsc, oneshot};
 use tokio_util::sync::CancellationToken;
 
-use super::outbox::Outbox;
+use super::{
+    outbox::Outbox,
+    readers::{Answer, Unread},
+};
 
 /// What is asked of a session.
 #[derive(Debug)]
@@ -23,7 +26,7 @@ pub(super) enum Request {
     /// So many control messages have gone out.
     Written(ClientId, usize),
     Leave(ClientId),
-    Read(oneshot::Sender<ReadDocument>),
+    Read(Answer),
     Act(Principal, Box<Command>, oneshot::Sender<Outcome>),
     Parameters(oneshot::Sender<ParameterValues>),
     Mesh(u32, oneshot::Sender<Option<Arc<Mesh>>>),
@@ -86,11 +89,11 @@ impl SessionHandle {
         answered.await.map_err(|_| Ended)
     }
 
-    /// The document as it is now.
-    pub async fn read(&self) -> Result<ReadDocument, Ended> {
+    /// The document as it is between two commands.
+    pub async fn read(&self) -> Result<ReadDocument, Unread> {
         let (answer, answered) = oneshot::channel();
         self.send(Request::Read(answer)).await?;
-        answered.await.map_err(|_| Ended)
+        answered.await.unwrap_or(Err(Unread::Ended))
     }
 
     /// Does a command that comes over no socket; answers when it is durable.

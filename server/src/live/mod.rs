@@ -2,13 +2,16 @@
 
 mod actor;
 mod handle;
+mod leaving;
 mod outbox;
+mod readers;
 mod registry;
 mod restoring;
 mod socket;
 mod turn;
 
 pub use handle::{Ended, SessionFigures, SessionHandle};
+pub use readers::Unread;
 pub use registry::{Looked, Sessions};
 pub use restoring::OpenError;
 pub use socket::{Grants, serve, turn_away};

@@ -92,6 +92,11 @@ impl Memory {
         }
     }
 
+    /// How long somebody waits for what may become free.
+    pub fn patience(&self) -> Duration {
+        self.0.patience
+    }
+
     /// Waits until somebody finds none left.
     pub async fn short(&self) {
         self.0.short.notified().await;

@@ -51,6 +51,7 @@ pub(super) fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
             names(&["role"]),
             json!({ "role": "viewer", "hours": 1, "name": "Ada's tablet" }),
         ),
+        ("PATCH /api/v1/trees/{tree}/links/{link}", names(&["role"]), json!({ "role": "editor" })),
         (
             "POST /api/v1/trees/{tree}/versions",
             names(&["session"]),

@@ -3,7 +3,10 @@
 use espalier_proto::{DocumentState, Pause, Reason};
 
 use super::*;
-use crate::memory::{Claim, session};
+use crate::{
+    live::Unread,
+    memory::{Claim, Full, session},
+};
 
 const NAMES: [&str; 12] =
     ["ash", "beech", "birch", "elm", "fir", "larch", "lime", "maple", "pine", "plum", "rowan", "yew"];
@@ -78,6 +81,34 @@ async fn lm19_sessions_in_which_nobody_is_leave_first() {
 }
 
 #[tokio::test]
+async fn lm19_who_asks_for_a_tree_whose_growth_rests_is_told_to_come_back() {
+    let house = short_of(1 << 30);
+    house.begin("oak", SIMULATION_VERSION, None).await;
+    let mut visitor = house.visit().await;
+    let others = taken_but(&house, 1 << 20);
+    visitor.say(&grow(1, 40)).await;
+    visitor.hear(|message| state(message).filter(|state| state.paused.is_some())).await;
+    assert_eq!(visitor.session.read().await.unwrap_err(), Unread::Memory(Full));
+    visitor.session.send(Request::Leave(visitor.client)).await.unwrap();
+    assert_eq!(visitor.session.read().await.unwrap_err(), Unread::Memory(Full), "nobody is there");
+    drop(others);
+    finished(&house, "oak").await;
+}
+
+/// Asks until the session has done its command, as a program does that is told to come back.
+async fn finished(house: &House, name: &str) {
+    let asked = async {
+        loop {
+            let Ok(Some(session)) = house.sessions.open(name).await else { continue };
+            if session.read().await.is_ok_and(|document| document.through == 1) {
+                break;
+            }
+        }
+    };
+    timeout(Duration::from_secs(60), asked).await.unwrap();
+}
+
+#[tokio::test]
 async fn lm19_sessions_that_want_more_than_there_is_are_all_answered() {
     // Room for the sessions, and for some of them to grow.
     let house = short_of(session(0) * NAMES.len() as u64 * 100 / 85 + (4 << 20));
@@ -107,14 +138,27 @@ async fn lm19_sessions_that_want_more_than_there_is_are_all_answered() {
     }
     // One after the other has what it wants, for whoever has left makes room.
     for name in NAMES {
-        let finished = async {
-            loop {
-                let Ok(Some(session)) = house.sessions.open(name).await else { continue };
-                if session.read().await.is_ok_and(|document| document.through == 1) {
-                    break;
-                }
-            }
-        };
-        timeout(Duration::from_secs(60), finished).await.unwrap();
+        finished(&house, name).await;
     }
+}
+
+#[tokio::test]
+async fn lm19_sessions_that_find_room_only_one_by_one_all_finish() {
+    // The first has done its command where there is room for more than one; no two of them find as much.
+    let wide = short_of(1 << 30);
+    let command = JournalEntry { command: r#"{"kind":"grow","steps":30}"#.into(), ..grown(1) };
+    let begun = async |house: &House, name: &str| {
+        house.begin(name, SIMULATION_VERSION, None).await;
+        let lease = house.store.acquire(name).await.unwrap();
+        house.store.append(&lease, SIMULATION_VERSION, std::slice::from_ref(&command)).await.unwrap();
+        house.store.release(lease).await;
+    };
+    begun(&wide, "oak").await;
+    finished(&wide, "oak").await;
+    let wanted = wide.memory.look().taken_for(Use::Session);
+    let house = short_of((wanted + wanted / 2) * 100 / 85);
+    for name in ["oak", "elm", "ash"] {
+        begun(&house, name).await;
+    }
+    join_all(["oak", "elm", "ash"].map(|name| finished(&house, name))).await;
 }
