@@ -18,7 +18,7 @@ use crate::{
     programme::{Programme, Slug},
     reading::{self, tagged_enum},
     text::Name,
-    timeline::{Timeline, TimelineChange, WidthConstraint},
+    timeline::{OperationKind, Timeline, TimelineChange, WidthConstraint},
     version::{MAX_PRUNED_ROWS, MAX_SKETCH_PLACES},
 };
 
@@ -266,6 +266,24 @@ pub struct Hint {
     pub position: Position,
 }
 
+/// What came of `take_back` or `bring_back` (`UD7`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct Deed {
+    /// The command.
+    pub id: u32,
+    /// What was taken back, or brought back.
+    pub kind: OperationKind,
+    /// Whether it is taken back now.
+    pub away: bool,
+    /// So many metamers fell,
+    pub fell: u32,
+    /// so many rose,
+    pub rose: u32,
+    /// and so many of what was taken back stay, since wood that somebody else drew stands on them.
+    pub held: u32,
+}
+
 /// Why what somebody drew is not there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(rename_all = "snake_case")]
@@ -320,6 +338,11 @@ pub enum ServerMessage {
     Problem {
         /// Why.
         problem: Problem,
+    },
+    /// What this client asked to be taken back, or brought back, is so (`UD7`).
+    Deed {
+        /// What came of it.
+        deed: Deed,
     },
     /// The document changed.
     State {

@@ -45,7 +45,7 @@ pub use bounded::{
 };
 pub use command::{Action, Command, StrokeSample};
 pub use control::{
-    ClientMessage, DocumentState, Hint, HintReason, Notice, Pause, Resume, ServerMessage, Unreadable,
+    ClientMessage, Deed, DocumentState, Hint, HintReason, Notice, Pause, Resume, ServerMessage, Unreadable,
 };
 pub use envelope::FrameKind;
 pub use espalier_reading::NotAllowed;

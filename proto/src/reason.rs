@@ -112,6 +112,8 @@ reasons! {
         NumberTaken,
         /// There is nothing to undo.
         NothingToUndo,
+        /// Nothing that this person did can be taken back.
+        NothingOfYours,
         /// There is nothing to redo.
         NothingToRedo,
         /// The plant is a seed.

@@ -44,7 +44,7 @@ pub enum OperationKind {
 pub struct TimelineOperation {
     /// What it was.
     pub kind: OperationKind,
-    /// Who did it: 0, 1, 2 … in the order in which people appear in this message.
+    /// Who did it: the number of a person, as in `people` (`PS3`).
     pub author: u32,
     /// The step before it.
     pub first: u32,

@@ -148,6 +148,7 @@ pub fn declarations() -> String {
         control::Notice::decl(&config),
         control::HintReason::decl(&config),
         control::Hint::decl(&config),
+        control::Deed::decl(&config),
         control::ServerMessage::decl(&config),
         library::NewSession::decl(&config),
         library::SessionTree::decl(&config),

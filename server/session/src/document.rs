@@ -46,6 +46,7 @@ pub use self::{
     transplanting::TransplantError,
 };
 pub(crate) use self::{
+    deeds::Switched,
     generators::{GeneratorState, Generators, Step},
     hints::DrawnInVain,
     obstacles::ObstaclesMark,
@@ -67,6 +68,8 @@ pub struct Document {
     appearance: Arc<Appearance>,
     pending: VecDeque<Pending>,
     hints: Hints,
+    /// What came of the last deed that was taken back or brought back, until it is told.
+    switched: Option<Switched>,
     steps_begun: u32,
     /// Where growth ends, as counted by `steps_begun`.
     stop_at: Option<u32>,
@@ -130,6 +133,7 @@ impl Document {
             appearance,
             pending: VecDeque::new(),
             hints: Hints::default(),
+            switched: None,
             steps_begun: 0,
             stop_at: None,
             unknown: Vec::new(),

@@ -194,18 +194,36 @@ impl FramesOfTick {
 pub(crate) struct Register {
     people: Numbers<Arc<str>>,
     devices: Numbers<Principal>,
+    /// Who is, or was last, at which device.
+    person_at: BTreeMap<Principal, u32>,
     /// What people call themselves, by their numbers.
     names: BTreeMap<u32, String>,
 }
 
 impl Register {
     /// The numbers of a device and of whoever is at it; `here` says which numbers are in use.
-    pub(crate) fn enter(&mut self, device: &Principal, person: &Arc<str>, here: &[(u32, u32)]) -> (u32, u32) {
-        let device = self.devices.of(device, |number| here.iter().any(|&(device, _)| device == number));
+    pub(crate) fn enter(
+        &mut self,
+        principal: &Principal,
+        person: &Arc<str>,
+        here: &[(u32, u32)],
+    ) -> (u32, u32) {
+        let device = self.devices.of(principal, |number| here.iter().any(|&(device, _)| device == number));
+        self.people.rename(&author_alone(principal), person);
         let person = self.people.of(person, |number| here.iter().any(|&(_, person)| person == number));
         let known = &self.people.numbers;
         self.names.retain(|number, _| known.values().any(|known| known == number));
+        self.person_at.insert(principal.clone(), person);
+        self.person_at.retain(|device, _| self.devices.numbers.contains_key(device));
         (device, person)
+    }
+
+    /// The number of whoever did something at a device, which may have been long ago.
+    pub(crate) fn author(&mut self, device: &Principal) -> u32 {
+        match self.person_at.get(device) {
+            Some(&person) => person,
+            None => self.people.of(&author_alone(device), |_| true),
+        }
     }
 
     /// Somebody chooses a name; whether it is another than before.
@@ -217,6 +235,11 @@ impl Register {
     pub(crate) fn name_of(&self, person: u32) -> Option<&str> {
         self.names.get(&person).map(String::as_str)
     }
+}
+
+/// Stands for whoever was at a device, as long as nobody has come who says who that is.
+fn author_alone(device: &Principal) -> Arc<str> {
+    format!("author {}", device.name()).into()
 }
 
 #[derive(Debug)]
@@ -232,6 +255,15 @@ impl<K> Default for Numbers<K> {
 }
 
 impl<K: Clone + Ord> Numbers<K> {
+    /// Gives the number of one key to another, which has none.
+    fn rename(&mut self, from: &K, to: &K) {
+        if !self.numbers.contains_key(to)
+            && let Some(number) = self.numbers.remove(from)
+        {
+            self.numbers.insert(to.clone(), number);
+        }
+    }
+
     /// The number of a key. Where too many are known, the first one that is not in use is forgotten.
     fn of(&mut self, key: &K, is_used: impl Fn(u32) -> bool) -> u32 {
         if let Some(&known) = self.numbers.get(key) {

@@ -170,6 +170,8 @@ impl Session {
         let pausing = Pausing::new(rest.hold);
         work.resume(rest);
         let bends = work.take_report().bends;
+        let mut room = Room::default();
+        let timeline = work.document.timeline_of(|author| room.register.author(author));
         Self {
             name,
             epoch,
@@ -188,15 +190,15 @@ impl Session {
             programme: ProgrammeInForce::of(&work.document),
             appearance: *work.document.appearance(),
             scenery: Scenery::of(&work.document),
-            timeline: work.document.timeline(),
-            told_timeline: work.document.timeline(),
+            told_timeline: timeline.clone(),
+            timeline,
             widths: work.document.widths(),
             bends: bends.into_iter().map(|update| (update.bend, update)).collect(),
             predictions: 0,
             home: Some(work),
             upkeep: Upkeep::new(snapshotted),
             pausing,
-            room: Room::default(),
+            room,
             notices: Vec::new(),
             failed: false,
             outputs: VecDeque::new(),

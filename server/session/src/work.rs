@@ -6,11 +6,14 @@ use std::{
 };
 
 use espalier_mesh::{RingTable, Style};
-use espalier_proto::{Action, BendFrame, Command, Hint, Pause, PlacedObstacle, Position, Problem, RowMotion};
+use espalier_proto::{
+    Action, BendFrame, Command, Deed, Hint, Pause, PlacedObstacle, Position, Problem, RowMotion,
+    ServerMessage,
+};
 
 use crate::{
     author::{LastCommand, note_last},
-    document::{Document, DrawnInVain},
+    document::{Document, DrawnInVain, Switched},
     io::{ActId, ClientId, ReadDocument, ReadId},
     prediction::{PredictionRun, Question},
     principal::Principal,
@@ -78,19 +81,11 @@ pub(crate) struct CatchUp {
     pub(crate) held: Held,
 }
 
-/// A command the document refused.
+/// What is said of a command to the client that sent it, and to nobody else.
 #[derive(Debug)]
-pub(crate) struct Refusal {
+pub(crate) struct Answer {
     pub(crate) author: Principal,
-    pub(crate) id: u32,
-    pub(crate) problem: Problem,
-}
-
-/// Something that a client drew, and that came to nothing.
-#[derive(Debug)]
-pub(crate) struct Unheard {
-    pub(crate) author: Principal,
-    pub(crate) hint: Hint,
+    pub(crate) message: ServerMessage,
 }
 
 /// A bend as it is sent to clients.
@@ -108,8 +103,7 @@ pub(crate) struct Report {
     /// For everybody in step.
     pub(crate) delta: Option<Arc<[u8]>>,
     pub(crate) catch_ups: Vec<(ClientId, Arc<[u8]>)>,
-    pub(crate) refused: Vec<Refusal>,
-    pub(crate) unheard: Vec<Unheard>,
+    pub(crate) answers: Vec<Answer>,
     /// New frames of open bends; without a frame's motions a bend is over.
     pub(crate) bends: Vec<BendUpdate>,
     /// Predictions to be made.
@@ -171,8 +165,9 @@ impl Work {
         applied: u64,
         last_commands: BTreeMap<Principal, LastCommand>,
     ) -> Self {
-        // Hints of replayed entries are for clients that are gone.
+        // Answers to replayed entries are for clients that are gone.
         document.take_drawn_in_vain();
+        document.take_switched();
         let busy = document.pending_steps() > 0;
         let style = Style::new(to_proto::style_options(&document.parameters()));
         let mut work = Self {
@@ -349,17 +344,33 @@ impl Work {
             self.report.acts.push((act, placed));
         }
         match begun {
-            Ok(()) => self.busy = true,
-            Err(problem) => self.report.refused.push(Refusal { author: order.author, id: order.id, problem }),
+            Ok(()) => {
+                self.busy = true;
+                if let Some(Switched { kind, away, fell, rose, held }) = self.document.take_switched() {
+                    let deed = Deed { id: order.id, kind, away, fell, rose, held };
+                    self.answer(&order.author, order.id, ServerMessage::Deed { deed });
+                }
+            }
+            Err(problem) => {
+                self.answer(&order.author, order.id, ServerMessage::Refused { id: order.id, problem });
+            }
+        }
+    }
+
+    /// Answers a command. The session's own have number 0, and nobody waits for their answer.
+    fn answer(&mut self, author: &Principal, id: u32, message: ServerMessage) {
+        if id > 0 {
+            self.report.answers.push(Answer { author: author.clone(), message });
         }
     }
 
     /// All hints belong to the command that is being done.
     fn report_hints(&mut self) {
-        let Some((author, id)) = &self.doing else { return };
-        for DrawnInVain { stroke, reason, place } in self.document.take_drawn_in_vain() {
-            let hint = Hint { id: *id, stroke, reason, position: Position::nearest(place) };
-            self.report.unheard.push(Unheard { author: author.clone(), hint });
+        let drawn = self.document.take_drawn_in_vain();
+        let Some((author, id)) = self.doing.clone().filter(|_| !drawn.is_empty()) else { return };
+        for DrawnInVain { stroke, reason, place } in drawn {
+            let hint = Hint { id, stroke, reason, position: Position::nearest(place) };
+            self.answer(&author, id, ServerMessage::Hint { hint });
         }
     }
 

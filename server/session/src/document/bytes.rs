@@ -189,6 +189,7 @@ impl Document {
             appearance: pool.look(look)?,
             pending: VecDeque::new(),
             hints: Hints::default(),
+            switched: None,
             steps_begun,
             stop_at: None,
             unknown: container.unknown(),

@@ -4,16 +4,31 @@
 //! them back, so it travels in time as they do. What stands then, and what holds of parameters, looks and obstacles,
 //! follows from the deeds in force alone.
 
-use espalier_plant::Claim;
-use espalier_proto::{Problem, Reason};
+use espalier_plant::{Claim, MetamerId};
+use espalier_proto::{OperationKind, Problem, Reason};
 
 use super::{
     Document,
     branches::said,
     history::{History, Kind, Operation},
-    travelling::{nothing_to_redo, nothing_to_undo},
+    travelling::nothing_to_redo,
 };
 use crate::{cause::Cause, principal::Principal};
+
+/// What came of taking a deed back, or bringing one back (`UD7`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Switched {
+    /// What the deed was.
+    pub kind: OperationKind,
+    /// Whether it is taken back now.
+    pub away: bool,
+    /// Metamers that fell.
+    pub fell: u32,
+    /// Metamers that rose.
+    pub rose: u32,
+    /// Metamers of a deed that is away which stay, since wood that others drew stands on them.
+    pub held: u32,
+}
 
 impl Operation {
     /// Whether it is what one person did, who may take it back.
@@ -69,7 +84,8 @@ impl Document {
     pub(super) fn take_back(&mut self, cause: Cause<'_>) -> Result<(), Problem> {
         self.require_no_bend_but_of(cause.author)?;
         let has_ended = self.end_gestures_of(cause.author);
-        let done = if self.is_alone(cause.author) { self.undo() } else { self.take_back_newest(cause) };
+        let done =
+            if self.is_alone(cause.author) { self.travel_back() } else { self.take_back_newest(cause) };
         if has_ended { Ok(()) } else { done }
     }
 
@@ -81,14 +97,46 @@ impl Document {
                 return Ok(());
             }
         }
-        Err(nothing_to_undo())
+        let message = "nothing that you did can be taken back; what others did is theirs";
+        Err(Problem::new(Reason::NothingOfYours, message)
+            .at("kind", "what some deed of yours is in force for"))
+    }
+
+    /// Takes back what was done last, on a line of one person.
+    fn travel_back(&mut self) -> Result<(), Problem> {
+        let before = (self.history.done, self.figures().metamers);
+        self.undo()?;
+        let undone = self.history.done..before.0;
+        self.switched = self.travelled(undone.start, before.1).filter(|_| !undone.is_empty());
+        Ok(())
+    }
+
+    /// Does again what was taken back last, on a line of one person.
+    fn travel_forth(&mut self) -> Result<(), Problem> {
+        let before = self.figures().metamers;
+        self.redo()?;
+        self.switched = self.history.done.checked_sub(1).and_then(|last| self.travelled(last, before));
+        Ok(())
+    }
+
+    /// What came of a journey past an operation, before which so many metamers lived.
+    fn travelled(&self, operation: usize, before: u32) -> Option<Switched> {
+        let kind = self.history.operations.get(operation)?.kind.into();
+        let living = self.figures().metamers;
+        let (fell, rose) = (before.saturating_sub(living), living.saturating_sub(before));
+        Some(Switched { kind, away: operation >= self.history.done, fell, rose, held: 0 })
+    }
+
+    /// What came of the last deed that was taken back or brought back, if it was not told yet.
+    pub(crate) fn take_switched(&mut self) -> Option<Switched> {
+        self.switched.take()
     }
 
     /// Puts in force again what an author took back last (`UD3`).
     pub(super) fn bring_back(&mut self, cause: Cause<'_>) -> Result<(), Problem> {
         self.require_no_bend_but_of(cause.author)?;
         if self.is_alone(cause.author) {
-            return self.redo();
+            return self.travel_forth();
         }
         let deed = self.history.taken_back_last(cause.author).ok_or_else(nothing_to_redo)?;
         if self.switch(cause, Kind::BroughtBack, deed)? { Ok(()) } else { Err(nothing_to_redo()) }
@@ -133,6 +181,12 @@ impl Document {
                 return unchanged.map(|_| false);
             }
         };
+        let Operation { kind: what, first, last, .. } = self.history.operations[deed];
+        let away = kind == Kind::TakenBack;
+        let is_of_it = |row: &&MetamerId| away && (first + 1..=last).contains(&self.plant().birth(**row));
+        let held = settled.held.iter().filter(is_of_it).count() as u32;
+        let (fell, rose) = (settled.falls.len() as u32, settled.rises.len() as u32);
+        self.switched = Some(Switched { kind: what.into(), away, fell, rose, held });
         self.set(&setting);
         self.history.settle(setting);
         self.history.keep_places(settled.falls.len() + settled.rises.len());

@@ -14,9 +14,18 @@ use super::{
 use crate::principal::Principal;
 
 impl Document {
-    /// The present line of time and all others (`TT1`).
+    /// The present line of time and all others (`TT1`), with people numbered in the order in which they appear.
     pub fn timeline(&self) -> Timeline {
-        let mut people = People::default();
+        let mut people = BTreeMap::new();
+        self.timeline_of(|author| {
+            let next = people.len() as u32 + 1;
+            *people.entry(author.clone()).or_insert(next)
+        })
+    }
+
+    /// The present line of time and all others (`TT1`), with the numbers that people have.
+    pub(crate) fn timeline_of(&self, number: impl FnMut(&Principal) -> u32) -> Timeline {
+        let mut people = People { known: BTreeMap::new(), number };
         let operations = people.name(&self.history.operations, &self.history.away());
         let mut futures: Vec<TimelineFuture> = (self.futures.all.iter())
             .map(|future| TimelineFuture {
@@ -73,34 +82,41 @@ impl Document {
 }
 
 /// Client keys are secret, so people are sent as numbers.
-#[derive(Default)]
-struct People<'a>(BTreeMap<&'a Principal, u32>);
+struct People<'a, F> {
+    known: BTreeMap<&'a Principal, u32>,
+    number: F,
+}
 
-impl<'a> People<'a> {
+impl<'a, F: FnMut(&Principal) -> u32> People<'a, F> {
     fn name(&mut self, operations: &'a [Operation], away: &[bool]) -> Vec<TimelineOperation> {
         let away = away.iter().copied().chain(std::iter::repeat(false));
-        operations.iter().zip(away).map(|(operation, away)| self.name_one(operation, away)).collect()
-    }
-
-    fn name_one(&mut self, operation: &'a Operation, away: bool) -> TimelineOperation {
-        let next = self.0.len() as u32;
-        let author = *self.0.entry(&operation.author).or_insert(next);
-        let kind = match operation.kind {
-            Kind::Stroke => OperationKind::Stroke,
-            Kind::Growth => OperationKind::Growth,
-            Kind::Parameters => OperationKind::Parameters,
-            Kind::Seed => OperationKind::Seed,
-            Kind::Lasso => OperationKind::Lasso,
-            Kind::Obstacle => OperationKind::Obstacle,
-            Kind::Bend => OperationKind::Bend,
-            Kind::Width => OperationKind::Width,
-            Kind::Prune => OperationKind::Prune,
-            Kind::Turn => OperationKind::Turn,
-            Kind::Graft => OperationKind::Graft,
-            Kind::Appearance => OperationKind::Appearance,
-            Kind::TakenBack => OperationKind::TakenBack,
-            Kind::BroughtBack => OperationKind::BroughtBack,
+        let name = |(operation, away): (&'a Operation, bool)| {
+            let Operation { first, last, .. } = *operation;
+            let number = || (self.number)(&operation.author);
+            let author = *self.known.entry(&operation.author).or_insert_with(number);
+            TimelineOperation { kind: operation.kind.into(), author, first, last, away }
         };
-        TimelineOperation { kind, author, first: operation.first, last: operation.last, away }
+        operations.iter().zip(away).map(name).collect()
+    }
+}
+
+impl From<Kind> for OperationKind {
+    fn from(kind: Kind) -> Self {
+        match kind {
+            Kind::Stroke => Self::Stroke,
+            Kind::Growth => Self::Growth,
+            Kind::Parameters => Self::Parameters,
+            Kind::Seed => Self::Seed,
+            Kind::Lasso => Self::Lasso,
+            Kind::Obstacle => Self::Obstacle,
+            Kind::Bend => Self::Bend,
+            Kind::Width => Self::Width,
+            Kind::Prune => Self::Prune,
+            Kind::Turn => Self::Turn,
+            Kind::Graft => Self::Graft,
+            Kind::Appearance => Self::Appearance,
+            Kind::TakenBack => Self::TakenBack,
+            Kind::BroughtBack => Self::BroughtBack,
+        }
     }
 }

@@ -9,7 +9,7 @@ use crate::{
     clients::{ConnectedClient, View},
     io::{ClientId, Output},
     to_proto::{self, Held},
-    work::{CatchUp, Report, Unheard, Work},
+    work::{Answer, CatchUp, Report, Work},
 };
 
 impl Session {
@@ -25,8 +25,7 @@ impl Session {
 
     /// The document came home from a slice of work.
     pub(super) fn worked(&mut self, mut work: Box<Work>) {
-        let Report { delta, catch_ups, refused, unheard, bends, runs, acts, documents, snapshot } =
-            work.take_report();
+        let Report { delta, catch_ups, answers, bends, runs, acts, documents, snapshot } = work.take_report();
         self.deliver(delta.as_ref(), work.sequence);
         self.newest = (work.sequence, work.table.rows() as u32);
         self.done = work.done_through();
@@ -35,17 +34,9 @@ impl Session {
         }
         self.take_bend_updates(bends);
         self.outputs.extend(runs.into_iter().map(|prediction| Output::Predict(Box::new(prediction))));
-        for refusal in refused {
-            // The session's own commands have number 0, and nobody waits for their answer.
-            let client = self.authors.get(&refusal.author).and_then(|author| author.client);
-            if let Some(client) = client.filter(|_| refusal.id > 0) {
-                self.send(client, &ServerMessage::Refused { id: refusal.id, problem: refusal.problem });
-            }
-        }
-        for Unheard { author, hint } in unheard {
-            let client = self.authors.get(&author).and_then(|author| author.client);
-            if let Some(client) = client.filter(|_| hint.id > 0) {
-                self.send(client, &ServerMessage::Hint { hint });
+        for Answer { author, message } in answers {
+            if let Some(client) = self.authors.get(&author).and_then(|author| author.client) {
+                self.send(client, &message);
             }
         }
         for (act, outcome) in acts {
@@ -85,7 +76,7 @@ impl Session {
             self.scenery = Scenery::of(&work.document);
             self.broadcast(&self.obstacles_message());
         }
-        let (timeline, widths) = (work.document.timeline(), work.document.widths());
+        let (timeline, widths) = (self.line_of(&work.document), work.document.widths());
         self.upkeep.timeline_changed |= timeline != self.timeline;
         self.upkeep.widths_changed |= widths != self.widths;
         (self.timeline, self.widths) = (timeline, widths);

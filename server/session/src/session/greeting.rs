@@ -74,6 +74,12 @@ impl Session {
         let resumed = resume.is_some();
         let view = View::Stale(resume.map_or(Held::Nothing, Held::Chunks));
         let presence = self.enter_room(client, &principal);
+        if let Some(work) = self.home.take() {
+            // Numbers of people may have changed.
+            self.timeline = self.line_of(&work.document);
+            self.upkeep.timeline_changed |= self.timeline != self.told_timeline;
+            self.home = Some(work);
+        }
         if let Some(client) = self.clients.get_mut(&client) {
             client.connected = Some(ConnectedClient {
                 principal,

@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 
 use espalier_proto::{
-    Camera, ClientMessage, Device, Person, Problem, Reason, ServerMessage, access::Role,
+    Camera, ClientMessage, Device, Person, Problem, Reason, ServerMessage, Timeline, access::Role,
     version::MAX_SHOWN_DEVICES,
 };
 
 use super::Session;
 use crate::{
     clients::ConnectedClient,
+    document::Document,
     io::{ClientId, Output},
     presence::{FramesOfTick, Presence, Register, Said},
     rights::{Access, forbidden},
@@ -52,6 +53,12 @@ impl Session {
         let (device, person) = self.room.register.enter(principal, &person, &here);
         self.room.people_changed = true;
         Presence::new(device, person, self.now)
+    }
+
+    /// The lines of time, with the numbers that people have here.
+    pub(super) fn line_of(&mut self, document: &Document) -> Timeline {
+        let register = &mut self.room.register;
+        document.timeline_of(|author| register.author(author))
     }
 
     /// A device has left.

@@ -6,6 +6,7 @@ mod bending;
 mod commands;
 mod covering;
 mod cutting;
+mod deeds;
 mod durability;
 mod filling;
 mod finishing;
