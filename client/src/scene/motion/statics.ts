@@ -1,0 +1,68 @@
+import type { Wood } from "./wood";
+
+/** How much less a rod of wood resists being twisted than being bent. */
+const TWIST = 6;
+
+/** What each row bears, itself included: Σ w, and Σ w x in metres. */
+export interface Borne {
+  readonly weight: Float64Array;
+  readonly moment: Float64Array;
+}
+
+/** Of weights of rows, which act in their middles. */
+export function borneBy({ parent, middle }: Wood, weights: Float64Array): Borne {
+  const weight = weights.slice();
+  const moment = new Float64Array(middle.length);
+  for (let at = 0; at < moment.length; at += 1) moment[at] = weights[(at / 3) | 0]! * middle[at]!;
+  for (let row = weight.length - 1; row >= 0; row -= 1) {
+    const node = parent[row]!;
+    if (node < 0) continue;
+    weight[node]! += weight[row]!;
+    moment[3 * node]! += moment[3 * row]!;
+    moment[3 * node + 1]! += moment[3 * row + 1]!;
+    moment[3 * node + 2]! += moment[3 * row + 2]!;
+  }
+  return { weight, moment };
+}
+
+/** Σ w |x|² over what each row bears, itself included. */
+export function spreadOf({ parent, middle }: Wood, weights: Float64Array): Float64Array {
+  const spread = new Float64Array(weights.length);
+  for (let row = 0; row < spread.length; row += 1) {
+    const [x, y, z] = [middle[3 * row]!, middle[3 * row + 1]!, middle[3 * row + 2]!];
+    spread[row] = weights[row]! * (x * x + y * y + z * z);
+  }
+  for (let row = spread.length - 1; row >= 0; row -= 1) {
+    const node = parent[row]!;
+    if (node >= 0) spread[node]! += spread[row]!;
+  }
+  return spread;
+}
+
+/** Adds how a row turns from its lower end to its upper under unit loads along x, y and z, column by column. */
+export function addBend(out: Float64Array, wood: Wood, borne: Borne, weights: Float64Array, row: number): void {
+  const { middle, way } = wood;
+  const at = 3 * row;
+  const [weight, sixth] = [borne.weight[row]!, weights[row]! / 6];
+  const lx = borne.moment[at]! - weight * middle[at]! + sixth * way[at]!;
+  const ly = borne.moment[at + 1]! - weight * middle[at + 1]! + sixth * way[at + 1]!;
+  const lz = borne.moment[at + 2]! - weight * middle[at + 2]! + sixth * way[at + 2]!;
+  const softness = wood.softness[row]!;
+  const length = wood.length[row]!;
+  const ax = length > 0 ? way[at]! / length : 0;
+  const ay = length > 0 ? way[at + 1]! / length : 0;
+  const az = length > 0 ? way[at + 2]! / length : 0;
+  // The moment of each load is the lever across it.
+  let along = (TWIST - 1) * (ay * lz - az * ly);
+  out[0]! += softness * (along * ax);
+  out[1]! += softness * (lz + along * ay);
+  out[2]! += softness * (along * az - ly);
+  along = (TWIST - 1) * (az * lx - ax * lz);
+  out[3]! += softness * (along * ax - lz);
+  out[4]! += softness * (along * ay);
+  out[5]! += softness * (lx + along * az);
+  along = (TWIST - 1) * (ax * ly - ay * lx);
+  out[6]! += softness * (ly + along * ax);
+  out[7]! += softness * (along * ay - lx);
+  out[8]! += softness * (along * az);
+}
