@@ -4,6 +4,7 @@ import { type Pick, pickBranch } from "./camera/picking";
 import { type PictureSize, pixelsPerInternode } from "./camera/sight";
 import { ViewCamera } from "./camera/view-camera";
 import type { DrawMode, Legend } from "./mode/draw-mode";
+import type { Air, AirStage } from "./motion/air";
 import type { DrawnObstacle } from "./obstacle-meshes";
 import type { GhostPlacement } from "./overlay/ghost";
 import type { Overlay } from "./overlay/overlays";
@@ -61,6 +62,8 @@ export class Viewport {
   private drawn: Quality;
   /** Whether details are still to be chosen. */
   private unsettled = false;
+  /** What moves the tree; null as long as no wind has blown. */
+  private air: Air | null = null;
   /** Whether the graphics card has taken its context away, and all that was drawn with it. */
   private lost = false;
   /** Whether a picture is being made of what the scene is now. */
@@ -202,7 +205,17 @@ export class Viewport {
   pick(x: number, y: number, tolerancePixels: number): Pick | null {
     const { overlays } = this.world.tree;
     const drawn = overlays.active ? overlays : null;
-    return pickBranch(this.table, this.camera.aimed().projection(), x, y, tolerancePixels, drawn);
+    const sight = this.camera.aimed().projection();
+    return this.air
+      ? this.air.pick(sight, x, y, tolerancePixels, drawn)
+      : pickBranch(this.table, sight, x, y, tolerancePixels, drawn);
+  }
+
+  /** Has something move the tree from now on. */
+  enliven(make: (stage: AirStage) => Air): Air {
+    const { renderer, world, loop } = this;
+    this.air ??= make({ renderer, world, control: loop.control, invalidate: () => loop.invalidate() });
+    return this.air;
   }
 
   /** Draws rows differently from the table until the table has caught up or the overlay is removed. */
@@ -320,6 +333,7 @@ export class Viewport {
   /** Lets go of the GPU and the canvas. */
   dispose(): void {
     this.loop.dispose();
+    this.air?.dispose();
     this.resizing.disconnect();
     this.unfollow();
     this.pause.dispose();
@@ -365,6 +379,7 @@ export class Viewport {
     // A finished picture comes over a lesser one without being drawn again, unless something happens meanwhile.
     const fades = asked || this.unsettled || !control.resting ? null : this.screen.fade(this.camera.sight.camera);
     if (fades !== null) return fades;
+    if (!asked && control.resting && this.air?.early(began)) return true;
     this.sync();
     const now = this.table.now();
     this.world.uniforms.uTime!.value = now;
@@ -372,6 +387,7 @@ export class Viewport {
     const moving = this.camera.rig.step(step);
     if (growing || moving) control.moved(began);
     if (moving) this.moved();
+    const sways = !this.pause.on && this.air?.step(began);
     if (control.overtaxed) this.slowed(this.cardless);
     if (!this.empty) {
       this.sketch = null;
@@ -383,7 +399,7 @@ export class Viewport {
     // Finer textures wait for the picture at rest, which comes over that before it: nobody sees one put for another.
     const finer = control.resting && this.world.tree.ripe;
     const better = finer || (control.resting && quality !== this.drawn);
-    const over = better && this.screen.remember(camera);
+    const over = better && !sways && this.screen.remember(camera);
     if (finer) this.world.tree.ripen();
     this.world.shadow.stale ||= finer;
     this.screen.fit(quality.scale, quality.smooth);
@@ -399,7 +415,7 @@ export class Viewport {
       this.world.drawShadow(this.renderer, shadows);
     this.screen.draw(this.world.scene, camera, over);
     this.drawn = quality;
-    return growing || moving || over || this.unsettled;
+    return growing || moving || over || this.unsettled || sways === true;
   };
 
   /** Loads what draws a large tree as lines. */
@@ -478,6 +494,7 @@ export class Viewport {
     this.lost = false;
     this.screen.restored();
     this.world.restored();
+    this.air?.restored();
     this.loop.invalidate();
     this.lossChanged(false);
   };

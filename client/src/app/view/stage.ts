@@ -3,6 +3,7 @@ import { RADIANS_PER_PIXEL } from "../../scene/camera/camera-rig";
 import type { PictureSize } from "../../scene/camera/sight";
 import type { View } from "../../scene/camera/view";
 import type { DrawMode, Legend } from "../../scene/mode/draw-mode";
+import type { Air, AirStage } from "../../scene/motion/air";
 import type { TreeTable } from "../../scene/table/tree-table";
 import type { Vec3 } from "../../scene/vector";
 import type { Viewport } from "../../scene/viewport";
@@ -200,6 +201,11 @@ export class Stage {
   get turned(): number {
     const [right] = this.screenAxes() ?? [[1, 0, 0]];
     return Math.atan2(right[2], right[0]);
+  }
+
+  /** Has something move the tree; null while there is no picture. */
+  enliven(make: (stage: AirStage) => Air): Air | null {
+    return this.#view?.enliven(make) ?? null;
   }
 
   hideBrush(): void {

@@ -36,6 +36,8 @@ const NORTH = new Vector3(0, 0, -1);
 export class Sun {
   /** What casts a shadow. */
   readonly casters = new Scene();
+  /** What casts one stands at most so far out of its box, in internodes. */
+  margin = MARGIN;
   private readonly camera = new OrthographicCamera();
   private readonly target: WebGLRenderTarget;
   private readonly shade: WebGLRenderTarget;
@@ -148,9 +150,9 @@ export class Sun {
       half.max(corner.applyMatrix4(camera.matrixWorldInverse));
     }
     // Square texels: a shadow's edge is as soft across as it is along.
-    const reach = Math.max(half.x, half.y) + MARGIN;
+    const reach = Math.max(half.x, half.y) + this.margin;
     // From one step towards the sun, where the corners were measured, the nearest is this far before the middle.
-    const depth = half.z + 1 + MARGIN;
+    const depth = half.z + 1 + this.margin;
     camera.position.copy(centre).addScaledVector(towards, 2 * depth);
     camera.left = -reach;
     camera.right = reach;

@@ -13,6 +13,19 @@ const FURTHEST = 0.8;
 const MOST_DAMPED = 0.95;
 const TAU = 2 * Math.PI;
 
+/** The joints of which an answer is asked. */
+export type SwayingJoints = Pick<Joints, "count" | "frequency" | "damping" | "drag" | "compliance" | "centre" | "area">;
+
+/** What the user makes of wood. */
+export interface Temper {
+  /** So many times the damping of wood and company. */
+  readonly damping: number;
+  /** A rotation of each joint besides that in the wind, radians. */
+  readonly sag: Float64Array | null;
+}
+
+const EVEN: Temper = { damping: 1, sag: null };
+
 /**
  * How all joints answer one wind, in closed form. A joint is a damped oscillator and the wind a sum of lines; each line k swings
  * it by the response 1/(1 − b² + 2iζb) with b = f_k/f_j, so its rotation is a function of time with nothing to integrate:
@@ -34,8 +47,8 @@ export class Answers {
   private readonly responses: Float64Array;
   private readonly waves: Float64Array;
 
-  /** `damping` is the user's: so many times that of wood and company. O(joints × lines). */
-  constructor(joints: Joints, wind: Wind, exposure: Float64Array, damping = 1) {
+  /** O(joints × lines). */
+  constructor(joints: SwayingJoints, wind: Wind, exposure: Float64Array, { damping, sag }: Temper = EVEN) {
     const { count } = joints;
     const { lines, axes } = wind;
     this.count = count;
@@ -55,7 +68,7 @@ export class Answers {
       this.rate[joint] = rate;
       this.damping[joint] = Math.min(damping * joints.damping[joint]! + byAir, MOST_DAMPED);
       const turned = axes.map((axis) => times(joints.compliance, 9 * joint, axis)) as [Vec3, Vec3, Vec3];
-      const whole = turned[0].map((each) => each * pressure);
+      const whole = turned[0].map((each, a) => each * pressure + (sag?.[3 * joint + a] ?? 0));
       // The mean is limited smoothly. Swings around it are only scaled: the slope of the limit would freeze supple limbs in a storm.
       const far = Math.hypot(...whole) / FURTHEST;
       const held = far > 0 ? Math.tanh(far) / far : 1;
@@ -95,7 +108,7 @@ export class Answers {
     }
   }
 
-  private respond(joints: Joints, joint: number, wind: Wind): void {
+  private respond(joints: SwayingJoints, joint: number, wind: Wind): void {
     const { lines } = wind;
     const [x, y, z] = [joints.centre[3 * joint]!, joints.centre[3 * joint + 1]!, joints.centre[3 * joint + 2]!];
     for (const [k, line] of lines.entries()) {

@@ -78,8 +78,8 @@ const SCRATCH = new Float64Array(NODE);
 const TURNED = new Float64Array(3);
 const MOVED = new Float64Array(3);
 
-/** Writes how a node stands that rides on a joint. */
-function nodeOn(
+/** Writes how a node stands that rides on a joint; its place and its ride begin at these numbers. */
+export function nodeOn(
   stands: Float64Array,
   joint: number,
   place: ArrayLike<number>,

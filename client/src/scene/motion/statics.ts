@@ -66,3 +66,18 @@ export function addBend(out: Float64Array, wood: Wood, borne: Borne, weights: Fl
   out[7]! += softness * (along * ay - lx);
   out[8]! += softness * (along * az);
 }
+
+/** How the nodes of all rows turn under loads along y, each the row's weight times `force`: x y z for each row, in radians. */
+export function turnsUnder(wood: Wood, weights: Float64Array, force: number): Float64Array {
+  const borne = borneBy(wood, weights);
+  const turns = new Float64Array(wood.place.length);
+  const bend = new Float64Array(9);
+  for (let row = 0; row < weights.length; row += 1) {
+    const node = wood.parent[row]!;
+    if (node < 0) continue;
+    bend.fill(0);
+    addBend(bend, wood, borne, weights, row);
+    for (let a = 0; a < 3; a += 1) turns[3 * row + a] = turns[3 * node + a]! + bend[3 + a]! * force;
+  }
+  return turns;
+}

@@ -1,4 +1,12 @@
-type Numbers = Float64Array | Int8Array | Int16Array | Float32Array | Int32Array | Uint32Array | Uint16Array | Uint8Array;
+type Numbers =
+  | Float64Array
+  | Int8Array
+  | Int16Array
+  | Float32Array
+  | Int32Array
+  | Uint32Array
+  | Uint16Array
+  | Uint8Array;
 
 /** The same typed array with a capacity of `length` elements; what it held stays. */
 export function grown<T extends Numbers>(array: T, length: number): T {

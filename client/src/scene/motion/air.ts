@@ -1,0 +1,316 @@
+import type { WebGLRenderer } from "three";
+import { type DrawnElsewhere, type Pick, type Projection, pickBranch } from "../camera/picking";
+import type { QualityControl } from "../rendering/quality";
+import type { World } from "../world";
+import { type AirSettings, blows, CALM } from "./air-settings";
+import { Amount } from "./amount";
+import { Answers } from "./answers";
+import { JointMaker } from "./joint-maker";
+import type { JointOrder, JointsMade } from "./joint-work";
+import { motionRows } from "./motion-rows";
+import { MovedRows } from "./moved-rows";
+import type { Moving } from "./moving";
+import { Pace } from "./pace";
+import { restingPlace, swayedPlace } from "./places";
+import { pose, STAND } from "./pose";
+import { Riding } from "./riding";
+import type { SharedClock } from "./shared-clock";
+import { Sway } from "./sway";
+import { SwayMaterials } from "./sway-materials";
+import { LIVE_PERIOD, type Wind, windOf } from "./wind";
+import type { Scale } from "./wood";
+
+/** Milliseconds without a change of rows after which joints are made anew. */
+const SETTLED = 300;
+/** Milliseconds in which what joints were made anew shows takes the place of what was shown. */
+const MIXED = 500;
+/** Winds follow each other by so many milliseconds at least, for each takes its time to fade. */
+const RETUNED = 250;
+/** Milliseconds between two looks at how far the tree reaches, and rows that are looked at. */
+const MEASURED = 1000;
+const SAMPLES = 600;
+/** Which gusts come; everybody has the same. */
+const SEED = 7;
+
+/** What the wind blows in. */
+export interface AirStage {
+  readonly renderer: WebGLRenderer;
+  readonly world: World;
+  readonly control: QualityControl;
+  /** Has a frame drawn. */
+  readonly invalidate: () => void;
+}
+
+/** The wind in the picture: while it blows every frame stands as its time has it; while none does the picture is as without it. */
+export class Air {
+  private readonly materials: SwayMaterials;
+  private readonly rows: MovedRows;
+  private readonly maker: JointMaker;
+  private readonly pace = new Pace();
+  private readonly amount = new Amount();
+  private wanted: AirSettings = CALM;
+  private scale: Scale = { internodeLength: 0.1, leafSize: 1 };
+  private leaves = 1;
+  private moving: Moving | null = null;
+  private riding: Riding | null = null;
+  private exposure: Float64Array = new Float64Array(0);
+  private wind: Wind = windOf({ velocity: [0, 0, 0], turbulence: 0, seed: SEED }, LIVE_PERIOD);
+  private sway: Sway | null = null;
+  private bends = new Float64Array(0);
+  private stands = new Float64Array(0);
+  /** What joints and the wind were made for, and when: to be made anew when they are others. */
+  private made = { joints: "", direction: Number.NaN, tuned: "", at: Number.NEGATIVE_INFINITY };
+  private seen = { epoch: 0, sequence: null as number | null, at: Number.NEGATIVE_INFINITY };
+  private mixing = Number.NEGATIVE_INFINITY;
+  private measured = Number.NEGATIVE_INFINITY;
+  private margin: number;
+  private held: number | null = null;
+  private touched = false;
+  private disposed = false;
+
+  constructor(
+    private readonly stage: AirStage,
+    private readonly clock: SharedClock,
+  ) {
+    const { world, renderer } = stage;
+    this.rows = new MovedRows(world.uniforms);
+    this.materials = new SwayMaterials(renderer, [world.tree.group, world.tree.casters], this.rows.essential);
+    this.maker = new JointMaker(this.receive);
+    this.margin = world.sun.margin;
+    document.addEventListener("visibilitychange", stage.invalidate);
+  }
+
+  /** Whether trees are drawn as the wind moves them. */
+  get blowing(): boolean {
+    return this.materials.swaying;
+  }
+
+  /** How trees are to sway from now on; `leaves` is how much theirs flutter beside those of others. */
+  set(settings: AirSettings, scale: Scale, leaves: number): void {
+    this.wanted = settings;
+    this.scale = scale;
+    this.leaves = leaves;
+    this.stage.invalidate();
+  }
+
+  /** Holds everything where it is, or lets it go. */
+  hold(held: boolean): void {
+    if (held === (this.held !== null)) return;
+    this.held = held ? this.clock.read().time : null;
+    if (!held) this.mix();
+    this.stage.invalidate();
+  }
+
+  /** A hand works at the tree, which comes to rest under it. */
+  touch(touched: boolean): void {
+    this.touched = touched;
+    this.stage.invalidate();
+  }
+
+  /** Whether it is too early for a frame that only the wind asks for. */
+  early(began: number): boolean {
+    return this.blowing && this.pace.early(began);
+  }
+
+  /** Has everything stand as it does in a frame that begins now; says whether it goes on. */
+  step(began: number): boolean {
+    const still = this.touched || this.stage.world.ghost.group.visible;
+    const amount = this.amount.at(began, blows(this.wanted), still);
+    if (amount === 0 && !blows(this.wanted)) {
+      this.rest();
+      return false;
+    }
+    if (document.hidden) return false;
+    if (!this.prepare(began)) return false;
+    const { moving, sway, stage } = this;
+    if (!moving || !sway) return false;
+    const { time, jumped } = this.clock.read();
+    if (jumped && this.held === null) this.mix(began);
+    const at = this.held ?? time;
+    this.tune(began, at);
+    sway.forget(at);
+    sway.bends(at, this.bends);
+    for (let i = 0; i < this.bends.length; i += 1) this.bends[i]! *= amount;
+    pose(moving.hinges, this.bends, this.stands);
+    this.rows.stand(moving.hinges, this.stands, this.exposure);
+    const share = Math.min(1, Math.max(0, (began - this.mixing) / MIXED));
+    this.rows.draw(stage.renderer, {
+      wind: this.wind,
+      internodeLength: this.scale.internodeLength,
+      time: at,
+      amount,
+      share: share * share * (3 - 2 * share),
+      flutter: this.wanted.flutter * this.leaves,
+    });
+    this.materials.sway(true);
+    stage.world.shadow.stale ||= this.pace.shadow(began);
+    this.reach(began);
+    const blown = amount > 0 && this.held === null;
+    const moves = blown || share < 1 || this.amount.changing || this.made.joints === "";
+    if (moves && this.pace.heavy(began)) stage.control.moved(began);
+    return moves;
+  }
+
+  /** The branch under or near a place on the canvas, as it is seen; its point is where that is at rest. */
+  pick(view: Projection, x: number, y: number, tolerance: number, drawn: DrawnElsewhere | null): Pick | null {
+    const { table } = this.stage.world;
+    const { riding, stands } = this;
+    if (!this.blowing || !riding) return pickBranch(table, view, x, y, tolerance, drawn);
+    const seen = swayedPlace(stands, riding, drawn);
+    const pick = pickBranch(table, view, x, y, tolerance, {
+      placeOf: seen,
+      hides: (row) => drawn?.hides(row) ?? false,
+    });
+    return pick && { row: pick.row, point: restingPlace(table, pick, seen, drawn) };
+  }
+
+  /** A restored context has lost every texture. */
+  restored(): void {
+    this.rows.restored();
+  }
+
+  dispose(): void {
+    this.disposed = true;
+    document.removeEventListener("visibilitychange", this.stage.invalidate);
+    this.rest();
+    this.maker.dispose();
+    this.rows.dispose();
+    this.materials.dispose();
+  }
+
+  /** Sees to joints for the rows that there are; says whether there is all that a frame takes. */
+  private prepare(began: number): boolean {
+    const { table } = this.stage.world;
+    if (!this.materials.ready) {
+      void this.materials.prepare().then(() => this.disposed || this.stage.invalidate());
+    }
+    if (table.rows === 0) {
+      this.forget();
+      return false;
+    }
+    if (this.seen.epoch !== table.epoch || this.seen.sequence !== table.sequence) this.follow(began);
+    if (!this.maker.busy) this.order(began);
+    return this.materials.ready && this.sway !== null;
+  }
+
+  /** Takes over what has changed in the table: new rows go on as those below them, until joints are made anew. */
+  private follow(began: number): void {
+    const { table } = this.stage.world;
+    // What is opened is there at once; what grows is waited for.
+    const at = this.moving === null || this.seen.epoch !== table.epoch ? Number.NEGATIVE_INFINITY : began;
+    this.seen = { epoch: table.epoch, sequence: table.sequence, at };
+    this.made.joints = "";
+    const first = this.riding?.follow(table) ?? null;
+    if (first !== null && this.riding) this.rows.ride(this.riding.rows, this.riding.count, first);
+  }
+
+  private order(began: number): void {
+    const { table } = this.stage.world;
+    const { suppleness, direction } = this.wanted;
+    const { internodeLength, leafSize } = this.scale;
+    const joints = `${internodeLength} ${leafSize} ${suppleness}`;
+    const along = [Math.cos((direction * Math.PI) / 180), 0, Math.sin((direction * Math.PI) / 180)] as const;
+    if (joints !== this.made.joints) {
+      if (began - this.seen.at < SETTLED) return;
+      this.made.joints = joints;
+      this.made.direction = direction;
+      this.maker.make({ grown: { rows: motionRows(table), scale: this.scale, suppleness }, along });
+    } else if (direction !== this.made.direction) {
+      this.made.direction = direction;
+      this.maker.make({ grown: null, along });
+    }
+  }
+
+  private readonly receive = ({ moving, exposure }: JointsMade, { grown }: JointOrder): void => {
+    if (this.disposed) return;
+    if (!moving) {
+      // Whoever made the joints may be gone; all is made anew then.
+      if (exposure.length === this.exposure.length) this.exposure = exposure;
+      else this.made.joints = "";
+      this.made.tuned = "";
+      this.stage.invalidate();
+      return;
+    }
+    const { joints } = moving;
+    if (this.moving) this.mix();
+    this.moving = moving;
+    this.exposure = exposure;
+    this.sway = null;
+    this.riding = new Riding(moving, grown!.rows.parent, grown!.rows.quantised);
+    this.bends = new Float64Array(3 * joints.count);
+    this.stands = new Float64Array(STAND * joints.count);
+    this.riding.follow(this.stage.world.table);
+    this.rows.ride(this.riding.rows, this.riding.count);
+    this.sway = new Sway(this.answers());
+    this.stage.invalidate();
+  };
+
+  /** The wind as it is wanted, and what all joints answer it. */
+  private answers(): Answers {
+    const { speed, direction, turbulence, sag, damping } = this.wanted;
+    const turn = (direction * Math.PI) / 180;
+    const velocity = [speed * Math.cos(turn), 0, speed * Math.sin(turn)] as const;
+    this.wind = windOf({ velocity, turbulence, seed: SEED }, LIVE_PERIOD);
+    this.made.tuned = tuningOf(this.wanted);
+    const weights = sag > 0 ? this.moving!.sag.map((each) => sag * each) : null;
+    return new Answers(this.moving!.joints, this.wind, this.exposure, { damping, sag: weights });
+  }
+
+  /** Has another wind take over, if another is wanted. While none is, what blew last dies away. */
+  private tune(began: number, time: number): void {
+    if (this.made.tuned === tuningOf(this.wanted) || !blows(this.wanted)) return;
+    if (began - this.made.at < RETUNED && this.held === null) return;
+    this.made.at = began;
+    if (this.held === null) this.sway!.change(this.answers(), time);
+    else {
+      this.mix(began);
+      this.sway = new Sway(this.answers());
+    }
+  }
+
+  /** What is shown now is held, and what comes then shows over it by and by. */
+  private mix(began = performance.now()): void {
+    if (!this.blowing) return;
+    this.rows.remember();
+    this.mixing = began;
+  }
+
+  /** Keeps room for shadows of what the wind carries out of the tree's box. */
+  private reach(began: number): void {
+    if (began - this.measured < MEASURED || !this.riding) return;
+    this.measured = began;
+    const { table, sun } = this.stage.world;
+    const seen = swayedPlace(this.stands, this.riding, null);
+    let far = 0;
+    for (let row = 0; row < table.rows; row += Math.ceil(table.rows / SAMPLES)) {
+      const place = seen(table, row);
+      far = Math.max(far, ...[0, 1, 2].map((a) => Math.abs(place[a]! - table.position[3 * row + a]!)));
+    }
+    // By whole steps and never less, so that shadows do not swim.
+    sun.margin = Math.max(sun.margin, this.margin + 4 * Math.ceil(far / 4));
+  }
+
+  /** The tree stands as it grew, and is drawn as if there were no wind. */
+  private rest(): void {
+    if (!this.blowing) return;
+    this.materials.sway(false);
+    this.pace.rest();
+    const { world } = this.stage;
+    world.sun.margin = this.margin;
+    world.shadow.stale = true;
+  }
+
+  /** There is no tree any more. */
+  private forget(): void {
+    this.rest();
+    this.moving = null;
+    this.riding = null;
+    this.sway = null;
+    this.made.joints = "";
+  }
+}
+
+/** All that a wind and the answers to it depend on. */
+function tuningOf({ speed, direction, turbulence, sag, damping }: AirSettings): string {
+  return [speed, direction, turbulence, sag, damping].join(" ");
+}

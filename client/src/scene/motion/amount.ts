@@ -1,0 +1,26 @@
+/** Milliseconds in which wind rises or dies away, and in which a tree comes to rest under a hand. */
+const RISES = 1200;
+const RESTS = 250;
+
+/** How much of the wind there is, from 0 to 1: it rises and dies away, and there is none under a hand. */
+export class Amount {
+  private value = 0;
+  private last: number | null = null;
+  private towards = 0;
+
+  /** Whether it has not yet come where it goes. */
+  get changing(): boolean {
+    return this.value !== this.towards;
+  }
+
+  /** The amount at a time in milliseconds. */
+  at(now: number, blows: boolean, touched: boolean): number {
+    const gone = this.last === null ? 0 : Math.max(0, now - this.last);
+    this.last = now;
+    this.towards = blows && !touched ? 1 : 0;
+    const most = gone / (touched && blows ? RESTS : RISES);
+    const gap = this.towards - this.value;
+    this.value = Math.abs(gap) <= most ? this.towards : this.value + Math.sign(gap) * most;
+    return this.value * this.value * (3 - 2 * this.value);
+  }
+}

@@ -1,0 +1,76 @@
+import { type JointOrder, type JointsMade, JointWork } from "./joint-work";
+
+/** The part of a worker that is used; tests bring their own. */
+export interface JointWorker {
+  onmessage: ((event: { readonly data: JointsMade }) => void) | null;
+  onerror: (() => void) | null;
+  postMessage(order: JointOrder): void;
+  terminate(): void;
+}
+
+/** Has joints made beside the page, one order at a time; where no worker is to be had, on the page after all. */
+export class JointMaker {
+  private worker: JointWorker | null = null;
+  private work: JointWork | null = null;
+  private order: JointOrder | null = null;
+
+  /** `made` hears of each answer. */
+  constructor(
+    private readonly made: (made: JointsMade, order: JointOrder) => void,
+    private readonly start: () => JointWorker = startWorker,
+  ) {}
+
+  /** Whether an order is in work. */
+  get busy(): boolean {
+    return this.order !== null;
+  }
+
+  /** Orders joints; only while none are in work. */
+  make(order: JointOrder): void {
+    this.order = order;
+    this.worker ??= this.started();
+    if (this.worker) this.worker.postMessage(order);
+    else this.finish(this.onPage(order));
+  }
+
+  dispose(): void {
+    this.order = null;
+    this.worker?.terminate();
+    this.worker = null;
+  }
+
+  private started(): JointWorker | null {
+    if (this.work) return null;
+    try {
+      const worker = this.start();
+      worker.onmessage = ({ data }) => this.finish(data);
+      worker.onerror = () => this.giveUp(worker);
+      return worker;
+    } catch {
+      return null;
+    }
+  }
+
+  private giveUp(worker: JointWorker): void {
+    worker.terminate();
+    this.worker = null;
+    this.work = new JointWork();
+    // What the worker knew is lost: an order without rows of its own is answered by nothing.
+    if (this.order) this.finish(this.onPage(this.order));
+  }
+
+  private onPage(order: JointOrder): JointsMade {
+    this.work ??= new JointWork();
+    return this.work.make(order);
+  }
+
+  private finish(made: JointsMade): void {
+    const { order } = this;
+    this.order = null;
+    if (order) this.made(made, order);
+  }
+}
+
+function startWorker(): JointWorker {
+  return new Worker(new URL("./joint-worker.ts", import.meta.url), { type: "module" }) as unknown as JointWorker;
+}

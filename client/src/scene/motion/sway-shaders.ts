@@ -1,0 +1,207 @@
+import { FLAT_NOISE_SIDE } from "../noise-texture";
+
+/** Steps of an internode in which a row's displacement is written, and of 1 in which the numbers of its turn are. */
+const SHIFT_STEPS = 2048;
+const TURN_STEPS = 2047;
+/** Steps of 1 m/s in which the speed of the air around it is. */
+const AIR_STEPS = 512;
+
+/** Writes how one row moves into a texel of three words of 20 bits of displacement with 12 of turn, and one with the air's speed. */
+const PACK = /* glsl */ `
+uvec4 packed(vec3 shift, vec4 turn, float air) {
+  ivec3 far = ivec3(round(clamp(shift * ${SHIFT_STEPS}.0, -524287.0, 524287.0)));
+  ivec3 part = ivec3(round(clamp((turn.w < 0.0 ? -turn.xyz : turn.xyz) * ${TURN_STEPS}.0, -2047.0, 2047.0)));
+  return uvec4(uvec3((far << 12) | (part & 4095)), uint(clamp(air, 0.0, 120.0) * ${AIR_STEPS}.0 + 0.5));
+}
+`;
+const UNPACK = /* glsl */ `
+struct Sway { vec3 shift; vec4 turn; float air; };
+Sway unpacked(uvec4 texel) {
+  ivec3 words = ivec3(texel.xyz);
+  vec3 part = vec3((words << 20) >> 20) / ${TURN_STEPS}.0;
+  return Sway(vec3(words >> 12) / ${SHIFT_STEPS}.0, vec4(part, sqrt(max(0.0, 1.0 - dot(part, part)))), float(texel.w) / ${AIR_STEPS}.0);
+}
+`;
+
+/** Texels of a joint's numbers in a line of their texture, and of the lines of a wind that a shader takes. */
+export const JOINTS_A_LINE = 64;
+export const JOINT_TEXELS = 3;
+export const MOST_GUSTS = 20;
+
+export const MOVE_VERTEX = /* glsl */ `
+in vec3 position;
+void main() { gl_Position = vec4(position, 1.0); }
+`;
+
+/** One fragment a row: how it moves, as `pose.ts` has it; with the shiver of twigs, and the air around it. */
+export const MOVE_FRAGMENT = /* glsl */ `
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+uniform sampler2D uNodes;
+uniform sampler2D uRides;
+uniform sampler2D uJoints;
+uniform highp usampler2D uBefore;
+uniform float uShare; // of what moves now; the rest is as before
+uniform int uRows;
+uniform int uGusts;
+uniform vec4 uGust[2 * ${MOST_GUSTS}]; // wave number with the line's angle; amplitude along the wind
+uniform vec3 uAir; // speed in m/s, seconds of the period, how much of it there is
+out uvec4 moved;
+${PACK}${UNPACK}
+vec3 turned(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+vec4 product(vec4 a, vec4 b) { return vec4(a.w * b.xyz + b.w * a.xyz + cross(a.xyz, b.xyz), a.w * b.w - dot(a.xyz, b.xyz)); }
+vec4 turnBy(vec3 by) {
+  float angle = length(by);
+  return vec4(by * (angle < 1e-4 ? 0.5 : sin(0.5 * angle) / angle), cos(0.5 * angle));
+}
+/** Between −1 and 1, some times in a second, and the same after the period of the wind. */
+float quiver(float number, float least) {
+  float times = floor((least + 3.0 * fract(number * 57.31)) * 600.0) / 600.0;
+  return sin(6.2831853 * (fract(times * uAir.y) + fract(number * 131.7)));
+}
+float speedAt(vec3 place, float share) {
+  float gust = 1.0;
+  for (int k = 0; k < uGusts; k++) {
+    vec4 line = uGust[2 * k];
+    gust += uGust[2 * k + 1].x * cos(line.w - dot(line.xyz, place));
+  }
+  return max(0.0, uAir.x * share * gust * uAir.z);
+}
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  int row = at.y * 256 + at.x;
+  if (row >= uRows) { moved = packed(vec3(0.0), vec4(0, 0, 0, 1), 0.0); return; }
+  vec3 rest = texelFetch(uNodes, ivec2(at.x * 3, at.y), 0).xyz;
+  ivec2 from = ivec2(at.x * 3, at.y);
+  vec4 a = texelFetch(uRides, from, 0);
+  vec4 b = texelFetch(uRides, from + ivec2(1, 0), 0);
+  vec4 c = texelFetch(uRides, from + ivec2(2, 0), 0);
+  int joint = int(a.x);
+  vec3 shift = vec3(0.0);
+  vec4 turn = vec4(0, 0, 0, 1);
+  float air = speedAt(rest, 1.0);
+  if (joint >= 0) {
+    ivec2 place = ivec2((joint % ${JOINTS_A_LINE}) * ${JOINT_TEXELS}, joint / ${JOINTS_A_LINE});
+    vec4 bend = texelFetch(uJoints, place, 0);
+    vec4 stands = texelFetch(uJoints, place + ivec2(1, 0), 0);
+    vec3 origin = texelFetch(uJoints, place + ivec2(2, 0), 0).xyz;
+    air = speedAt(rest, bend.w);
+    vec3 still = rest;
+    if (c.w >= 0.0) {
+      // What is too stiff to bend shivers about where it stands.
+      vec3 by = 0.02 * sqrt(air / 5.0) * vec3(quiver(c.w, 3.0), 0.6 * quiver(fract(c.w * 7.7), 4.0), quiver(fract(c.w * 3.3), 3.5));
+      shift = cross(by, rest - c.xyz);
+      turn = turnBy(by);
+      still += shift;
+    }
+    vec3 first = vec3(a.zw, b.x);
+    vec3 second = b.yzw;
+    float squared = dot(bend.xyz, bend.xyz);
+    float angle = sqrt(squared);
+    float across = squared < 1e-6 ? 1.0 : sin(angle) / angle;
+    float back = squared < 1e-6 ? 0.5 : (1.0 - cos(angle)) / squared;
+    vec3 ridden = still + across * cross(bend.xyz, first) + back * cross(bend.xyz, cross(bend.xyz, second));
+    shift = turned(stands, ridden) + origin - rest;
+    turn = product(stands, product(turnBy(a.y * bend.xyz), turn));
+    shift.y = max(shift.y, min(rest.y, 0.0) - rest.y);
+  }
+  if (uShare < 1.0) {
+    Sway before = unpacked(texelFetch(uBefore, at, 0));
+    shift = mix(before.shift, shift, uShare);
+    turn = normalize(mix(before.turn, turn.w < 0.0 ? -turn : turn, uShare));
+    air = mix(before.air, air, uShare);
+  }
+  moved = packed(shift, turn, air);
+}
+`;
+
+const SWAY = /* glsl */ `
+uniform highp usampler2D uMoved;
+${UNPACK}
+Sway swayAt(int row) { return unpacked(texelFetch(uMoved, ivec2(row & 255, row >> 8), 0)); }
+Node nodeAt(int row) {
+  Node node = restAt(row);
+  Sway sway = swayAt(row);
+  node.position += sway.shift;
+  node.turn = product(sway.turn, node.turn);
+  return node;
+}
+`;
+
+/** How blades move about their bases: downwind, up and down, and about their midribs. */
+const FLUTTER = /* glsl */ `
+uniform sampler2D uFlatNoise;
+uniform vec3 uLee;
+uniform vec2 uFlutter; // how much of it, and cells of noise that have gone by
+float flutterNoise(float along, float seed) {
+  float cell = floor(along);
+  float f = along - cell;
+  vec2 at = vec2(cell + f * f * (3.0 - 2.0 * f), floor(seed * ${FLAT_NOISE_SIDE - 1}.0)) + 0.5;
+  return 2.0 * textureLod(uFlatNoise, at / ${FLAT_NOISE_SIDE}.0, 0.0).r - 1.0;
+}
+void flutter(float air, vec3 base, vec4 more, inout vec3 d, inout vec3 side, inout vec3 n) {
+  float gone = uFlutter.y - 0.45 * dot(base, uLee) + 13.0 * more.z;
+  float much = uFlutter.x;
+  vec3 by = cross(d, uLee) * min(0.06 * air, 0.9) * min(much, 1.0);
+  by += side * (0.25 * much * min(1.0, air / 8.0) * flutterNoise(gone, more.x));
+  by += d * (0.5 * much * min(1.0, air / 6.0) * flutterNoise(gone + 57.3, more.y));
+#ifdef SPRIG
+  by *= 0.5;
+#endif
+  vec4 turn = normalize(vec4(0.5 * by, 1.0));
+  d = turned(turn, d);
+  side = turned(turn, side);
+  n = turned(turn, n);
+}
+`;
+
+/** One change of a shader's text. White space in it may be more or less where shaders were shortened. */
+interface Change {
+  readonly from: RegExp;
+  readonly to: string;
+}
+
+const line = (text: string) =>
+  new RegExp(
+    text
+      .replace(/[.*+?^${}()|[\]\\]/g, "\\$&")
+      .replace(/ ?(\\?[=*/,;<>{}()?:]) ?/g, " ?$1 ?")
+      .replace(/ \?$/, ""),
+  );
+
+/** What is no longer where the table has it: for every shader that draws rows. */
+const MOVED: Change = { from: line("Node nodeAt(int row)"), to: "Node restAt(int row) " };
+const READ: Change = { from: line("float radiusNow(Node node)"), to: `${SWAY}float radiusNow(Node node) ` };
+/** Bark goes with its wood, however that is stretched. */
+const ALONG: Change = {
+  from: line("float along = end.arc - len * (1.0 - u);"),
+  to: `float along = end.arc - (1.0 - u) * distance(
+    end.position - swayAt(int(metamer.x)).shift, start.position - swayAt(int(metamer.y)).shift);`,
+};
+/** What a row bears is placed as it is at rest, and then turned: or it would spin where its azimuth has no direction. */
+const PLACED: Change = {
+  from: line("Leaf place = leafAt(from.position, node.position, leaf.z, leaf.w);"),
+  to: `Sway sway = swayAt(int(leaf.x + 0.5));
+  Leaf place = leafAt(from.position - swayAt(int(leaf.y + 0.5)).shift, node.position - sway.shift, leaf.z, leaf.w);
+  place = Leaf(mix(from.position, node.position, leaf.w), turned(sway.turn, place.direction), turned(sway.turn, place.normal));`,
+};
+const FLUTTERS: Change = {
+  from: line("vec3 n = cross(side, d);"),
+  to: "vec3 n = cross(side, d); flutter(sway.air, place.base, more, d, side, n);",
+};
+const FLUTTERING: Change = { from: line("void main()"), to: `${FLUTTER}void main() ` };
+
+/** The same vertex shader for rows that move. */
+export function swaying(shader: string): string {
+  let changed = apply(apply(shader, MOVED), READ);
+  if (ALONG.from.test(changed)) changed = apply(changed, ALONG);
+  if (PLACED.from.test(changed)) changed = apply(changed, PLACED);
+  if (FLUTTERS.from.test(changed)) changed = apply(apply(changed, FLUTTERS), FLUTTERING);
+  return changed;
+}
+
+function apply(shader: string, { from, to }: Change): string {
+  if (!from.test(shader)) throw new Error(`A shader has nothing like ${from.source}.`);
+  return shader.replace(from, () => to);
+}
