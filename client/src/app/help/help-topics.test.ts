@@ -46,7 +46,7 @@ describe("help", () => {
     const lost = controls.filter(({ subject }) => subject === undefined).map(({ id }) => id);
     expect(lost).toEqual([]);
     const parts = new Set(controls.flatMap(({ subject }) => (subject && "panel" in subject ? [subject.panel] : [])));
-    expect([...parts].sort()).toEqual(["architecture", "background", "branches", "brush", "leaves", "scene"]);
+    expect([...parts].sort()).toEqual(["architecture", "background", "branches", "brush", "leaves", "scene", "wind"]);
   });
 
   it("everything is found by what people call it", () => {
@@ -95,6 +95,7 @@ describe("help", () => {
       ["leaves", "autumn", "Herbst"],
       ["settings", "dark mode", "Dunkelmodus"],
       ["api", "script", "Entwickler"],
+      ["wind", "sway", "schwanken"],
     ];
     for (const [id, english, german] of names) {
       language.value = "en";

@@ -81,6 +81,7 @@ const PANELS = [
   ["leaves", { panel: "leaves" }],
   ["branches", { panel: "branches" }],
   ["background", { panel: "background" }],
+  ["wind", { panel: "wind" }],
   ["scene", { panel: "scene" }],
   ["import", { panel: "scene" }],
 ] as const;
@@ -109,6 +110,7 @@ const KEYS: readonly (readonly [Key, () => string])[] = [
   ["help.key.undo", () => say("help.keys.undo")],
   ["help.key.fit", () => "F"],
   ["help.key.draw-mode", () => "D"],
+  ["help.key.wind", () => "A"],
   ["help.key.hide", () => "H"],
   ["help.key.escape", () => say("help.keys.escape")],
   ["help.key.space", () => say("help.keys.space")],
@@ -280,6 +282,8 @@ function subjectOf(label: Key, tools: ToolHelp): Subject | undefined {
       return { panel: "branches", control };
     case "background":
       return { panel: "background", control };
+    case "wind":
+      return { panel: "wind", control };
     case "brush":
       return { panel: "brush", control };
     case "scene":
@@ -318,6 +322,10 @@ const SECTION_OF: Readonly<Record<string, string>> = {
   "background.sun_elevation": "background.sun",
   "background.pin": "background.sun",
   background: "background.surroundings",
+  "wind.sag": "wind.wood",
+  "wind.suppleness": "wind.wood",
+  "wind.damping": "wind.wood",
+  wind: "wind.air",
 };
 
 function plain(text: string): string {

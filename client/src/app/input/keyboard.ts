@@ -159,7 +159,8 @@ function takesSpace(target: EventTarget | null): boolean {
   return target instanceof HTMLElement && ["button", "summary", "select", "a"].includes(target.localName);
 }
 
-function typing(target: EventTarget | null): boolean {
+/** Whether letters go into a text there. */
+export function typing(target: EventTarget | null): boolean {
   if (target instanceof HTMLInputElement) {
     // A slider or a switch takes no letters.
     return ["text", "number", "search"].includes(target.type);

@@ -17,6 +17,12 @@ export function Icon({ children }: { children: ComponentChildren }) {
   );
 }
 
+export const WindIcon = () => (
+  <Icon>
+    <path d="M3 9h11a3 3 0 1 0-3-3M3 13h15a3 3 0 1 1-3 3M3 17h6" />
+  </Icon>
+);
+
 export const UndoIcon = () => (
   <Icon>
     <path d="M8.5 5 4.5 9l4 4" />

@@ -22,6 +22,7 @@ export const PANELS: Readonly<Record<PanelName, Part<StudioView>>> = {
   leaves: new Part(async () => (await import("./panels/leaves-panel")).LeavesPanel),
   branches: new Part(async () => (await import("./panels/branches-panel")).BranchesPanel),
   background: new Part(async () => (await import("./panels/background-panel")).BackgroundPanel),
+  wind: new Part(async () => (await import("./panels/wind-panel")).WindPanel),
   scene: new Part(async () => (await import("./panels/scene-panel")).ScenePanel),
 };
 

@@ -102,6 +102,8 @@ export const HELP = {
   ],
   "help.topic.background": ["Background", "Hintergrund"],
   "help.topic.background.text": ["Sky, ground and the sun", "Himmel, Boden und Sonne"],
+  "help.topic.wind": ["Wind", "Wind"],
+  "help.topic.wind.text": ["Trees sway, from a breeze to a storm", "Bäume schwanken, von der Brise bis zum Sturm"],
   "help.topic.scene": ["Scene", "Szene"],
   "help.topic.scene.text": [
     "Walls and models to grow around; drag them",
@@ -309,6 +311,10 @@ export const HELP = {
     "sky ground studio backdrop environment wallpaper backdrop clouds",
     "Himmel Boden Studio Umgebung Hintergrundbild Wolken",
   ],
+  "help.topic.wind.words": [
+    "sway gust storm breeze air move animation swing compass",
+    "schwanken Böe Sturm Brise Luft bewegen Animation schwingen Windrose",
+  ],
   "help.topic.scene.words": [
     "obstacles wall ball box model object collision fence house",
     "Hindernisse Mauer Kugel Kasten Modell Gegenstand Zaun Haus",
@@ -333,6 +339,7 @@ export const HELP = {
   "help.key.turn": ["Turn the tree, where no branch is held", "Den Baum drehen, wenn kein Ast gefasst ist"],
   "help.key.fit": ["Show the whole tree", "Ganzen Baum zeigen"],
   "help.key.draw-mode": ["Draw it in another way", "Anders darstellen"],
+  "help.key.wind": ["Hold what the wind moves, let it go", "Anhalten, was der Wind bewegt, loslassen"],
   "help.key.hide": ["Hide everything, bring it back", "Alles ausblenden, wieder einblenden"],
   "help.key.undo": ["Undo, with Shift redo", "Rückgängig, mit Umschalt wiederholen"],
   "help.key.space": ["Held: drag to move", "Gehalten: ziehen verschiebt"],

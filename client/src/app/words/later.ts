@@ -25,6 +25,7 @@ import { TOGETHER } from "./together";
 import { SHAPING } from "./tools";
 import { TRANSFERS } from "./transfers";
 import { VARIATIONS } from "./variations";
+import { WIND } from "./wind";
 
 /** The texts of the parts that are loaded when they are first needed; a page loads them in one language. */
 export const LATER = {
@@ -56,4 +57,5 @@ export const LATER = {
   ...TRANSFERS,
   ...VARIATIONS,
   ...TIMELINE,
+  ...WIND,
 } as const satisfies Record<string, readonly [string, string]>;

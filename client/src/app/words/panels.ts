@@ -5,5 +5,6 @@ export const PANELS = {
   "panels.leaves": ["Leaves", "Laub"],
   "panels.branches": ["Branches", "Äste"],
   "panels.background": ["Background", "Hintergrund"],
+  "panels.wind": ["Wind", "Wind"],
   "panels.scene": ["Scene", "Szene"],
 } as const;

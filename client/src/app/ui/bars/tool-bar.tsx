@@ -21,6 +21,7 @@ import {
   SceneIcon,
   SettingsIcon,
   ShareIcon,
+  WindIcon,
 } from "../icons";
 import { useDismissal } from "../use-dismissal";
 import { isToolBarFolded } from "../workspace-size";
@@ -32,6 +33,7 @@ const PANEL_ICONS: Record<PanelName, ComponentType> = {
   leaves: LeafIcon,
   branches: BarkIcon,
   background: BackgroundIcon,
+  wind: WindIcon,
   scene: SceneIcon,
 };
 

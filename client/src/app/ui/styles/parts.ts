@@ -19,3 +19,4 @@ import "./help.css";
 import "./recent.css";
 import "./vain.css";
 import "./together.css";
+import "./wind.css";

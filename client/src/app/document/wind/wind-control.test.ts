@@ -1,0 +1,113 @@
+import { signal } from "@preact/signals";
+import { describe, expect, it } from "vitest";
+import type { Air } from "../../../scene/motion/air";
+import { type AirSettings, CALM } from "../../../scene/motion/air-settings";
+import { DEFAULT_PARAMETERS, type LeafKind } from "../../../wire/generated";
+import { placeOnDisc, windAt } from "./compass";
+import { WindControl } from "./wind-control";
+import { PRESET_NAMES, presetOf, WIND_PRESETS } from "./wind-presets";
+
+function page({ calmly = false } = {}) {
+  const told = { made: 0, settings: null as AirSettings | null, leaves: 0, touched: false, held: false };
+  const [touched, leaves] = [signal(false), signal<LeafKind>("ovate")];
+  const air = {
+    set: (settings: AirSettings, _: unknown, leaves: number) => Object.assign(told, { settings, leaves }),
+    touch: (touched: boolean) => Object.assign(told, { touched }),
+    hold: (held: boolean) => Object.assign(told, { held }),
+  } as unknown as Air;
+  const wind = new WindControl({
+    parameters: signal(DEFAULT_PARAMETERS),
+    leaves: () => leaves.value,
+    touched: () => touched.value,
+    enliven: () => {
+      told.made += 1;
+      return air;
+    },
+    air: () => air,
+    calmly,
+  });
+  return { wind, told, touched, leaves };
+}
+
+describe("the wind on a page", () => {
+  it("is made when it first blows", () => {
+    const { wind, told } = page();
+    expect(told.made).toBe(0);
+    wind.set({ turbulence: 1 });
+    expect(told.made).toBe(0);
+    wind.set({ speed: 5 });
+    wind.set({ speed: 6 });
+    expect(told.made).toBe(1);
+    expect(told.settings).toEqual({ ...CALM, turbulence: 1, speed: 6 });
+  });
+
+  it("is held and let go, and rests under a hand", () => {
+    const { wind, told, touched } = page();
+    wind.set({ speed: 5 });
+    wind.toggle();
+    expect(told.held).toBe(true);
+    wind.toggle();
+    expect(told.held).toBe(false);
+    touched.value = true;
+    expect(told.touched).toBe(true);
+  });
+
+  it("does not move where less motion is asked for, until it is asked for itself", () => {
+    const { wind, told } = page({ calmly: true });
+    wind.set({ speed: 5 });
+    expect(told.settings).toEqual(CALM);
+    wind.toggle();
+    expect(told.settings!.speed).toBe(5);
+    expect(told.held).toBe(false);
+  });
+
+  it("flutters by the form of leaves", () => {
+    const { wind, told, leaves } = page();
+    wind.set({ speed: 5 });
+    expect(told.leaves).toBe(1);
+    leaves.value = "needle";
+    expect(told.leaves).toBeLessThan(0.5);
+    leaves.value = "round";
+    expect(told.leaves).toBeGreaterThan(1);
+  });
+
+  it("ends with what it follows", () => {
+    const { wind, told, touched } = page();
+    wind.set({ speed: 5 });
+    wind.dispose();
+    touched.value = true;
+    expect(told.touched).toBe(false);
+  });
+});
+
+describe("winds to pick from", () => {
+  it("are found again, and leave where the wind blows to", () => {
+    for (const name of PRESET_NAMES) {
+      const settings = { ...CALM, direction: 70, ...WIND_PRESETS[name] };
+      expect(presetOf(settings)).toBe(name);
+      expect(settings.direction).toBe(70);
+    }
+    expect(presetOf({ ...CALM, speed: 5 })).toBe(null);
+  });
+});
+
+describe("the disc", () => {
+  it("means the wind whose knob stands there, however the tree is turned", () => {
+    for (const turned of [0, 90, -135]) {
+      for (const [speed, direction] of [
+        [10, 40],
+        [25, 355],
+        [4, 180],
+      ] as const) {
+        const [x, y] = placeOnDisc(speed, direction, turned);
+        expect(windAt(x, y, turned)).toEqual({ speed, direction });
+      }
+    }
+  });
+
+  it("is calm in its middle and strongest beyond its rim", () => {
+    expect(windAt(0.01, 0, 0)).toEqual({ speed: 0 });
+    expect(windAt(5, 0, 0)).toEqual({ speed: 25, direction: 0 });
+    expect(windAt(0, -5, 0)).toEqual({ speed: 25, direction: 270 });
+  });
+});

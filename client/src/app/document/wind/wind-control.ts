@@ -1,0 +1,66 @@
+import { computed, effect, type ReadonlySignal, type Signal, signal } from "@preact/signals";
+import type { Air, AirStage } from "../../../scene/motion/air";
+import { type AirSettings, airSettings, blows, CALM } from "../../../scene/motion/air-settings";
+import type { Scale } from "../../../scene/motion/wood";
+import { DEFAULT_PARAMETERS, type LeafKind, type Parameters } from "../../../wire/generated";
+
+/** What the wind needs of the page. */
+export interface WindPage {
+  readonly parameters: ReadonlySignal<Parameters | null>;
+  readonly leaves: () => LeafKind;
+  /** Whether a hand works at the tree. */
+  readonly touched: () => boolean;
+  /** The picture; null where there is none. */
+  readonly enliven: (make: (stage: AirStage) => Air) => Air | null;
+  /** Makes the wind in the picture. */
+  readonly air: (stage: AirStage) => Air;
+  /** Whether whoever is here has asked their device for less motion. */
+  readonly calmly: boolean;
+}
+
+/** Whether trees follow the wind, are held where they are, or stand still because the device is asked for less motion. */
+export type WindMode = "moving" | "held" | "still";
+
+/** How much leaves flutter beside those of most forms: needles and scales are stiff, round blades hang on long stalks. */
+const FLUTTER: { readonly [Kind in LeafKind]?: number } = { needle: 0.2, scale: 0.2, round: 1.5 };
+
+/** The wind on this page. */
+export class WindControl {
+  readonly mode: Signal<WindMode>;
+  readonly settings: ReadonlySignal<AirSettings>;
+  readonly #settings = signal<AirSettings>(CALM);
+  readonly #stop: () => void;
+
+  constructor(page: WindPage) {
+    this.mode = signal<WindMode>(page.calmly ? "still" : "moving");
+    this.settings = computed(() => this.#settings.value);
+    let air: Air | null = null;
+    this.#stop = effect(() => {
+      const settings = this.#settings.value;
+      const mode = this.mode.value;
+      const { internode_length: internodeLength, leaf_size: leafSize } = page.parameters.value ?? DEFAULT_PARAMETERS;
+      const touched = page.touched();
+      const leaves = FLUTTER[page.leaves()] ?? 1;
+      // Nothing is loaded or made for a page on which no wind has blown.
+      if (air === null && blows(settings)) air = page.enliven(page.air);
+      const scale: Scale = { internodeLength, leafSize };
+      air?.set(mode === "still" ? CALM : settings, scale, leaves);
+      air?.touch(touched);
+      air?.hold(mode === "held");
+    });
+  }
+
+  /** Sets some of the numbers; what is out of range goes back to where it begins. */
+  set(patch: Partial<AirSettings>): void {
+    this.#settings.value = airSettings({ ...this.#settings.peek(), ...patch });
+  }
+
+  /** Holds what moves, or lets it go. */
+  toggle(): void {
+    this.mode.value = this.mode.peek() === "moving" ? "held" : "moving";
+  }
+
+  dispose(): void {
+    this.#stop();
+  }
+}
