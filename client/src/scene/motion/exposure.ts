@@ -18,41 +18,45 @@ const RECOVERY = 10;
 export function behindCrowns({ parent, middle, dragArea }: Wood, along: Vec3): Float64Array {
   const axes = axesAlong(along);
   const shares = new Float64Array(parent.length).fill(1);
-  const rows: number[] = [];
-  const least = [Infinity, Infinity, Infinity];
-  const most = [-Infinity, -Infinity, -Infinity];
-  const at = (row: number, axis: 0 | 1 | 2) => {
-    const [x, y, z] = axes[axis];
-    return x * middle[3 * row]! + y * middle[3 * row + 1]! + z * middle[3 * row + 2]!;
-  };
+  // Of the rows that take something of the wind: which they are, and where along, across and upward of it.
+  const rows = new Int32Array(parent.length);
+  const places = axes.map(() => new Float64Array(parent.length));
+  let count = 0;
   for (let row = 0; row < parent.length; row += 1) {
     if (dragArea[row]! <= 0) continue;
-    rows.push(row);
-    for (const axis of [0, 1, 2] as const) {
-      const place = at(row, axis);
-      least[axis] = Math.min(least[axis]!, place);
-      most[axis] = Math.max(most[axis]!, place);
+    const x = middle[3 * row]!;
+    const y = middle[3 * row + 1]!;
+    const z = middle[3 * row + 2]!;
+    for (let axis = 0; axis < 3; axis += 1) {
+      const to = axes[axis]!;
+      places[axis]![count] = to[0] * x + to[1] * y + to[2] * z;
     }
+    rows[count] = row;
+    count += 1;
   }
-  if (rows.length === 0) return shares;
-  const cell = Math.max(Math.max(most[1]! - least[1]!, most[2]! - least[2]!) / CELLS, NARROWEST);
-  const slab = Math.max((most[0]! - least[0]!) / SLABS, NARROWEST);
-  const index = (way: number, size: number, count: number) => Math.min(Math.floor(way / size), count - 1);
-  const slabs = rows.map((row) => index(at(row, 0) - least[0]!, slab, SLABS));
-  const cells = rows.map(
-    (row) => index(at(row, 1) - least[1]!, cell, CELLS) * CELLS + index(at(row, 2) - least[2]!, cell, CELLS),
-  );
+  if (count === 0) return shares;
+  const [alongIt, across, upward] = places.map((each) => rangeOf(each.subarray(0, count))) as [Range, Range, Range];
+  const cell = Math.max(Math.max(across.extent, upward.extent) / CELLS, NARROWEST);
+  const slab = Math.max(alongIt.extent / SLABS, NARROWEST);
+  const index = (way: number, size: number, most: number) => Math.min(Math.floor(way / size), most - 1);
+  const slabs = new Uint16Array(count);
+  const cells = new Uint16Array(count);
   // By slab, and in a slab in birth order: so sums are the same everywhere.
   const begin = new Int32Array(SLABS + 1);
-  for (const each of slabs) begin[each + 1]! += 1;
-  for (let each = 0; each < SLABS; each += 1) begin[each + 1]! += begin[each]!;
-  const ordered = new Int32Array(rows.length);
-  const next = begin.slice();
-  for (const [i, each] of slabs.entries()) {
-    ordered[next[each]!] = i;
-    next[each]! += 1;
+  for (let i = 0; i < count; i += 1) {
+    slabs[i] = index(places[0]![i]! - alongIt.least, slab, SLABS);
+    const column = index(places[1]![i]! - across.least, cell, CELLS);
+    cells[i] = column * CELLS + index(places[2]![i]! - upward.least, cell, CELLS);
+    begin[slabs[i]! + 1]! += 1;
   }
-  const recovery = Math.exp(-slab / (RECOVERY * Math.max(most[2]! - least[2]!, NARROWEST)));
+  for (let each = 0; each < SLABS; each += 1) begin[each + 1]! += begin[each]!;
+  const ordered = new Int32Array(count);
+  const next = begin.slice();
+  for (let i = 0; i < count; i += 1) {
+    ordered[next[slabs[i]!]!] = i;
+    next[slabs[i]!]! += 1;
+  }
+  const recovery = Math.exp(-slab / (RECOVERY * Math.max(upward.extent, NARROWEST)));
   const upwind = new Float64Array(CELLS * CELLS);
   let reached = 0;
   for (let each = 0; each < SLABS; each += 1) {
@@ -68,6 +72,20 @@ export function behindCrowns({ parent, middle, dragArea }: Wood, along: Vec3): F
     for (let i = from; i < to; i += 1) upwind[cells[ordered[i]!]!]! += dragArea[rows[ordered[i]!]!]!;
   }
   return shares;
+}
+
+interface Range {
+  readonly least: number;
+  readonly extent: number;
+}
+
+function rangeOf(numbers: Float64Array): Range {
+  let [least, most] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
+  for (const number of numbers) {
+    least = Math.min(least, number);
+    most = Math.max(most, number);
+  }
+  return { least, extent: most - least };
 }
 
 /**

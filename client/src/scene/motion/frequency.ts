@@ -75,14 +75,20 @@ export class Stations {
     // Bent under its weight sideways first, then under that pose times its masses.
     this.deflect(a, a);
     this.deflect(a, b);
-    let [work, inertia, drag] = [0, 0, 0];
+    let work = 0;
+    let inertia = 0;
+    let drag = 0;
     for (let i = 0; i < count; i += 1) {
-      const [at, bent] = [STATION * i, BENT * i];
-      const [m, bm, bi] = [s[at + MASS]!, s[at + BORNE_MASS]!, s[at + BORNE_INERTIA]!];
-      const [am, an, as] = [a[bent + MIDDLE]!, a[bent + NODE]!, a[bent + SLOPE]!];
-      const [mid, node, slope] = [b[bent + MIDDLE]!, b[bent + NODE]!, b[bent + SLOPE]!];
-      work += m * am * mid + bm * an * node + bi * as * slope;
-      inertia += m * mid * mid + bm * node * node + bi * slope * slope;
+      const at = STATION * i;
+      const bent = BENT * i;
+      const mass = s[at + MASS]!;
+      const borne = s[at + BORNE_MASS]!;
+      const turned = s[at + BORNE_INERTIA]!;
+      const mid = b[bent + MIDDLE]!;
+      const node = b[bent + NODE]!;
+      const slope = b[bent + SLOPE]!;
+      work += mass * a[bent + MIDDLE]! * mid + borne * a[bent + NODE]! * node + turned * a[bent + SLOPE]! * slope;
+      inertia += mass * mid * mid + borne * node * node + turned * slope * slope;
       drag += s[at + AREA]! * mid * mid + s[at + BORNE_AREA]! * node * node + s[at + BORNE_SPREAD]! * slope * slope;
     }
     return { rate: work / inertia, drag: drag / inertia };
@@ -92,9 +98,11 @@ export class Stations {
   private deflect(by: Float64Array, bent: Float64Array): void {
     const { numbers: s, count } = this;
     // Beyond the node: all force, and its moment about the node.
-    let [force, moment] = [0, 0];
+    let force = 0;
+    let moment = 0;
     for (let i = count - 1; i >= 0; i -= 1) {
-      const [at, to] = [STATION * i, BENT * i];
+      const at = STATION * i;
+      const to = BENT * i;
       const own = s[at + MASS]! * by[to + MIDDLE]!;
       force += s[at + BORNE_MASS]! * by[to + NODE]!;
       moment += s[at + BORNE_INERTIA]! * by[to + SLOPE]!;
@@ -103,9 +111,11 @@ export class Stations {
       moment += (force + 0.5 * own) * s[at + LENGTH]!;
       force += own;
     }
-    let [place, slope] = [0, 0];
+    let place = 0;
+    let slope = 0;
     for (let i = 0; i < count; i += 1) {
-      const [length, to] = [s[STATION * i + LENGTH]!, BENT * i];
+      const length = s[STATION * i + LENGTH]!;
+      const to = BENT * i;
       const turn = bent[to + SLOPE]!;
       bent[to + MIDDLE] = place + (0.5 * slope + 0.125 * turn) * length;
       place += (slope + 0.5 * turn) * length;

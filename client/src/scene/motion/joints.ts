@@ -138,13 +138,15 @@ function modesOf(limbs: Limbs, wood: Wood, drag: Borne): Modes {
   const stations = new Stations();
   const modes = { rate: new Float64Array(limbs.count), drag: new Float64Array(limbs.count) };
   const { place, middle } = wood;
-  const borne = [0, 0];
+  const borne = new Float64Array(2);
   // What a node bears sideways: its weight, and the moment of that when it turns with the node.
   const findBorne = (of: Borne, weights: Float64Array, spread: Float64Array, row: number, onward: number): void => {
     const own = weights[row]!;
     const beyond = onward === NONE ? 0 : of.weight[onward]!;
     const weight = Math.max(of.weight[row]! - own - beyond, 0);
-    let [squares, moments, heights] = [0, 0, 0];
+    let squares = 0;
+    let moments = 0;
+    let heights = 0;
     for (let at = 3 * row, a = 0; a < 3; at += 1, a += 1) {
       const moment = of.moment[at]! - own * middle[at]! - (onward === NONE ? 0 : of.moment[3 * onward + a]!);
       squares += middle[at]! * middle[at]!;
@@ -158,7 +160,8 @@ function modesOf(limbs: Limbs, wood: Wood, drag: Borne): Modes {
     borne[1] = ACROSS * Math.max(aboutNode, 0);
   };
   for (let limb = 0; limb < limbs.count; limb += 1) {
-    const [begin, end] = [limbs.begin[limb]!, limbs.begin[limb + 1]!];
+    const begin = limbs.begin[limb]!;
+    const end = limbs.begin[limb + 1]!;
     let mode: Mode = RIGID;
     if (end - begin > 1 || limbs.bearer[limb] === NONE) {
       stations.clear();
@@ -166,7 +169,8 @@ function modesOf(limbs: Limbs, wood: Wood, drag: Borne): Modes {
         const row = limbs.rows[at]!;
         const onward = at + 1 < end ? limbs.rows[at + 1]! : NONE;
         findBorne(mass, wood.mass, massSpread, row, onward);
-        const [borneMass, borneInertia] = [borne[0]!, borne[1]!];
+        const borneMass = borne[0]!;
+        const borneInertia = borne[1]!;
         findBorne(drag, wood.dragArea, dragSpread, row, onward);
         stations.push(
           wood.length[row]!,

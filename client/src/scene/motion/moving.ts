@@ -33,7 +33,8 @@ export function movingOf({ limbs, wood, joints }: Grown, sag: Float64Array, inte
   const count = wood.parent.length;
   const rows = new Float32Array(ROW_NUMBERS * count);
   for (let row = 0; row < count; row += 1) {
-    const [to, from] = [ROW_NUMBERS * row, RIDE * row];
+    const to = ROW_NUMBERS * row;
+    const from = RIDE * row;
     rows[to] = joints.rides[from]!;
     rows[to + 1] = joints.rides[from + 1]!;
     for (let a = 2; a < RIDE; a += 1) rows[to + a] = joints.rides[from + a]! * per;

@@ -89,7 +89,9 @@ export function nodeOn(
   out: Float64Array,
 ): void {
   const from = STAND * joint;
-  const [bx, by, bz] = [stands[from]!, stands[from + 1]!, stands[from + 2]!];
+  const bx = stands[from]!;
+  const by = stands[from + 1]!;
+  const bz = stands[from + 2]!;
   shiftBy(rides, ride, bx, by, bz, MOVED);
   turnBy(stands, from + TURN, place[at]! + MOVED[0]!, place[at + 1]! + MOVED[1]!, place[at + 2]! + MOVED[2]!, out);
   for (let a = 0; a < 3; a += 1) out[a]! += stands[from + SHIFT + a]!;

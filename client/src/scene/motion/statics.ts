@@ -13,7 +13,12 @@ export interface Borne {
 export function borneBy({ parent, middle }: Wood, weights: Float64Array): Borne {
   const weight = weights.slice();
   const moment = new Float64Array(middle.length);
-  for (let at = 0; at < moment.length; at += 1) moment[at] = weights[(at / 3) | 0]! * middle[at]!;
+  for (let row = 0, at = 0; row < weight.length; row += 1, at += 3) {
+    const own = weights[row]!;
+    moment[at] = own * middle[at]!;
+    moment[at + 1] = own * middle[at + 1]!;
+    moment[at + 2] = own * middle[at + 2]!;
+  }
   for (let row = weight.length - 1; row >= 0; row -= 1) {
     const node = parent[row]!;
     if (node < 0) continue;
@@ -29,7 +34,9 @@ export function borneBy({ parent, middle }: Wood, weights: Float64Array): Borne 
 export function spreadOf({ parent, middle }: Wood, weights: Float64Array): Float64Array {
   const spread = new Float64Array(weights.length);
   for (let row = 0; row < spread.length; row += 1) {
-    const [x, y, z] = [middle[3 * row]!, middle[3 * row + 1]!, middle[3 * row + 2]!];
+    const x = middle[3 * row]!;
+    const y = middle[3 * row + 1]!;
+    const z = middle[3 * row + 2]!;
     spread[row] = weights[row]! * (x * x + y * y + z * z);
   }
   for (let row = spread.length - 1; row >= 0; row -= 1) {
@@ -43,7 +50,8 @@ export function spreadOf({ parent, middle }: Wood, weights: Float64Array): Float
 export function addBend(out: Float64Array, wood: Wood, borne: Borne, weights: Float64Array, row: number): void {
   const { middle, way } = wood;
   const at = 3 * row;
-  const [weight, sixth] = [borne.weight[row]!, weights[row]! / 6];
+  const weight = borne.weight[row]!;
+  const sixth = weights[row]! / 6;
   const lx = borne.moment[at]! - weight * middle[at]! + sixth * way[at]!;
   const ly = borne.moment[at + 1]! - weight * middle[at + 1]! + sixth * way[at + 1]!;
   const lz = borne.moment[at + 2]! - weight * middle[at + 2]! + sixth * way[at + 2]!;

@@ -68,7 +68,9 @@ export function woodOf(rows: MotionRows, limbs: Limbs, { internodeLength, leafSi
     // What goes on in its limb is as thick as both its ends on average; the first of a limb has no end of its own below.
     const below = limbs.of[node] === limb ? node : row;
     const mean = 0.5 * (radius(below) + radius(row));
-    const [x, y, z] = [way[3 * row]!, way[3 * row + 1]!, way[3 * row + 2]!];
+    const x = way[3 * row]!;
+    const y = way[3 * row + 1]!;
+    const z = way[3 * row + 2]!;
     const long = Math.sqrt(x * x + y * y + z * z);
     const area = leaves[row]! * leafArea;
     length[row] = long;

@@ -1,0 +1,88 @@
+import { expect, test } from "vitest";
+import { changed } from "./picture";
+import { PHONE, type Screen, SMALL } from "./screens";
+import type { Tablet } from "./tablet";
+import { way } from "./ways";
+import { Workshop } from "./workshop";
+
+const workshop = Workshop.forThisFile();
+
+const disc = (tablet: Tablet) => tablet.page.getByRole("slider", { name: "Wind by strength and direction" });
+const preset = (tablet: Tablet, name: string) =>
+  tablet.page.getByRole("group", { name: "How strong the wind is" }).getByRole("button", { name, exact: true });
+const said = async (tablet: Tablet) => (await disc(tablet).getAttribute("aria-valuetext")) ?? "";
+
+/** A small tree on such a screen, whose picture is drawn all the time, with the panel of the wind open beside it. */
+async function withPanel(screen: Screen) {
+  const { tablet } = await workshop.stem({ ...screen, watched: true });
+  await tablet.tap("Wind");
+  await disc(tablet).waitFor();
+  return tablet;
+}
+
+/** The picture at rest, without the panel. */
+async function calmPicture(tablet: Tablet, name: string) {
+  await tablet.tap("Close Wind");
+  const picture = await tablet.photograph(name);
+  await tablet.tap("Wind");
+  await disc(tablet).waitFor();
+  return picture;
+}
+
+test.each<[string, Screen]>([
+  ["tablet", SMALL],
+  ["phone", PHONE],
+])(
+  "a finger sets the wind on a %s, the tree sways, and in a calm it is the very picture of before",
+  async (name, screen) => {
+    const tablet = await withPanel(screen);
+    const before = await calmPicture(tablet, `97-wind-${name}-before`);
+
+    await tablet.press(preset(tablet, "Storm"));
+    await expect.poll(() => said(tablet)).toContain("18");
+    const box = await tablet.boxOf(disc(tablet));
+    const at = (x: number, y: number) => ({ x: box.x + x * box.width, y: box.y + y * box.height });
+    await tablet.swipe([way(at(0.8, 0.5), at(0.2, 0.5), 8)]);
+    await expect.poll(() => said(tablet), { message: "where the wind blows to follows the finger" }).toContain("180°");
+
+    await tablet.press(tablet.page.getByRole("button", { name: "Hold", exact: true }));
+    const held = await calmPicture(tablet, `97-wind-${name}-held`);
+    expect(changed(before, held), "the storm bends the tree").toBeGreaterThan(0.001);
+    await tablet.press(tablet.page.getByRole("button", { name: "Let go", exact: true }));
+
+    await tablet.press(preset(tablet, "Calm"));
+    const after = await calmPicture(tablet, `97-wind-${name}-after`);
+    expect(Buffer.from(after.pixels).equals(Buffer.from(before.pixels)), "not a pixel is another one").toBe(true);
+  },
+);
+
+test("it goes on while somebody looks, and waits while the page is hidden", async () => {
+  const tablet = await withPanel(SMALL);
+  await tablet.press(preset(tablet, "Breeze"));
+  const isStill = () => tablet.page.locator("canvas[data-still]").count();
+  await expect.poll(isStill, { message: "something moves" }).toBe(0);
+  const hide = (hidden: boolean) =>
+    tablet.page.evaluate((hidden) => {
+      Object.defineProperty(document, "hidden", { configurable: true, get: () => hidden });
+      document.dispatchEvent(new Event("visibilitychange"));
+    }, hidden);
+  await hide(true);
+  await expect.poll(isStill, { message: "nothing is drawn that nobody sees" }).toBe(1);
+  await hide(false);
+  await expect.poll(isStill, { message: "it goes on" }).toBe(0);
+  await tablet.page.keyboard.press("a");
+  await expect.poll(isStill, { message: "a key holds it" }).toBe(1);
+  await tablet.page.keyboard.press("a");
+  await expect.poll(isStill, { message: "and lets it go" }).toBe(0);
+});
+
+test("nothing moves by itself where a device is set to show less motion", async () => {
+  const { tablet } = await workshop.stem({ ...SMALL, watched: true });
+  await tablet.page.emulateMedia({ reducedMotion: "reduce" });
+  await tablet.tap("Wind");
+  await tablet.press(preset(tablet, "Wind"));
+  await tablet.page.getByText("this device is set to show less motion").waitFor();
+  await tablet.untilStill();
+  await tablet.press(tablet.page.getByRole("button", { name: "Let it move", exact: true }));
+  await expect.poll(() => tablet.page.locator("canvas[data-still]").count()).toBe(0);
+});
