@@ -1,0 +1,304 @@
+//! Expressions: a Pratt loop over the text.
+
+use crate::{
+    diagnostic::nearest,
+    functions::{FUNCTIONS, Function},
+    parser::{Parser, Scope},
+    source::Span,
+};
+
+/// Parentheses, functions and operators lie at most so deep in each other.
+const DEEPEST: u32 = 48;
+
+/// An expression as it was written.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Expr {
+    Number(f64),
+    /// A definition of the file, by its row.
+    Define(u16),
+    /// A parameter of the modules of a rule's predecessor, counted from the left.
+    Parameter(u8),
+    Negative(Box<Expr>),
+    Not(Box<Expr>),
+    Binary(Binary, Box<Expr>, Box<Expr>),
+    Choice(Box<[Expr; 3]>),
+    Call(Function, Vec<Expr>),
+    /// A curve of the file, by its row.
+    Curve(u16, Box<Expr>),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Binary {
+    Or,
+    And,
+    Equal,
+    NotEqual,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Remainder,
+    Power,
+}
+
+/// Operators with their binding power: longer spellings first.
+const OPERATORS: &[(&str, Binary, u8)] = &[
+    ("||", Binary::Or, 2),
+    ("&&", Binary::And, 3),
+    ("==", Binary::Equal, 4),
+    ("!=", Binary::NotEqual, 4),
+    ("<=", Binary::LessOrEqual, 5),
+    (">=", Binary::GreaterOrEqual, 5),
+    ("<", Binary::Less, 5),
+    (">", Binary::Greater, 5),
+    ("+", Binary::Add, 6),
+    ("-", Binary::Subtract, 6),
+    ("**", Binary::Power, 9),
+    ("*", Binary::Multiply, 7),
+    ("/", Binary::Divide, 7),
+    ("%", Binary::Remainder, 7),
+    ("^", Binary::Power, 9),
+];
+/// Of a minus sign and a negation: -a^2 is -(a^2).
+const PREFIX: u8 = 8;
+
+/// The text cannot be read on from here; what is wrong has been reported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Lost;
+
+impl Parser<'_> {
+    /// An expression up to where the text goes on otherwise.
+    pub fn expression(&mut self, scope: &Scope) -> Result<Expr, Lost> {
+        self.binding(scope, 0)
+    }
+
+    fn binding(&mut self, scope: &Scope, least: u8) -> Result<Expr, Lost> {
+        self.depth += 1;
+        let read = if self.depth > DEEPEST {
+            let here = Span::at(self.at);
+            self.report.error(here, "too-deep", format!("it lies more than {DEEPEST} deep"));
+            Err(Lost)
+        } else {
+            self.binding_within(scope, least)
+        };
+        self.depth -= 1;
+        read
+    }
+
+    fn binding_within(&mut self, scope: &Scope, least: u8) -> Result<Expr, Lost> {
+        let mut left = self.operand(scope)?;
+        let mut length = 0;
+        loop {
+            self.skip_blanks();
+            let rest = self.rest();
+            let is_assignment = rest.starts_with('=') && !rest.starts_with("==");
+            if is_assignment {
+                let here = Span::new(self.at, self.at + 1);
+                self.report.error_with(here, "assignment", "`=` compares nothing", "write ==");
+                return Err(Lost);
+            }
+            for (word, sign) in [("and", "&&"), ("or", "||")] {
+                if self.peeks_word(word) {
+                    let here = Span::new(self.at, self.at + word.len());
+                    let message = format!("`{word}` is Python");
+                    self.report.error_with(here, "python", message, format!("write {sign}"));
+                    return Err(Lost);
+                }
+            }
+            if least <= 1 && rest.starts_with('?') {
+                self.at += 1;
+                let yes = self.binding(scope, 1)?;
+                self.expect(':')?;
+                let no = self.binding(scope, 1)?;
+                left = Expr::Choice(Box::new([left, yes, no]));
+                continue;
+            }
+            let Some(&(sign, operator, power)) = OPERATORS.iter().find(|row| rest.starts_with(row.0)) else {
+                return Ok(left);
+            };
+            if power < least {
+                return Ok(left);
+            }
+            // Chains are trees that lean to the left; a tree must not be too deep to walk through.
+            length += 1;
+            if length > DEEPEST * 4 {
+                let here = Span::new(self.at, self.at + sign.len());
+                self.report.error(here, "too-deep", "the expression is too long");
+                return Err(Lost);
+            }
+            self.at += sign.len();
+            let next = if operator == Binary::Power { power } else { power + 1 };
+            let right = self.binding(scope, next)?;
+            left = Expr::Binary(operator, Box::new(left), Box::new(right));
+        }
+    }
+
+    /// A number, a name with or without parameters, or what stands in parentheses, with its signs.
+    pub fn operand(&mut self, scope: &Scope) -> Result<Expr, Lost> {
+        self.skip_blanks();
+        let start = self.at;
+        match self.peek() {
+            Some('(') => {
+                self.at += 1;
+                let inner = self.binding(scope, 0)?;
+                self.expect(')')?;
+                Ok(inner)
+            }
+            Some('-') => {
+                self.at += 1;
+                Ok(Expr::Negative(Box::new(self.binding(scope, PREFIX)?)))
+            }
+            Some('+') => {
+                self.at += 1;
+                self.binding(scope, PREFIX)
+            }
+            Some('!') => {
+                self.at += 1;
+                Ok(Expr::Not(Box::new(self.binding(scope, PREFIX)?)))
+            }
+            Some(c) if c.is_ascii_digit() || c == '.' => self.number().map(Expr::Number),
+            Some(c) if c.is_alphabetic() || c == '_' => {
+                let name = self.word().to_owned();
+                self.named(scope, &name, start)
+            }
+            Some(c) => {
+                let here = Span::new(start, start + c.len_utf8());
+                self.report.error(
+                    here,
+                    "no-expression",
+                    format!("`{c}` begins no number, name or parenthesis"),
+                );
+                Err(Lost)
+            }
+            None => {
+                self.report.error(Span::at(start), "no-expression", "a number or a name is missing here");
+                Err(Lost)
+            }
+        }
+    }
+
+    /// A number without sign.
+    pub fn number(&mut self) -> Result<f64, Lost> {
+        self.skip_blanks();
+        let start = self.at;
+        let digits = |text: &str| text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+        self.at += digits(self.rest());
+        if self.rest().starts_with('.') {
+            self.at += 1;
+            self.at += digits(self.rest());
+        }
+        let exponent = self.rest().strip_prefix(['e', 'E']).map(|rest| {
+            let sign = usize::from(rest.starts_with(['+', '-']));
+            (1 + sign, digits(&rest[sign..]))
+        });
+        if let Some((mark, digits)) = exponent.filter(|&(_, digits)| digits > 0) {
+            self.at += mark + digits;
+        }
+        let span = Span::new(start, self.at);
+        match self.source.slice(span).parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            _ => {
+                self.report.error(span, "bad-number", "it is no number");
+                Err(Lost)
+            }
+        }
+    }
+
+    fn named(&mut self, scope: &Scope, name: &str, start: usize) -> Result<Expr, Lost> {
+        let span = Span::new(start, self.at);
+        self.skip_blanks();
+        let function = FUNCTIONS.iter().find(|row| row.0 == name);
+        if self.peek() == Some('(') {
+            self.at += 1;
+            if name == "func" {
+                return self.curve(scope);
+            }
+            let arguments = self.arguments(scope)?;
+            let Some(&(_, wanted, function)) = function else {
+                let names = FUNCTIONS.iter().map(|row| row.0).chain(["func"]);
+                let message = format!("there is no function `{name}`");
+                match nearest(name, names) {
+                    Some(near) => {
+                        self.report.error_with(
+                            span,
+                            "unknown-function",
+                            message,
+                            format!("did you mean {near}?"),
+                        );
+                    }
+                    None => self.report.error(span, "unknown-function", message),
+                }
+                return Ok(Expr::Number(0.0));
+            };
+            if arguments.len() != usize::from(wanted) {
+                let message = format!("`{name}` takes {wanted} parameters, not {}", arguments.len());
+                self.report.error(span, "parameter-count", message);
+                return Ok(Expr::Number(0.0));
+            }
+            return Ok(Expr::Call(function, arguments));
+        }
+        if let Some(at) = scope.parameters.iter().rposition(|known| known == name) {
+            return Ok(Expr::Parameter(at as u8));
+        }
+        if let Some(at) = self.defines.iter().position(|define| define.name == name) {
+            return Ok(Expr::Define(at as u16));
+        }
+        if let Some(&(_, 0, function)) = function {
+            return Ok(Expr::Call(function, Vec::new()));
+        }
+        if name == "not" {
+            self.report.error_with(span, "python", "`not` is Python", "write !");
+            return Err(Lost);
+        }
+        let known = scope.parameters.iter().chain(self.defines.iter().map(|define| &define.name));
+        let hint = match (function, nearest(name, known.map(String::as_str))) {
+            (Some(_), _) => Some(format!("write {name}(…)")),
+            (None, Some(near)) => Some(format!("did you mean {near}?")),
+            (None, None) => None,
+        };
+        let message = format!("`{name}` is no parameter of this rule and is not defined");
+        match hint {
+            Some(hint) => self.report.error_with(span, "unknown-name", message, hint),
+            None => self.report.error(span, "unknown-name", message),
+        }
+        Ok(Expr::Number(0.0))
+    }
+
+    /// What follows `func(`: the name of a curve, and where on it.
+    fn curve(&mut self, scope: &Scope) -> Result<Expr, Lost> {
+        self.skip_blanks();
+        let start = self.at;
+        let name = self.word().to_owned();
+        let span = Span::new(start, self.at);
+        let found = self.curves.iter().position(|curve| curve.name == name);
+        if found.is_none() {
+            let hint = "define it: func: name x0 y0 x1 y1";
+            self.report.error_with(span, "unknown-curve", format!("there is no curve `{name}`"), hint);
+        }
+        self.expect(',')?;
+        let at = self.binding(scope, 0)?;
+        self.expect(')')?;
+        Ok(Expr::Curve(found.unwrap_or(0) as u16, Box::new(at)))
+    }
+
+    /// Expressions up to a closing parenthesis.
+    pub fn arguments(&mut self, scope: &Scope) -> Result<Vec<Expr>, Lost> {
+        let mut arguments = Vec::new();
+        self.skip_blanks();
+        if self.eat(')') {
+            return Ok(arguments);
+        }
+        loop {
+            arguments.push(self.binding(scope, 0)?);
+            self.skip_blanks();
+            if self.eat(')') {
+                return Ok(arguments);
+            }
+            self.expect(',')?;
+        }
+    }
+}

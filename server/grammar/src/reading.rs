@@ -1,0 +1,305 @@
+//! Reads a word with the turtle, module by module, each as the homomorphism has it.
+
+use crate::{
+    code::{Machine, Moment},
+    environment::Environment,
+    keys::{Chance, Products, WHILE_READING},
+    limits::Stop,
+    program::{Production, Program},
+    symbols::{Action, turtle},
+    turtle::{Moved, State, Turtle},
+    word::{Tag, Word},
+};
+
+/// Parameters of a module at most.
+pub(crate) const MOST_PARAMETERS: usize = 16;
+
+/// What follows what the turtle does.
+pub(crate) trait Pen {
+    /// A branch begins.
+    fn push(&mut self) -> Result<(), Stop>;
+    /// A branch ends.
+    fn pop(&mut self) -> Result<(), Stop>;
+    /// A step was drawn.
+    fn draw(&mut self, turtle: &State, tag: Tag) -> Result<(), Stop>;
+    /// The turtle went elsewhere.
+    fn jump(&mut self, turtle: &State) -> Result<(), Stop>;
+    /// A module that goes on growing stands here.
+    fn apex(&mut self, turtle: &State);
+    /// The rest of the branch is cut off.
+    fn cut(&mut self);
+}
+
+/// Draws nothing.
+pub(crate) struct NoPen;
+
+impl Pen for NoPen {
+    fn push(&mut self) -> Result<(), Stop> {
+        Ok(())
+    }
+    fn pop(&mut self) -> Result<(), Stop> {
+        Ok(())
+    }
+    fn draw(&mut self, _: &State, _: Tag) -> Result<(), Stop> {
+        Ok(())
+    }
+    fn jump(&mut self, _: &State) -> Result<(), Stop> {
+        Ok(())
+    }
+    fn apex(&mut self, _: &State) {}
+    fn cut(&mut self) {}
+}
+
+/// When a word is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct When {
+    pub seed: u32,
+    pub step: u32,
+    /// The present time, for grammars whose modules wait.
+    pub time: f64,
+}
+
+/// Somewhere within a word.
+#[derive(Clone, Debug)]
+pub(crate) struct Reading {
+    pub turtle: Turtle,
+    pub machine: Machine,
+    when: When,
+    /// Surfaces that have begun.
+    polygons: u32,
+    /// Branches within the rest of a branch that is cut off.
+    cut: Option<u32>,
+    most_work: u64,
+}
+
+impl Reading {
+    pub fn new(program: &Program, when: When, most_work: u64) -> Self {
+        let turtle = Turtle::new(program.angle, program.scale);
+        Self { turtle, machine: Machine::new(), when, polygons: 0, cut: None, most_work }
+    }
+
+    /// Reads one module of a word.
+    pub fn read(
+        &mut self,
+        program: &Program,
+        word: &Word,
+        at: usize,
+        surroundings: &dyn Environment,
+        pen: &mut impl Pen,
+    ) -> Result<(), Stop> {
+        let tag = word.tag(at);
+        self.module(program, tag, word.parameters(at), 0, surroundings, pen)?;
+        if self.cut.is_none() && program.is_apex(tag.symbol) {
+            pen.apex(&self.turtle.state);
+        }
+        if self.machine.work > self.most_work { Err(Stop::Work(self.most_work)) } else { Ok(()) }
+    }
+
+    fn module(
+        &mut self,
+        program: &Program,
+        tag: Tag,
+        parameters: &[f64],
+        level: u32,
+        surroundings: &dyn Environment,
+        pen: &mut impl Pen,
+    ) -> Result<(), Stop> {
+        let action = turtle(tag.symbol).map(|row| row.action);
+        if let Some(open) = self.cut {
+            match action {
+                Some(Action::Push) => self.cut = Some(open + 1),
+                Some(Action::Pop) if open == 0 => self.cut = None,
+                Some(Action::Pop) => self.cut = Some(open - 1),
+                _ => {}
+            }
+            if self.cut.is_some() || action != Some(Action::Pop) {
+                return Ok(());
+            }
+        }
+        if level < program.homomorphism_depth && !program.homomorphism.of(tag.symbol).is_empty() {
+            self.machine.work += 1;
+            let stand = self.turtle.stand();
+            let mut moment = Moment {
+                step: self.when.step.into(),
+                age: self.age(program, tag),
+                chance: Chance::new(self.when.seed, tag.key, WHILE_READING),
+                stand: Some(&stand),
+                environment: surroundings,
+                curves: &program.curves,
+            };
+            let rules = &program.homomorphism;
+            let chosen =
+                choose(&mut self.machine, rules.of(tag.symbol), &rules.rules, parameters, &mut moment)?;
+            if let Some(rule) = chosen {
+                return self.products(program, rule, tag, parameters, level, &mut moment, pen);
+            }
+        }
+        self.act(tag, action, parameters, pen)
+    }
+
+    /// What a module is read as.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "one caller, and a struct of them would have no meaning of its own"
+    )]
+    fn products(
+        &mut self,
+        program: &Program,
+        rule: &Production,
+        tag: Tag,
+        parameters: &[f64],
+        level: u32,
+        moment: &mut Moment<'_>,
+        pen: &mut impl Pen,
+    ) -> Result<(), Stop> {
+        let keys = Products::of_reading(tag.key, level);
+        for (number, product) in rule.products.iter().enumerate() {
+            let mut values = [0.0; MOST_PARAMETERS];
+            for (value, code) in values.iter_mut().zip(&product.arguments) {
+                *value = finite(self.machine.run(code, parameters, moment), rule)?;
+            }
+            let tag = Tag { symbol: product.symbol, key: keys.key(number), ..tag };
+            let values = &values[..product.arguments.len().min(MOST_PARAMETERS)];
+            self.module(program, tag, values, level + 1, moment.environment, pen)?;
+        }
+        Ok(())
+    }
+
+    fn act(
+        &mut self,
+        tag: Tag,
+        action: Option<Action>,
+        parameters: &[f64],
+        pen: &mut impl Pen,
+    ) -> Result<(), Stop> {
+        let Some(action) = action else { return Ok(()) };
+        match action {
+            Action::Push => {
+                self.turtle.push(tag.key);
+                pen.push()?;
+            }
+            Action::Pop => {
+                pen.pop()?;
+                self.turtle.pop();
+            }
+            Action::Cut => {
+                self.cut = Some(0);
+                pen.cut();
+            }
+            Action::BeginPolygon => self.polygons += 1,
+            Action::EndPolygon => self.polygons = self.polygons.saturating_sub(1),
+            Action::DrawInPieces => {
+                let (length, piece) = (parameters[0], parameters[1]);
+                // As many pieces as any wood may have.
+                const MOST: f64 = 1e6;
+                let count = if piece > 0.0 { (length / piece).ceil().clamp(1.0, MOST) } else { 1.0 };
+                let keys = Products::of_reading(tag.key, u32::MAX);
+                for number in 0..count as usize {
+                    self.machine.work += 1;
+                    let tag = Tag { key: keys.key(number), ..tag };
+                    self.moved(Action::Draw, &[length / count], tag, pen)?;
+                }
+            }
+            action => self.moved(action, parameters, tag, pen)?,
+        }
+        Ok(())
+    }
+
+    fn moved(
+        &mut self,
+        action: Action,
+        parameters: &[f64],
+        tag: Tag,
+        pen: &mut impl Pen,
+    ) -> Result<(), Stop> {
+        match self.turtle.act(action, parameters) {
+            Moved::No => Ok(()),
+            Moved::Drew if self.polygons == 0 => pen.draw(&self.turtle.state, tag),
+            Moved::Drew | Moved::Jumped => pen.jump(&self.turtle.state),
+        }
+    }
+
+    fn age(&self, program: &Program, tag: Tag) -> f64 {
+        if program.columns.times { self.when.time - tag.time } else { f64::from(self.when.step - tag.born) }
+    }
+}
+
+/// The first rule without contexts that takes a module, or the alternative that is drawn.
+pub(crate) fn choose<'a>(
+    machine: &mut Machine,
+    candidates: &[u32],
+    rules: &'a [Production],
+    parameters: &[f64],
+    moment: &mut Moment<'_>,
+) -> Result<Option<&'a Production>, Stop> {
+    for &number in candidates {
+        let rule = &rules[number as usize];
+        let fits = usize::from(rule.arity) == parameters.len() && !rule.is_later;
+        if fits && rule.left.is_empty() && rule.right.is_empty() && holds(machine, rule, parameters, moment)?
+        {
+            return draw(machine, rule, rules, parameters, moment).map(Some);
+        }
+    }
+    Ok(None)
+}
+
+/// Whether the condition of a rule holds.
+pub(crate) fn holds(
+    machine: &mut Machine,
+    rule: &Production,
+    frame: &[f64],
+    moment: &mut Moment<'_>,
+) -> Result<bool, Stop> {
+    let Some(condition) = &rule.condition else { return Ok(true) };
+    let value = machine.run(condition, frame, moment);
+    if value.is_nan() {
+        let (line, column) = rule.at;
+        return Err(Stop::NoNumber { line, column });
+    }
+    Ok(value != 0.0)
+}
+
+/// The rule itself, or one of its alternatives by their weights.
+pub(crate) fn draw<'a>(
+    machine: &mut Machine,
+    rule: &'a Production,
+    rules: &'a [Production],
+    frame: &[f64],
+    moment: &mut Moment<'_>,
+) -> Result<&'a Production, Stop> {
+    if rule.draw.len() < 2 {
+        return Ok(rule);
+    }
+    let none = || Stop::NoProbability { line: rule.at.0, column: rule.at.1 };
+    let mut weigh = |number: u32, moment: &mut Moment<'_>| {
+        let weight =
+            rules[number as usize].weight.as_ref().map_or(0.0, |code| machine.run(code, frame, moment));
+        if weight.is_finite() && weight >= 0.0 { Ok(weight) } else { Err(none()) }
+    };
+    let mut sum = 0.0;
+    for &number in &rule.draw {
+        sum += weigh(number, moment)?;
+    }
+    if sum <= 0.0 {
+        return Err(none());
+    }
+    let mut left = moment.chance.unit() * sum;
+    let mut last = rule;
+    for &number in &rule.draw {
+        let weight = weigh(number, moment)?;
+        if weight > 0.0 {
+            last = &rules[number as usize];
+            if left < weight {
+                break;
+            }
+        }
+        left -= weight;
+    }
+    Ok(last)
+}
+
+/// A parameter, which must be a number.
+pub(crate) fn finite(value: f64, rule: &Production) -> Result<f64, Stop> {
+    let (line, column) = rule.at;
+    if value.is_finite() { Ok(value) } else { Err(Stop::NoNumber { line, column }) }
+}

@@ -1,0 +1,179 @@
+//! Words: modules in columns.
+
+use crate::{
+    grammar::Grammar,
+    limits::{Limits, Stop},
+    symbols::{POP, PUSH, Symbol},
+};
+
+/// Which columns beside symbols, keys, births and parameters a grammar needs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Columns {
+    /// For contexts, which jump over branches.
+    pub mates: bool,
+    /// For modules whose age is no whole number of steps.
+    pub times: bool,
+}
+
+/// A string of modules.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Word {
+    symbols: Vec<Symbol>,
+    /// Where the parameters of each module begin.
+    first: Vec<u32>,
+    keys: Vec<u64>,
+    /// The step in which each came to be.
+    born: Vec<u32>,
+    parameters: Vec<f64>,
+    /// For each bracket its counterpart; empty where nobody asks.
+    mates: Vec<u32>,
+    /// The time at which each came to be; empty where that is its step.
+    times: Vec<f64>,
+    /// Brackets not yet closed.
+    open: Vec<u32>,
+    columns: Columns,
+}
+
+/// What a module carries beside its parameters.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tag {
+    pub symbol: Symbol,
+    pub key: u64,
+    pub born: u32,
+    pub time: f64,
+}
+
+impl Word {
+    pub(crate) fn new(columns: Columns) -> Self {
+        Self { columns, ..Self::default() }
+    }
+
+    /// Modules, brackets included.
+    pub fn len(&self) -> usize {
+        self.symbols.len()
+    }
+
+    /// Whether there is no module.
+    pub fn is_empty(&self) -> bool {
+        self.symbols.is_empty()
+    }
+
+    /// Bytes that its modules take.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.symbols)
+            + size_of_val(&*self.first)
+            + size_of_val(&*self.keys)
+            + size_of_val(&*self.born)
+            + size_of_val(&*self.parameters)
+            + size_of_val(&*self.mates)
+            + size_of_val(&*self.times)
+    }
+
+    /// Parameters of a module.
+    pub fn parameters(&self, at: usize) -> &[f64] {
+        let end = self.first.get(at + 1).map_or(self.parameters.len(), |&end| end as usize);
+        &self.parameters[self.first[at] as usize..end]
+    }
+
+    /// What a module is known by from step to step.
+    pub fn key(&self, at: usize) -> u64 {
+        self.keys[at]
+    }
+
+    /// The step in which a module came to be.
+    pub fn born(&self, at: usize) -> u32 {
+        self.born[at]
+    }
+
+    /// As it would be written, numbers in full.
+    pub fn text(&self, grammar: &Grammar) -> String {
+        let mut text = String::new();
+        for at in 0..self.len() {
+            text.push_str(grammar.symbols.name(self.symbols[at]));
+            let parameters: Vec<_> = self.parameters(at).iter().map(f64::to_string).collect();
+            if !parameters.is_empty() {
+                text.push_str(&format!("({})", parameters.join(",")));
+            }
+        }
+        text
+    }
+
+    pub(crate) fn symbol(&self, at: usize) -> Symbol {
+        self.symbols[at]
+    }
+
+    pub(crate) fn tag(&self, at: usize) -> Tag {
+        let time = self.times.get(at).copied().unwrap_or_default();
+        Tag { symbol: self.symbols[at], key: self.keys[at], born: self.born[at], time }
+    }
+
+    /// The counterpart of a bracket.
+    pub(crate) fn mate(&self, at: usize) -> usize {
+        self.mates[at] as usize
+    }
+
+    /// Writes over the first parameters of a module.
+    pub(crate) fn fill(&mut self, at: usize, values: &[f64]) {
+        let first = self.first[at] as usize;
+        let count = self.parameters(at).len().min(values.len());
+        self.parameters[first..first + count].copy_from_slice(&values[..count]);
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.symbols.clear();
+        self.first.clear();
+        self.keys.clear();
+        self.born.clear();
+        self.parameters.clear();
+        self.mates.clear();
+        self.times.clear();
+        self.open.clear();
+    }
+
+    /// Begins a module; its parameters are pushed after it.
+    pub(crate) fn push(&mut self, tag: Tag, limits: &Limits) -> Result<(), Stop> {
+        let at = self.symbols.len();
+        if at >= limits.modules {
+            return Err(Stop::Modules(limits.modules));
+        }
+        if self.parameters.len() > limits.parameters {
+            return Err(Stop::Parameters(limits.parameters));
+        }
+        self.symbols.push(tag.symbol);
+        self.first.push(self.parameters.len() as u32);
+        self.keys.push(tag.key);
+        self.born.push(tag.born);
+        if self.columns.times {
+            self.times.push(tag.time);
+        }
+        if self.columns.mates {
+            self.mates.push(at as u32);
+        }
+        match tag.symbol {
+            PUSH => {
+                if self.open.len() >= limits.nesting {
+                    return Err(Stop::Nesting(limits.nesting));
+                }
+                self.open.push(at as u32);
+            }
+            POP => {
+                // Strings are balanced when they are read, and so is what is put together from them.
+                let begun = self.open.pop().unwrap_or(at as u32);
+                if self.columns.mates {
+                    self.mates[at] = begun;
+                    self.mates[begun as usize] = at as u32;
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    pub(crate) fn push_parameter(&mut self, value: f64) {
+        self.parameters.push(value);
+    }
+
+    pub(crate) fn push_parameters(&mut self, values: &[f64]) {
+        self.parameters.extend_from_slice(values);
+    }
+}
