@@ -206,7 +206,7 @@ impl Derivation {
         }
         while self.at < end {
             self.at = self.rewrite(program, self.at, surroundings)?;
-            if self.machine.work > self.limits.work {
+            if self.machine.work >= self.limits.work {
                 return Err(Stop::Work(self.limits.work));
             }
         }
@@ -428,7 +428,7 @@ impl Derivation {
             let (line, column) = rule.at;
             return Err(Stop::Endless { line, column, most });
         }
-        if self.machine.work > self.limits.work {
+        if self.machine.work >= self.limits.work {
             return Err(Stop::Work(self.limits.work));
         }
         self.produce(program, rule, tag, parameters, firing, moment)

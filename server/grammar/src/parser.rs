@@ -165,7 +165,7 @@ impl<'a> Parser<'a> {
 
     fn finish(mut self) -> Checked {
         let source = self.source;
-        if self.axiom.is_none() {
+        if !self.seen.contains(&Header::Axiom) {
             let here = Span::at(0);
             self.report.error_with(here, "no-axiom", "it has no axiom", "write axiom: F");
         }

@@ -92,7 +92,7 @@ impl Reading {
         if self.cut.is_none() && program.is_apex(tag.symbol) {
             pen.apex(&self.turtle.state);
         }
-        if self.machine.work > self.most_work { Err(Stop::Work(self.most_work)) } else { Ok(()) }
+        Ok(())
     }
 
     fn module(
@@ -115,6 +115,9 @@ impl Reading {
             if self.cut.is_some() || action != Some(Action::Pop) {
                 return Ok(());
             }
+        }
+        if self.machine.work > self.most_work {
+            return Err(Stop::Work(self.most_work));
         }
         if level < program.homomorphism_depth && !program.homomorphism.of(tag.symbol).is_empty() {
             self.machine.work += 1;

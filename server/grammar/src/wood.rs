@@ -195,6 +195,9 @@ impl Carpenter {
             _ => self.level.from,
         };
         let length = to.distance(from);
+        if !length.is_finite() {
+            return Err(Stop::Extent(self.options.extent));
+        }
         if !(length >= least) {
             return Ok(());
         }
