@@ -1,4 +1,12 @@
 //! Grammars are read, derived and drawn; what cannot be is told.
 
+mod bombs;
+mod chance;
+mod environment;
+mod hostile;
+mod library;
+mod mistakes;
 mod textbook;
+mod timing;
+mod trees;
 mod words;

@@ -1,0 +1,106 @@
+//! Budgets end what would take too much, and leave the step before.
+
+use std::sync::Arc;
+
+use espalier_grammar::{Derivation, Grammar, Limits, OpenSky, Progress, Stop, WoodOptions};
+
+fn begun(text: &str, limits: Limits) -> Result<Derivation, Stop> {
+    let grammar = Grammar::read(text).unwrap_or_else(|errors| panic!("{errors:#?}"));
+    Derivation::new(Arc::new(grammar.program(&[]).expect("no sliders")), 1, limits)
+}
+
+/// Why a derivation ends, and after how many steps.
+fn end(text: &str, limits: Limits) -> (Stop, u32) {
+    let mut derivation = match begun(text, limits) {
+        Ok(derivation) => derivation,
+        Err(stop) => return (stop, 0),
+    };
+    let stop = derivation.derive(1000, &OpenSky).expect_err("it must end");
+    assert_eq!(derivation.advance(&OpenSky, 1), Err(stop), "nothing goes on");
+    (stop, derivation.depth())
+}
+
+const SMALL: Limits = Limits { modules: 1000, parameters: 100, nesting: 20, work: 100_000 };
+
+#[test]
+fn each_budget_ends_a_derivation() {
+    assert_eq!(end("axiom: F\nF --> FFFFFFFF", SMALL), (Stop::Modules(1000), 3));
+    assert_eq!(end("axiom: A\nA --> F(1,2,3)A", SMALL), (Stop::Parameters(100), 33));
+    assert_eq!(end("axiom: A\nA --> [A]", SMALL), (Stop::Nesting(20), 20));
+    let (stop, _) = end("axiom: A(0)\nA(x) --> A(x+1-1+1-1)", Limits { work: 50, ..SMALL });
+    assert_eq!(stop, Stop::Work(50));
+}
+
+#[test]
+fn bombs_of_every_kind_go_off_in_vain() {
+    let limits = Limits::default();
+    assert_eq!(end("axiom: F\nF --> FFFFFFFF", limits), (Stop::Modules(8_000_000), 7));
+    // A context that is far away from everyone who looks for it: the square of the word's length.
+    let text = format!("axiom: A\nignore: F\nA --> {}\nB < F --> G", "F".repeat(4000));
+    let (stop, _) = end(&text, Limits { work: 5_000_000, ..limits });
+    assert_eq!(stop, Stop::Work(5_000_000));
+}
+
+#[test]
+fn rules_that_never_rest_are_told_by_their_line() {
+    let text = "axiom: A\ndecomposition:\nA --> FA";
+    assert_eq!(end(text, Limits::default()), (Stop::Endless { line: 3, column: 1, most: 10 }, 0));
+    // Twice as many each time, and yet at its end soon.
+    let text = "axiom: A\ndecomposition: maximum depth: 100\nA --> AA";
+    assert_eq!(end(text, Limits::default()).1, 0);
+    // A lifespan so short that a step is over a hundred of them.
+    let text = "axiom: A\ntiming: A 0.001\nA --> FA";
+    assert_eq!(end(text, Limits::default()), (Stop::Endless { line: 3, column: 1, most: 100 }, 0));
+}
+
+#[test]
+fn homomorphisms_do_not_go_off_either() {
+    let text = "axiom: A\nhomomorphism: maximum depth: 100\nA --> AA";
+    let derivation = begun(text, Limits { work: 1_000_000, ..Limits::default() }).expect("one module");
+    let options = WoodOptions { nodes: 1000, extent: 1000, twig_radius: 0.05 };
+    assert_eq!(derivation.draw(&OpenSky, options), Err(Stop::Work(1_000_000)));
+}
+
+#[test]
+fn numbers_that_are_none_are_told_by_their_rule() {
+    let none = |line| (Stop::NoNumber { line, column: 1 }, 0);
+    for expression in
+        ["1/0", "1/(x-1)", "sqrt(-x)", "ln(0)", "ln(-x)", "x%0", "exp(1000*x)", "asin(2*x)", "10^400"]
+    {
+        let text = format!("axiom: A(1)\nA(x) --> A({expression})");
+        assert_eq!(end(&text, SMALL), none(2), "{expression}");
+    }
+    assert_eq!(end("axiom: A(1)\n\nA(x) : 1/(x-1) > 0 --> F", SMALL), none(3));
+    assert_eq!(end("axiom: A(1)\n\nA(x) : 0 && sqrt(-x) --> F", SMALL), none(3));
+    assert_eq!(end("axiom: A(1/0)\nA(x) --> F", SMALL), none(1));
+    let text = "axiom: A(1)\nA(x) --> F : x-1\nA(x) --> G : 0*x";
+    assert_eq!(end(text, SMALL), (Stop::NoProbability { line: 2, column: 1 }, 0));
+    let text = "axiom: A(1)\nA(x) --> F : -x\nA(x) --> G : 3";
+    assert_eq!(end(text, SMALL), (Stop::NoProbability { line: 2, column: 1 }, 0));
+}
+
+#[test]
+fn too_much_wood_is_not_drawn() {
+    let drawn = |axiom: &str| {
+        let derivation = begun(&format!("axiom: {axiom}"), Limits::default()).expect("it is small");
+        derivation.draw(&OpenSky, WoodOptions { nodes: 1000, extent: 5000, twig_radius: 0.05 })
+    };
+    assert_eq!(drawn("F(999)").map(|drawn| drawn.wood.nodes.len()), Ok(1000));
+    assert_eq!(drawn("F(1000)"), Err(Stop::Nodes(1000)));
+    assert_eq!(drawn("F(1e9)"), Err(Stop::Nodes(1000)));
+    assert_eq!(drawn("F(1e300)"), Err(Stop::Extent(5000)));
+    assert_eq!(drawn("f(6000)F"), Err(Stop::Extent(5000)));
+    assert_eq!(drawn("f(1e300)f(1e300)f(1e308)f(1e308)F"), Err(Stop::Extent(5000)));
+    assert_eq!(drawn("nF(1e9, 1e-9)"), Err(Stop::Nodes(1000)));
+}
+
+#[test]
+fn what_was_derived_before_a_budget_ended_stays() {
+    let mut derivation = begun("axiom: F\nF --> FFFFFFFF", SMALL).expect("it is small");
+    while derivation.advance(&OpenSky, 7).is_ok() {}
+    assert_eq!((derivation.depth(), derivation.word().len()), (3, 512));
+    let mut whole = begun("axiom: F\nF --> FFFFFFFF", SMALL).expect("it is small");
+    assert_eq!(whole.step(&OpenSky), Ok(()));
+    assert_eq!(whole.advance(&OpenSky, 3), Ok(Progress::Working));
+    assert_eq!((whole.depth(), whole.word().len()), (1, 8), "a step that goes on does not show");
+}

@@ -1,0 +1,144 @@
+//! What is wrong with a text is told with its place, and with what to write instead.
+
+use espalier_grammar::{Diagnostic, Grammar, MAX_DIAGNOSTICS, Severity};
+
+fn told(text: &str) -> Vec<Diagnostic> {
+    Grammar::check(text).diagnostics
+}
+
+/// The only thing that is wrong with a text: kind, line, column, length.
+fn only(text: &str) -> (&'static str, u32, u32, u32) {
+    match &*told(text) {
+        [one] => (one.code, one.line, one.column, one.length),
+        other => panic!("{text}\n{other:#?}"),
+    }
+}
+
+#[test]
+fn each_mistake_is_told_at_its_place() {
+    let cases = [
+        ("axiom: F\nF --> FG]", ("bracket", 2, 9, 1)),
+        ("axiom: F\nF --> F[F", ("bracket", 2, 8, 1)),
+        ("axiom: F\nF --> F]F[", ("bracket", 2, 8, 1)),
+        ("axiom: F\nF(x) --> F(sni(x))", ("unknown-function", 2, 12, 3)),
+        ("axiom: F\nF(x) --> F(sin(x, 2))", ("parameter-count", 2, 12, 3)),
+        ("axiom: F\nF(x) --> F(y)", ("unknown-name", 2, 12, 1)),
+        ("axiom: F\nF(x) --> F(x", ("missing", 2, 13, 0)),
+        ("axiom: F\nF(x) --> F(x*)", ("no-expression", 2, 14, 1)),
+        ("axiom: F\nF(x) --> F()x)", ("no-symbol", 2, 14, 1)),
+        ("axiom: F\nF(x) : x = 3 --> F(x)", ("assignment", 2, 10, 1)),
+        ("axiom: F\nF(x) : x > 3 and x < 5 --> F(x)", ("python", 2, 14, 3)),
+        ("axiom: F\nF(x) : not x --> F(x)", ("python", 2, 8, 3)),
+        ("axiom: F\nF(x, x) --> F(x)", ("twice", 2, 6, 1)),
+        ("axiom: F\nF(3) --> F", ("no-name", 2, 3, 1)),
+        ("axiom: F\nF -> FF", ("no-rule", 2, 1, 7)),
+        ("axiom: F\nF --> F --> F", ("two-arrows", 2, 9, 3)),
+        ("axiom: F\nF G --> F", ("predecessor", 2, 3, 2)),
+        ("axiom: F\n[ --> F", ("bracket", 2, 1, 1)),
+        ("axiom: F\nA < B < C --> F", ("bad-context", 2, 1, 10)),
+        ("axiom: F\nA[B] < F --> F", ("bad-context", 2, 1, 5)),
+        ("axiom: F\nF --> F2", ("no-symbol", 2, 8, 1)),
+        ("axiom: F\nF --> F ~ F", ("no-symbol", 2, 9, 1)),
+        ("axiom: F\naxiom: F", ("twice", 2, 1, 6)),
+        ("F --> F", ("no-axiom", 1, 1, 0)),
+        ("axiom: F\na = 1\na = 2", ("twice", 3, 1, 1)),
+        ("axiom: F\nslider: b 1 2", ("unknown-name", 2, 9, 1)),
+        ("axiom: F\na = 1\nslider: a 2 1", ("empty-range", 3, 9, 1)),
+        ("axiom: F\na = 5\nslider: a 1 2", ("out-of-range", 2, 1, 1)),
+        ("axiom: F\na = 1/0", ("out-of-range", 2, 1, 1)),
+        ("axiom: F\na = ran(1)", ("out-of-range", 2, 1, 1)),
+        ("axiom: F\nscale: 0", ("out-of-range", 2, 1, 6)),
+        ("axiom: F\nderivation length: 2.5", ("out-of-range", 2, 1, 18)),
+        ("axiom: F\nbuds: many", ("no-choice", 2, 7, 4)),
+        ("axiom: F\nfunc: f 0 1 0 2", ("bad-curve", 2, 7, 1)),
+        ("axiom: F(func(g, 1))", ("unknown-curve", 1, 15, 1)),
+        ("axiom: F\nmaximum depth: 3", ("misplaced", 2, 1, 14)),
+        ("axiom: F\nhomomorphism:\nA < F --> F", ("misplaced", 3, 1, 6)),
+        ("axiom: @R(1)", ("parameter-count", 1, 8, 2)),
+        ("axiom: F\nF --> F : 0\nF --> G : 0", ("no-probability", 2, 1, 11)),
+        ("axiom: F\nF --> (0.5) F : 0.5", ("twice", 2, 15, 5)),
+        ("axiom: F\nF --> F + a b\n1.5", ("no-rule", 3, 1, 3)),
+    ];
+    for (text, wanted) in cases {
+        if text.contains("a b") {
+            // Letters that do nothing are told as well.
+            assert!(told(text).iter().any(|one| (one.code, one.line, one.column, one.length) == wanted));
+            continue;
+        }
+        let errors: Vec<_> = told(text).into_iter().filter(|one| one.severity == Severity::Error).collect();
+        let first = errors.first().unwrap_or_else(|| panic!("nothing is told of {text}"));
+        assert_eq!((first.code, first.line, first.column, first.length), wanted, "{text}\n{errors:#?}");
+    }
+}
+
+#[test]
+fn what_is_near_is_offered() {
+    let hint = |text: &str| told(text).remove(0).hint;
+    assert_eq!(hint("axiom: F(sqr(4))").as_deref(), Some("did you mean sqrt?"));
+    assert_eq!(hint("angel = 3\naxiom: F(angle)").as_deref(), Some("did you mean angel?"));
+    assert_eq!(hint("axiom: F\nF -> G").as_deref(), Some("rules have the arrow -->"));
+    assert_eq!(told("axiom: F(light)"), [], "a function without parameters needs no parentheses");
+}
+
+#[test]
+fn other_languages_are_called_by_their_names() {
+    let cases = [
+        ("axiom: F\nfrom math import *", "python"),
+        ("axiom: F\ndef f(x): return x", "python"),
+        ("axiom: F\nA(x) :", "python"),
+        ("axiom: F\nif x > 3:", "python"),
+        ("axiom: F\nproduce F", "python"),
+        ("axiom: F\nStart: { x = 0; }", "cpfg-statements"),
+        ("axiom: F\nF(x) : { y = x; } y > 1 --> F", "cpfg-statements"),
+        ("axiom: F\n#include <x.h>", "c"),
+        ("axiom: F\ndouble x;", "c"),
+        ("axiom: F\ngroup 1:", "groups"),
+        ("axiom: F\nA << F --> F", "new-context"),
+    ];
+    for (text, wanted) in cases {
+        let found = told(text);
+        let is_told = |one: &Diagnostic| one.code == wanted && one.line == 2 && one.hint.is_some();
+        assert!(found.iter().any(is_told), "{text}\n{found:#?}");
+    }
+}
+
+#[test]
+fn one_mistake_does_not_hide_the_next() {
+    let text = "axiom: F(\nF --> F]\nscale: x\nG(a) --> G(b)\nA -> B";
+    let lines: Vec<u32> = told(text).iter().map(|one| one.line).collect();
+    assert_eq!(lines, [1, 2, 3, 4, 5]);
+    let many = "axiom: F\n".to_owned() + &"F --> ]\n".repeat(200);
+    assert_eq!(told(&many).len(), MAX_DIAGNOSTICS);
+}
+
+#[test]
+fn what_does_nothing_is_a_warning() {
+    let cases = [
+        ("axiom: FQ\nF --> F", ("does-nothing", 1, 9, 1)),
+        ("axiom: F~l\nF --> F", ("not-drawn", 1, 9, 2)),
+        ("axiom: F;\nF --> F", ("not-drawn", 1, 9, 1)),
+        ("axiom: F+F\nF --> F", ("no-angle", 1, 9, 1)),
+        ("axiom: A\nA --> F\nA --> G", ("never-fires", 3, 1, 7)),
+        ("axiom: A(1)\nA --> F", ("parameter-count", 1, 8, 1)),
+    ];
+    for (text, wanted) in cases {
+        assert_eq!(only(text), wanted, "{text}");
+        assert!(Grammar::read(text).is_ok(), "a warning hinders nobody: {text}");
+    }
+    // A rule behind one with a condition fires, and so do alternatives; contexts give letters a meaning.
+    let fine = "axiom: A(1)MB\nA(x) : x > 1 --> F\nA(x) --> F : 1\nA(x) --> G : 2\nM < B --> F";
+    assert_eq!(told(fine), []);
+}
+
+#[test]
+fn files_of_both_worlds_are_read() {
+    // As cpfg has them, and as L-Py does.
+    let cpfg = "Lsystem: 1\n#define STEPS 3\n#define r 0.5 /* how far */\nderivation length: STEPS\nignore: +-\n\
+        axiom: A(1)\nA(x) : x > 0.1 --> F(x)[+(30)A(x*r)]-(30)A(x*r) : 0.9\n\
+        A(x) : x > 0.1 --> F(x) : 0.1\nA(x) : * --> F(x)\nhomomorphism\nmaximum depth: 2\nF(x) : * --> !(x)F(x)\nendlsystem\nanything";
+    assert_eq!(told(cpfg), []);
+    let lpy = "module Apex, Leaf(1)\nr = 0.7 # ratio\nAxiom: Apex(1)\nderivation length: 4\nproduction:\n\
+        Apex(x) --> nF(x, 0.2)[/(90)&(30)Apex(x*r)]Leaf(x)\ninterpretation:\nmaximum depth: 2\nLeaf(x) --> [_(x)F(x**2)]\nendlsystem\n\
+        ###### INITIALISED BY L-PY ######\n__lpy_code_version__ = 1.1\n";
+    assert_eq!(told(lpy), []);
+}
