@@ -179,3 +179,38 @@ impl Symbols {
 pub(crate) fn turtle(symbol: Symbol) -> Option<&'static TurtleSymbol> {
     TURTLE.get(symbol as usize)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::functions::FUNCTIONS;
+
+    const PAGE: &str = include_str!("../../../docs/grammars.md");
+
+    #[test]
+    fn each_symbol_and_function_is_on_the_page() {
+        for row in TURTLE {
+            let name = if row.name == "|" { "\\|" } else { row.name };
+            let is_there = PAGE.contains(&format!("`{name}`")) || PAGE.contains(&format!("`{name}("));
+            assert!(is_there, "{} is not on the page", row.name);
+        }
+        for &(name, count, _) in FUNCTIONS {
+            let is_there =
+                PAGE.contains(&format!("`{name}(")) || (count == 0 && PAGE.contains(&format!("`{name}`")));
+            assert!(is_there, "{name} is not on the page");
+        }
+    }
+
+    #[test]
+    fn the_longest_name_wins() {
+        let mut symbols = Symbols::new();
+        symbols.declare("Apex");
+        symbols.declare("ApexB");
+        assert_eq!(symbols.longest("ApexBud"), Some("ApexB"));
+        assert_eq!(symbols.longest("@Dd(2)"), Some("@Dd"));
+        assert_eq!(
+            (symbols.number("["), symbols.number("]"), symbols.number("%")),
+            (Some(PUSH), Some(POP), Some(CUT))
+        );
+    }
+}

@@ -2,6 +2,7 @@
 
 mod bombs;
 mod chance;
+mod documented;
 mod environment;
 mod hostile;
 mod library;
