@@ -51,7 +51,6 @@ pub struct Derivation {
     phase: Phase,
     at: usize,
     machine: Machine,
-    frame: [f64; FRAME],
     /// Where the modules of the word stand, if the grammar asks.
     stands: Vec<Stand>,
     stopped: Option<Stop>,
@@ -75,7 +74,6 @@ impl Derivation {
             phase: Phase::Rest,
             at: 0,
             machine: Machine::new(),
-            frame: [0.0; FRAME],
             stands: Vec::new(),
             stopped: None,
         };
@@ -204,12 +202,11 @@ impl Derivation {
             }
             return Ok(Progress::Working);
         }
-        while self.at < end {
-            self.at = self.rewrite(program, self.at, surroundings)?;
-            if self.machine.work >= self.limits.work {
-                return Err(Stop::Work(self.limits.work));
-            }
-        }
+        // Taken out, so that what is read is not what is written.
+        let word = mem::take(&mut self.word);
+        let rewritten = self.rewrite_until(program, &word, end, surroundings);
+        self.word = word;
+        rewritten?;
         if self.at < self.word.len() {
             return Ok(Progress::Working);
         }
@@ -241,21 +238,43 @@ impl Derivation {
         reading.read(program, &self.word, self.at, surroundings, &mut NoPen)
     }
 
+    /// Rewrites a part of a word, and copies what has no rules in whole runs.
+    fn rewrite_until(
+        &mut self,
+        program: &Program,
+        word: &Word,
+        end: usize,
+        surroundings: &dyn Environment,
+    ) -> Result<(), Stop> {
+        let mut frame = [0.0; FRAME];
+        while self.at < end {
+            let run = word.run(self.at..end, &program.active);
+            if run > 0 {
+                self.next.extend_from(word, self.at..self.at + run, &self.limits)?;
+                self.at += run;
+                continue;
+            }
+            self.at = self.rewrite(program, word, &mut frame, surroundings)?;
+            if self.machine.work >= self.limits.work {
+                return Err(Stop::Work(self.limits.work));
+            }
+        }
+        Ok(())
+    }
+
     /// Rewrites or copies a module; returns which is next.
     fn rewrite(
         &mut self,
         program: &Program,
-        at: usize,
+        word: &Word,
+        frame: &mut [f64; FRAME],
         surroundings: &dyn Environment,
     ) -> Result<usize, Stop> {
-        let tag = self.word.tag(at);
-        let candidates = program.rules.of(tag.symbol);
-        let stays_plain = program.decomposition.of(tag.symbol).is_empty();
-        if matches!(tag.symbol, PUSH | POP) || (candidates.is_empty() && stays_plain) {
-            self.copy(at, tag)?;
-            return Ok(if tag.symbol == CUT { self.end_of_branch(at) } else { at + 1 });
-        }
-        let stand = self.stands.get(at).copied();
+        let at = self.at;
+        let tag = word.tag(at);
+        let parameters = word.parameters(at);
+        let stand = self.stands.get(at);
+        let stand = stand.copied();
         let now = self.time(self.coming);
         let lifespan = program.lifespans.get(tag.symbol as usize).copied().flatten();
         let mut moment = Moment {
@@ -270,34 +289,29 @@ impl Derivation {
             curves: &program.curves,
         };
         let is_due = lifespan.is_none_or(|lifespan| is_over(now - tag.time, lifespan));
-        let count = self.word.parameters(at).len();
-        let found = if is_due { self.find(program, at, candidates, &mut moment)? } else { None };
+        let found = if is_due { self.find(program, word, frame, &mut moment)? } else { None };
         let Some((rule, is_framed)) = found else {
-            let mut values = [0.0; MOST_PARAMETERS];
-            values[..count].copy_from_slice(self.word.parameters(at));
-            self.emit(program, tag, &values[..count], 0, &mut moment)?;
-            return Ok(if tag.symbol == CUT { self.end_of_branch(at) } else { at + 1 });
+            self.emit(program, tag, parameters, 0, &mut moment)?;
+            return Ok(if tag.symbol == CUT { end_of_branch(word, at) } else { at + 1 });
         };
-        let mut frame = self.frame;
-        if !is_framed {
-            frame[..count].copy_from_slice(self.word.parameters(at));
-        }
         let time = lifespan.map_or(now, |lifespan| tag.time + lifespan);
-        self.produce(program, rule, tag, &frame, Firing { time, pass: 0 }, &mut moment)?;
+        let frame = if is_framed { &frame[..] } else { parameters };
+        self.produce(program, rule, tag, frame, Firing { time, pass: 0 }, &mut moment)?;
         Ok(at + 1)
     }
 
-    /// The rule that acts on a module, and whether its parameters are in the frame.
+    /// The rule that acts on the next module, and whether parameters are in the frame.
     fn find<'a>(
         &mut self,
         program: &'a Program,
-        at: usize,
-        candidates: &[u32],
+        word: &Word,
+        frame: &mut [f64; FRAME],
         moment: &mut Moment<'_>,
     ) -> Result<Option<(&'a Production, bool)>, Stop> {
+        let at = self.at;
         let rules = &program.rules.rules;
-        let parameters = self.word.parameters(at);
-        for &number in candidates {
+        let parameters = word.parameters(at);
+        for &number in program.rules.of(word.symbol(at)) {
             let rule = &rules[number as usize];
             if usize::from(rule.arity) != parameters.len() || rule.is_later {
                 continue;
@@ -309,21 +323,15 @@ impl Derivation {
                 }
                 continue;
             }
-            let mut contexts = Contexts {
-                word: &self.word,
-                program,
-                frame: &mut self.frame,
-                work: &mut self.machine.work,
-                most: self.limits.work,
-            };
+            let mut contexts =
+                Contexts { word, program, frame, work: &mut self.machine.work, most: self.limits.work };
             if !contexts.lie_below(at, &rule.left) || contexts.lie_above(at + 1, &rule.right).is_none() {
                 continue;
             }
             let own = usize::from(rule.own);
-            self.frame[own..own + parameters.len()].copy_from_slice(parameters);
-            let frame = self.frame;
-            if holds(&mut self.machine, rule, &frame, moment)? {
-                let rule = draw(&mut self.machine, rule, rules, &frame, moment)?;
+            frame[own..own + parameters.len()].copy_from_slice(parameters);
+            if holds(&mut self.machine, rule, frame, moment)? {
+                let rule = draw(&mut self.machine, rule, rules, frame, moment)?;
                 return Ok(Some((rule, true)));
             }
         }
@@ -340,13 +348,15 @@ impl Derivation {
         firing: Firing,
         moment: &mut Moment<'_>,
     ) -> Result<(), Stop> {
-        let keys = Products::of_rule(of.key, self.coming, firing.pass);
+        // Most modules that only change are all that they become, and need no keys.
+        let is_heir_alone = rule.heir.is_some() && rule.products.len() == 1;
+        let keys = (!is_heir_alone).then(|| Products::of_rule(of.key, self.coming, firing.pass));
         let born = self.coming;
         for (number, product) in rule.products.iter().enumerate() {
             let is_heir = rule.heir == Some(number);
             let tag = Tag {
                 symbol: product.symbol,
-                key: if is_heir { of.key } else { keys.key(number) },
+                key: keys.filter(|_| !is_heir).map_or(of.key, |keys| keys.key(number)),
                 born: if is_heir { of.born } else { born },
                 time: firing.time,
             };
@@ -433,26 +443,20 @@ impl Derivation {
         }
         self.produce(program, rule, tag, parameters, firing, moment)
     }
+}
 
-    fn copy(&mut self, at: usize, tag: Tag) -> Result<(), Stop> {
-        self.next.push(tag, &self.limits)?;
-        self.next.push_parameters(self.word.parameters(at));
-        Ok(())
-    }
-
-    /// Where the branch ends that a module lies in.
-    fn end_of_branch(&self, at: usize) -> usize {
-        let mut open = 0;
-        for at in at + 1..self.word.len() {
-            match self.word.symbol(at) {
-                PUSH => open += 1,
-                POP if open == 0 => return at,
-                POP => open -= 1,
-                _ => {}
-            }
+/// Where the branch ends that a module lies in.
+fn end_of_branch(word: &Word, from: usize) -> usize {
+    let mut open = 0;
+    for at in from + 1..word.len() {
+        match word.symbol(at) {
+            PUSH => open += 1,
+            POP if open == 0 => return at,
+            POP => open -= 1,
+            _ => {}
         }
-        self.word.len()
     }
+    word.len()
 }
 
 /// When rules have acted on a module in a step.

@@ -11,8 +11,8 @@ const DRAW: u64 = 5;
 
 fn hash(purpose: u64, words: [u64; 2]) -> StableHash {
     let mut hash = StableHash::default();
-    hash.word(purpose);
-    words.into_iter().for_each(|word| hash.word(word));
+    hash.word(words[0].wrapping_add(purpose << 60));
+    hash.word(words[1]);
     hash
 }
 

@@ -6,7 +6,7 @@ use crate::{
     grammar::{Ahead, Buds, Curve, Grammar, Module, Neighbour, Radii, Rule, Slider},
     review::are_alternatives,
     source::Span,
-    symbols::{Action, Symbol, turtle},
+    symbols::{Action, CUT, Symbol, turtle},
     word::Columns,
 };
 
@@ -101,6 +101,8 @@ pub struct Program {
     pub(crate) decomposition_depth: u32,
     pub(crate) curves: Vec<Curve>,
     pub(crate) passed_over: Vec<bool>,
+    /// By symbol: whether rules may act on it, or it acts on what follows it.
+    pub(crate) active: Vec<bool>,
     /// Lifespans by symbol; empty where no rule waits.
     pub(crate) lifespans: Vec<Option<f64>>,
     pub(crate) columns: Columns,
@@ -267,6 +269,7 @@ impl Program {
             decomposition_depth: grammar.decomposition_depth.into(),
             curves: curves.clone(),
             passed_over: passed_over(grammar),
+            active: active(grammar),
             columns: Columns { mates: has_contexts, times: !lifespans.is_empty() },
             lifespans,
             asks_places: asks_places(grammar),
@@ -294,6 +297,15 @@ fn passed_over(grammar: &Grammar) -> Vec<bool> {
         !is_seen || grammar.ignored.contains(&symbol)
     };
     (0..grammar.symbols.len() as Symbol).map(is_passed).collect()
+}
+
+fn active(grammar: &Grammar) -> Vec<bool> {
+    let mut active = vec![false; grammar.symbols.len()];
+    active[CUT as usize] = true;
+    for rule in grammar.rules.iter().chain(&grammar.decomposition) {
+        active[rule.symbol as usize] = true;
+    }
+    active
 }
 
 fn sets_widths(grammar: &Grammar) -> bool {

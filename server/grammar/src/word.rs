@@ -1,5 +1,7 @@
 //! Words: modules in columns.
 
+use std::ops::Range;
+
 use crate::{
     grammar::Grammar,
     limits::{Limits, Stop},
@@ -149,22 +151,65 @@ impl Word {
         if self.columns.mates {
             self.mates.push(at as u32);
         }
-        match tag.symbol {
-            PUSH => {
-                if self.open.len() >= limits.nesting {
-                    return Err(Stop::Nesting(limits.nesting));
-                }
-                self.open.push(at as u32);
+        if tag.symbol <= POP { self.pair(at, tag.symbol, limits) } else { Ok(()) }
+    }
+
+    /// How many modules from the first of some on are not among those that rules act on.
+    pub(crate) fn run(&self, within: Range<usize>, active: &[bool]) -> usize {
+        let symbols = &self.symbols[within];
+        symbols.iter().position(|&symbol| active[symbol as usize]).unwrap_or(symbols.len())
+    }
+
+    /// Appends modules of another word as they are.
+    pub(crate) fn extend_from(
+        &mut self,
+        other: &Self,
+        run: Range<usize>,
+        limits: &Limits,
+    ) -> Result<(), Stop> {
+        let begin = self.symbols.len();
+        if begin + run.len() > limits.modules {
+            return Err(Stop::Modules(limits.modules));
+        }
+        let from = other.first[run.start] as usize;
+        let to = other.first.get(run.end).map_or(other.parameters.len(), |&end| end as usize);
+        if self.parameters.len() + (to - from) > limits.parameters {
+            return Err(Stop::Parameters(limits.parameters));
+        }
+        let moved = (self.parameters.len() as u32).wrapping_sub(from as u32);
+        self.symbols.extend_from_slice(&other.symbols[run.clone()]);
+        self.first.extend(other.first[run.clone()].iter().map(|first| first.wrapping_add(moved)));
+        self.keys.extend_from_slice(&other.keys[run.clone()]);
+        self.born.extend_from_slice(&other.born[run.clone()]);
+        self.parameters.extend_from_slice(&other.parameters[from..to]);
+        if self.columns.times {
+            self.times.extend_from_slice(&other.times[run.clone()]);
+        }
+        if self.columns.mates {
+            self.mates.extend(begin as u32..(begin + run.len()) as u32);
+        }
+        for (at, &symbol) in (begin..).zip(&other.symbols[run]) {
+            if symbol <= POP {
+                self.pair(at, symbol, limits)?;
             }
-            POP => {
-                // Strings are balanced when they are read, and so is what is put together from them.
-                let begun = self.open.pop().unwrap_or(at as u32);
-                if self.columns.mates {
-                    self.mates[at] = begun;
-                    self.mates[begun as usize] = at as u32;
-                }
+        }
+        Ok(())
+    }
+
+    /// Notes a bracket.
+    fn pair(&mut self, at: usize, symbol: Symbol, limits: &Limits) -> Result<(), Stop> {
+        if symbol == PUSH {
+            if self.open.len() >= limits.nesting {
+                return Err(Stop::Nesting(limits.nesting));
             }
-            _ => {}
+            self.open.push(at as u32);
+            return Ok(());
+        }
+        // Strings are balanced when they are read, and so is what is put together from them.
+        let begun = self.open.pop().unwrap_or(at as u32);
+        if self.columns.mates {
+            self.mates[at] = begun;
+            self.mates[begun as usize] = at as u32;
         }
         Ok(())
     }

@@ -9,6 +9,7 @@ pub mod command;
 pub mod document;
 pub mod frame;
 pub mod gltf;
+pub mod grammar;
 pub mod journal;
 pub mod mesh;
 pub mod message;
@@ -35,11 +36,12 @@ pub struct Target {
 }
 
 /// All readers.
-pub const TARGETS: [Target; 16] = [
+pub const TARGETS: [Target; 17] = [
     Target { name: "command", read: command::read, seeds: command::seeds },
     Target { name: "document", read: document::read, seeds: document::seeds },
     Target { name: "frame", read: frame::read, seeds: frame::seeds },
     Target { name: "gltf", read: gltf::read, seeds: gltf::seeds },
+    Target { name: "grammar", read: grammar::read, seeds: grammar::seeds },
     Target { name: "journal", read: journal::read, seeds: journal::seeds },
     Target { name: "mesh", read: mesh::read, seeds: mesh::seeds },
     Target { name: "message", read: message::read, seeds: message::seeds },
