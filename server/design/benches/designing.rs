@@ -1,0 +1,79 @@
+//! What designing costs: a limb that changes, and a whole tree of 10,000 internodes.
+
+use std::{hint::black_box, time::Instant};
+
+use espalier_design::{
+    Curve, Design, Edit, Function, Generator, Held, Key, MAX_INTERNODES, NodeId, Owner, Setting, Value,
+};
+use glam::Vec3;
+
+const ROUNDS: usize = 31;
+
+fn main() {
+    let design = tree();
+    let mut generator = Generator::default();
+    let whole = generator.generate(&design, MAX_INTERNODES);
+    let limb = &whole.limbs[0];
+    println!(
+        "{} branches, {} internodes, {} of them on limb {}       best    median, ms",
+        design.root().count(),
+        whole.wood.nodes.len(),
+        limb.1.len(),
+        limb.0
+    );
+    let limb = limb.0;
+    let bends = [curve(0.2), curve(0.3)];
+    let mut round = 0;
+    let mut design = design;
+    measure("a limb: bent, and all rows", || {
+        round += 1;
+        set(&mut design, limb, Key::Axis, bends[round % 2].clone());
+        generator.generate(&design, MAX_INTERNODES)
+    });
+    measure("a limb: bent, values alone", || {
+        round += 1;
+        set(&mut design, limb, Key::Axis, bends[round % 2].clone());
+    });
+    measure("the whole tree: bent, and all rows", || {
+        round += 1;
+        set(&mut design, NodeId::ROOT, Key::Axis, bends[round % 2].clone());
+        generator.generate(&design, MAX_INTERNODES)
+    });
+    measure("the whole tree: bent, values alone", || {
+        round += 1;
+        set(&mut design, NodeId::ROOT, Key::Axis, bends[round % 2].clone());
+    });
+    let wood = generator.generate(&design, MAX_INTERNODES).wood;
+    let parameters = espalier_growth::Parameters::default();
+    measure("a plant of that wood, with buds", || espalier_growth::transplant(&wood, &parameters));
+}
+
+/// About 10,000 internodes.
+fn tree() -> Design {
+    let mut design = Design::default();
+    set(&mut design, NodeId::ROOT, Key::Height, Held::new(Value::Scalar(70.0)));
+    set(&mut design, NodeId::ROOT, Key::Density, Held::new(Value::Function(Function::constant(14.0))));
+    design
+}
+
+fn curve(bend: f32) -> Held {
+    let curve = Curve::new(&[Vec3::ZERO, Vec3::new(bend, 0.4, 0.1), Vec3::Y]).expect("it is a curve");
+    Held::new(Value::Curve(curve))
+}
+
+fn set(design: &mut Design, node: NodeId, key: Key, value: Held) {
+    let edit = Edit::Set { owner: Owner::Node(node), key, setting: Setting::own(value) };
+    design.apply(&edit).expect("it is allowed");
+}
+
+fn measure<T>(what: &str, mut run: impl FnMut() -> T) {
+    let mut times: Vec<_> = (0..ROUNDS)
+        .map(|_| {
+            let start = Instant::now();
+            black_box(run());
+            start.elapsed().as_secs_f64() * 1e3
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    println!("{what:<50} {:>8.3} {:>8.3}", times[0], times[ROUNDS / 2]);
+}

@@ -1,0 +1,10 @@
+//! Designs from outside: what edits do to values, and what wood follows.
+#![allow(clippy::disallowed_methods, reason = "expected figures are compared within a tolerance")]
+
+mod edits;
+mod generation;
+mod identity;
+mod lives;
+mod refusals;
+mod resolution;
+mod said;
