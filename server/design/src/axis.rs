@@ -30,7 +30,7 @@ const THINNEST: f32 = 0.01;
 /// A branch that would have fewer internodes is none.
 const LEAST_INTERNODES: f32 = 1.5;
 /// Length of a branch that begins outside its bearer's outline, in internodes.
-const OUTSIDE: f32 = 2.0;
+pub(crate) const OUTSIDE: f32 = 2.0;
 
 /// Where a branch stands, and how large it is: what its silhouette and its axis are drawn by.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,8 +49,8 @@ pub struct Placed {
     pub t: f32,
     /// Whether it begins outside its bearer's outline, and so has no size from it.
     pub is_outside: bool,
-    /// Whether its order is the last one, which bears leaves.
-    pub is_last: bool,
+    /// Where on its axis the highest of its branches stands; leaves stand above.
+    pub leafy_from: f32,
     /// Its values.
     pub values: Arc<Table>,
 }
@@ -74,7 +74,7 @@ impl Placed {
 
     /// Leaves at an internode at place t.
     pub fn leaves(&self, t: f32) -> f32 {
-        if self.is_last { self.values.function(Key::Leaves).at(t) } else { 0.0 }
+        if t > self.leafy_from { self.values.function(Key::Leaves).at(t) } else { 0.0 }
     }
 
     /// Its radius at place t.
@@ -95,12 +95,12 @@ pub(crate) fn stem(root: &Branch) -> Placed {
     Placed {
         node: root.id(),
         base: Vec3::ZERO,
-        frame: rolled(tip, values.scalar(Key::Roll)),
+        frame: tip,
         length: values.scalar(Key::Height) * values.scalar(Key::Reach),
         radius: values.scalar(Key::Stem),
         t: 0.0,
         is_outside: false,
-        is_last: values.scalar(Key::Orders) < 1.0,
+        leafy_from: 0.0,
         values: values.clone(),
     }
 }
@@ -120,6 +120,8 @@ pub(crate) struct Laid<'a> {
     pub nodes: Vec<Node>,
     /// Laterals in order, each with the number of its node.
     pub laterals: Vec<(&'a Branch, usize)>,
+    /// Branches that are not there, because they or their place were cut away.
+    pub cut_away: usize,
 }
 
 /// Lays an axis down.
@@ -129,33 +131,23 @@ pub(crate) fn lay<'a>(branch: &'a Branch, placed: &Placed, seed: u32) -> Laid<'a
     let irregularity = values.scalar(Key::Irregularity);
     let course = curve.length() * placed.length;
     let internode = values.scalar(Key::Internode);
-    let bend = Chance::new(seed, placed.node, Purpose::Bend);
-    let at = |t: f32| {
-        let mut place = curve.at(t);
-        if irregularity > 0.0 {
-            for wave in 0..WAVES {
-                let n = (wave + 1) as f32;
-                let rise = libm::sinf(core::f32::consts::PI * n * t) * irregularity * BEND / n;
-                place.x += rise * bend.signed(2 * wave);
-                place.z += rise * bend.signed(2 * wave + 1);
-            }
-        }
-        placed.base + placed.frame * (place * placed.length)
-    };
+    let at = |t: f32| placed.base + placed.frame * ((curve.at(t) + waves(placed, seed, t)) * placed.length);
     // The axis is cut where laterals stand, and then into internodes.
     let nearest = ONE_NODE * internode / course;
+    let mut laid = Laid { nodes: Vec::new(), laterals: Vec::new(), cut_away: 0 };
     let mut stops: Vec<(f32, Option<usize>)> = Vec::new();
     for (number, lateral) in branch.laterals().iter().enumerate() {
         let t = moved(branch, number, irregularity, seed).max(nearest);
         if t <= cut && lateral.values().scalar(Key::Shown) > 0.0 {
             stops.push((t, Some(number)));
+        } else {
+            laid.cut_away += lateral.count();
         }
     }
     stops.sort_by(|a, b| a.0.total_cmp(&b.0));
     stops.push((cut, None));
     let side = placed.frame.x_axis;
     let mut last = Node { place: placed.base, t: 0.0, heading: placed.frame.y_axis, side };
-    let mut laid = Laid { nodes: Vec::new(), laterals: Vec::new() };
     for (t, lateral) in stops {
         if t - last.t >= nearest || (lateral.is_none() && laid.nodes.is_empty()) {
             let pieces = ((t - last.t) * course / internode - 1e-3).ceil().max(1.0);
@@ -183,6 +175,22 @@ pub(crate) fn lay<'a>(branch: &'a Branch, placed: &Placed, seed: u32) -> Laid<'a
         }
     }
     laid
+}
+
+/// How far chance bends an axis at a place, in its frame and in its lengths.
+pub(crate) fn waves(placed: &Placed, seed: u32, t: f32) -> Vec3 {
+    let irregularity = placed.values.scalar(Key::Irregularity);
+    let mut off = Vec3::ZERO;
+    if irregularity == 0.0 {
+        return off;
+    }
+    let bend = Chance::new(seed, placed.node, Purpose::Bend);
+    for wave in 0..WAVES {
+        let n = (wave + 1) as f32;
+        let rise = libm::sinf(core::f32::consts::PI * n * t) * irregularity * BEND / n;
+        off += Vec3::new(bend.signed(2 * wave), 0.0, bend.signed(2 * wave + 1)) * rise;
+    }
+    off
 }
 
 /// Where a lateral stands, chance included.
@@ -217,7 +225,7 @@ pub(crate) fn place(lateral: &Branch, bearer: &Placed, node: &Node, seed: u32) -
         radius: (values.scalar(Key::Girth) * bearer.radius_at(node.t)).max(THINNEST),
         t: node.t,
         is_outside,
-        is_last: f32::from(lateral.id().order()) >= values.scalar(Key::Orders),
+        leafy_from: 0.0,
         values: values.clone(),
     };
     (placed.course() >= LEAST_INTERNODES * values.scalar(Key::Internode)).then_some(placed)

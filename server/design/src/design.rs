@@ -36,6 +36,18 @@ impl Default for Design {
 }
 
 impl Design {
+    /// The design of a graph; slots that do not fit the laterals that there are now are laid out anew.
+    pub(crate) fn of(mut graph: Graph) -> Result<Self, Refusal> {
+        let root =
+            resolve(&mut graph, &mut Patch::default()).map_err(|Overgrown| Refusal::TooManyBranches)?;
+        Ok(Self { graph, root })
+    }
+
+    /// The graph, to change, and its branches, which do not follow.
+    pub(crate) fn parts(&mut self) -> (&mut Graph, &Branch) {
+        (&mut self.graph, &self.root)
+    }
+
     /// What was said.
     pub fn graph(&self) -> &Graph {
         &self.graph

@@ -9,9 +9,11 @@ pub const RADII: (f32, f32) = (0.02, 4.0);
 /// The least and the greatest coefficient of shape.
 pub const SHAPES: (f32, f32) = (0.2, 8.0);
 /// How far a coordinate may lie from the origin.
-const FARTHEST: f32 = 4.0;
+pub(crate) const FARTHEST: f32 = 4.0;
 /// How far the periphery stays below the top and above the bottom.
 const LEAST_HEIGHT: f32 = 0.01;
+/// Most steps of the search for the surface.
+const MOST_STEPS: usize = 64;
 /// Top and bottom stand within this share of the periphery.
 const INNER: f32 = 0.98;
 
@@ -117,27 +119,32 @@ impl Envelope {
         if near.1 <= 0.0 {
             return None;
         }
-        let mut far = (0.25, self.depth(from + direction * 0.25));
+        // An envelope need not be convex: small steps find where the ray leaves it first.
+        let mut far = (0.03, self.depth(from + direction * 0.03));
         while far.1 > 0.0 {
             near = far;
             // Nothing of an envelope is farther from anything else of it than its bounds are from one another.
             if far.0 > 32.0 {
                 return Some(far.0);
             }
-            let next = far.0 * 1.6;
+            let next = far.0 * 1.3;
             far = (next, self.depth(from + direction * next));
         }
-        // The rule of false position, with the value of an end that stays halved (Illinois).
+        // The rule of false position, with the value of an end that stays halved (Illinois), and now and then a plain
+        // half, for at spires the surface is too steep for that rule.
         let mut moved_near = None;
-        for _ in 0..24 {
-            let middle = (near.0 * far.1 - far.0 * near.1) / (far.1 - near.1);
+        for step in 1..=MOST_STEPS {
+            let middle = match step % 4 {
+                0 => (near.0 + far.0) * 0.5,
+                _ => (near.0 * far.1 - far.0 * near.1) / (far.1 - near.1),
+            };
             let depth = self.depth(from + direction * middle);
             let moves_near = depth > 0.0;
             match moves_near {
                 true => near = (middle, depth),
                 false => far = (middle, depth),
             }
-            if far.0 - near.0 < 1e-4 || depth.abs() < 1e-5 {
+            if far.0 - near.0 < 1e-4 {
                 return Some(middle);
             }
             if moved_near == Some(moves_near) {

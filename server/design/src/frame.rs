@@ -47,6 +47,16 @@ pub(crate) fn turned(vector: Vec3, by: Vec3) -> Vec3 {
     vector * cos + axis.cross(vector) * sin + axis * (axis.dot(vector) * (1.0 - cos))
 }
 
+/// The rotation vector in degrees that turns one unit vector into another by the shorter arc.
+pub(crate) fn turn_between(from: Vec3, to: Vec3) -> Vec3 {
+    let across = from.cross(to);
+    let (sin, cos) = (across.length(), from.dot(to));
+    if sin < 1e-6 {
+        return if cos > 0.0 { Vec3::ZERO } else { upward(from, Vec3::X).x_axis * 180.0 };
+    }
+    across / sin * libm::atan2f(sin, cos).to_degrees()
+}
+
 /// Turns `vector` the way that turns the unit vector `from` into the unit vector `to`, and squares it with `to`.
 pub(crate) fn transported(vector: Vec3, from: Vec3, to: Vec3) -> Vec3 {
     let cos = from.dot(to);
@@ -77,6 +87,12 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn a_turn_leads_from_one_direction_to_the_other(from in unit(), to in unit()) {
+            prop_assert!(turned(from, turn_between(from, to)).distance(to) < 1e-4);
+            prop_assert!(turned(from, turn_between(from, -from)).distance(-from) < 1e-4);
+        }
+
         #[test]
         fn frames_are_square(direction in unit(), other in unit(), degrees in -360.0f32..360.0) {
             for frame in [upward(direction, other), rolled(upward(direction, other), degrees)] {

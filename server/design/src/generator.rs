@@ -43,6 +43,8 @@ pub struct Generated {
 pub struct Missing {
     /// They would be shorter than one and a half internodes.
     pub too_short: usize,
+    /// They, or the places where they stood, were cut away.
+    pub cut_away: usize,
     /// The plant would have more internodes than it may.
     pub left_out: usize,
 }
@@ -52,16 +54,18 @@ impl Generator {
     /// orders first, and counted.
     pub fn generate(&mut self, design: &Design, budget: usize) -> Generated {
         let seed = design.graph().seed();
-        let placed = stem(design.root());
-        let Laid { mut nodes, laterals } = lay(design.root(), &placed, seed);
-        let mut missing = Missing::default();
+        let mut placed = stem(design.root());
+        let Laid { mut nodes, laterals, cut_away } = lay(design.root(), &placed, seed);
+        let mut missing = Missing { cut_away, ..Missing::default() };
         if nodes.len() > budget {
             nodes.truncate(budget);
-            missing.left_out += design.root().count() - 1;
+            missing.left_out += laterals
+                .iter()
+                .filter(|(_, node)| *node >= budget)
+                .map(|(limb, _)| limb.count())
+                .sum::<usize>();
         }
         let mut left = budget - nodes.len();
-        let mut stem = Rows::default();
-        stem.push(BEARER, &placed, &nodes);
         let mut kept = BTreeMap::new();
         let mut renewed = Vec::new();
         let mut order = Vec::new();
@@ -72,10 +76,9 @@ impl Generator {
                 continue;
             };
             let stamp = stamp(limb, &of_limb, seed);
-            let known = self
-                .limbs
-                .remove(&limb.id())
-                .filter(|(known, rows)| *known == stamp && rows.left_out == 0 && rows.nodes.len() <= left);
+            let known = self.limbs.remove(&limb.id()).filter(|(known, rows)| {
+                *known == stamp && rows.missing.left_out == 0 && rows.nodes.len() <= left
+            });
             let rows = known.map_or_else(
                 || {
                     renewed.push(limb.id());
@@ -84,12 +87,16 @@ impl Generator {
                 |(_, rows)| rows,
             );
             left -= rows.nodes.len();
-            missing.too_short += rows.too_short;
-            missing.left_out += rows.left_out;
+            placed.leafy_from = placed.leafy_from.max(at.t);
+            missing.too_short += rows.missing.too_short;
+            missing.cut_away += rows.missing.cut_away;
+            missing.left_out += rows.missing.left_out;
             // Rows of the stem stand behind that of the seed.
             order.push((limb.id(), node as u32 + 1));
             kept.insert(limb.id(), (stamp, rows));
         }
+        let mut stem = Rows::default();
+        stem.push(BEARER, &placed, &nodes);
         self.limbs = kept;
         let limbs: Vec<_> = order
             .into_iter()

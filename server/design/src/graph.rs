@@ -236,6 +236,16 @@ impl Graph {
             .find_map(|owner| Some((owner, self.records.get(&owner)?.settings.get(&key)?)))
     }
 
+    /// All that a branch says itself, or its level says for it.
+    pub(crate) fn said(&self, node: NodeId) -> impl Iterator<Item = (Key, &Setting)> {
+        let own = self.records.get(&Owner::Node(node));
+        let level = Level::new(node.order()).and_then(|level| self.records.get(&Owner::Level(level)));
+        let is_own = move |key: &Key| own.is_some_and(|own| own.settings.contains_key(key));
+        let of_level =
+            level.into_iter().flat_map(|level| &level.settings).filter(move |(key, _)| !is_own(key));
+        own.into_iter().flat_map(|own| &own.settings).chain(of_level).map(|(&key, setting)| (key, setting))
+    }
+
     /// Whether something was said of a branch or of what it bears, so that it must not be lost.
     pub fn is_personal(&self, node: NodeId) -> bool {
         let (from, to) = (*node.subtree().start(), *node.subtree().end());

@@ -73,7 +73,7 @@ keys! {
     Cut = "cut": Scalar, (0.0, 1.0), "", false, Value::Scalar(1.0);
     /// Turn of the branch about its base, as a vector along whose direction it turns, in the bearer's frame.
     Turn = "turn": Vector, (-180.0, 180.0), "degrees", false, Value::Vector(Vec3::ZERO);
-    /// Turn of the branch about its own axis.
+    /// Turn of a branch about its own axis; the stem does not turn.
     Roll = "roll": Scalar, (-360.0, 360.0), "degrees", false, Value::Scalar(0.0);
     /// Where all branches are drawn to: 1 weighs as much as their own direction; Y is up.
     Pull = "pull": Vector, (-8.0, 8.0), "", false, Value::Vector(Vec3::ZERO);
@@ -99,7 +99,7 @@ keys! {
     Girth = "girth": Scalar, (0.02, 1.5), "", false, Value::Scalar(0.55);
     /// Radius along the axis as a share of that at its base.
     Taper = "taper": Function, (0.02, 1.5), "", false, Value::Function(Function::line(1.0, 0.25));
-    /// Leaves at each internode of axes of the last order.
+    /// Leaves at each internode above the highest branch of an axis.
     Leaves = "leaves": Function, (0.0, 16.0), "leaves an internode", false, Value::Function(Function::constant(3.0));
     /// Size of leaves as a multiple of the document's.
     LeafSize = "leaf_size": Scalar, (0.05, 8.0), "", false, Value::Scalar(1.0);

@@ -6,15 +6,18 @@
 //! it. Lengths are in internodes, Y is up, angles are in degrees.
 
 mod axis;
+mod block;
 mod chance;
 mod curve;
 mod design;
 mod edit;
 mod envelope;
+mod file;
 mod frame;
 mod function;
 mod generator;
 mod graph;
+pub mod hands;
 mod key;
 mod limb;
 mod node;
@@ -28,10 +31,12 @@ mod table;
 mod value;
 
 pub use axis::Placed;
+pub use block::{Block, Seal};
 pub use curve::Curve;
 pub use design::{Applied, Design};
 pub use edit::{Edit, Standing, relative_range};
 pub use envelope::{Envelope, Half};
+pub use file::{MOST_BYTES, VERSION};
 pub use function::Function;
 pub use generator::{Generated, Generator, MAX_INTERNODES, Missing};
 pub use graph::{From, Graph, Level, Name, Owner, Record, Setting, Share, ShareId, Source, Visibility};

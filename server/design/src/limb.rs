@@ -6,6 +6,7 @@ use espalier_plant::{WoodAxis, WoodNode, hash::StableHash};
 
 use crate::{
     axis::{Laid, Node, Placed, lay, place},
+    generator::Missing,
     key::Key,
     resolution::Branch,
 };
@@ -22,10 +23,8 @@ pub(crate) struct Rows {
     pub places: Vec<f32>,
     /// Of each axis, how it stands.
     pub placed: Vec<Placed>,
-    /// Branches too short to be seen.
-    pub too_short: usize,
-    /// Branches for which the budget had no room.
-    pub left_out: usize,
+    /// Branches that are no wood.
+    pub missing: Missing,
 }
 
 impl Rows {
@@ -71,24 +70,28 @@ pub(crate) fn stamp(limb: &Branch, placed: &Placed, seed: u32) -> u64 {
 pub(crate) fn grow(limb: &Branch, placed: Placed, seed: u32, budget: usize) -> Rows {
     let mut rows = Rows::default();
     let mut waiting = VecDeque::from([(limb, placed, BEARER)]);
-    while let Some((branch, placed, bearer)) = waiting.pop_front() {
-        let Laid { nodes, laterals } = lay(branch, &placed, seed);
+    while let Some((branch, mut placed, bearer)) = waiting.pop_front() {
+        let Laid { nodes, laterals, cut_away } = lay(branch, &placed, seed);
         if nodes.is_empty() {
-            rows.too_short += branch.count();
+            rows.missing.too_short += branch.count();
             continue;
         }
         if rows.nodes.len() + nodes.len() > budget {
-            rows.left_out += branch.count();
+            rows.missing.left_out += branch.count();
             continue;
         }
+        rows.missing.cut_away += cut_away;
         let first = rows.nodes.len();
-        rows.push(bearer, &placed, &nodes);
         for (lateral, node) in laterals {
             match place(lateral, &placed, &nodes[node], seed) {
-                Some(placed) => waiting.push_back((lateral, placed, (first + node) as u32)),
-                None => rows.too_short += lateral.count(),
+                Some(of_lateral) => {
+                    placed.leafy_from = placed.leafy_from.max(of_lateral.t);
+                    waiting.push_back((lateral, of_lateral, (first + node) as u32));
+                }
+                None => rows.missing.too_short += lateral.count(),
             }
         }
+        rows.push(bearer, &placed, &nodes);
     }
     rows
 }

@@ -121,8 +121,8 @@ pub(crate) struct Tables {
 
 /// The tables of a branch, from what its bearer passes on and what comes from beneath on the same axis.
 pub(crate) fn tables(graph: &Graph, node: NodeId, bearer: &Arc<Table>, along: &Arc<Table>) -> Tables {
-    let said: Vec<_> = Key::all().filter_map(|key| Some((key, graph.setting(node, key)?.1))).collect();
-    if said.is_empty() {
+    let mut said = graph.said(node).peekable();
+    if said.peek().is_none() {
         return Tables { mine: bearer.clone(), pass: bearer.clone(), along: bearer.clone() };
     }
     let (mut mine, mut pass, mut next) =

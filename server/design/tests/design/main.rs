@@ -2,7 +2,9 @@
 #![allow(clippy::disallowed_methods, reason = "expected figures are compared within a tolerance")]
 
 mod edits;
+mod files;
 mod generation;
+mod hands;
 mod identity;
 mod lives;
 mod refusals;

@@ -1,0 +1,11 @@
+//! Designs as JSON.
+
+mod json;
+mod reading;
+mod values;
+mod writing;
+
+pub use self::reading::MOST_BYTES;
+
+/// The version of the format that is written.
+pub const VERSION: u32 = 1;
