@@ -51,8 +51,8 @@ fn main() {
 /// About 10,000 internodes.
 fn tree() -> Design {
     let mut design = Design::default();
-    set(&mut design, NodeId::ROOT, Key::Height, Held::new(Value::Scalar(70.0)));
-    set(&mut design, NodeId::ROOT, Key::Density, Held::new(Value::Function(Function::constant(14.0))));
+    set(&mut design, NodeId::ROOT, Key::Height, Held::new(Value::Scalar(90.0)));
+    set(&mut design, NodeId::ROOT, Key::Density, Held::new(Value::Function(Function::constant(19.0))));
     design
 }
 

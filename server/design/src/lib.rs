@@ -28,6 +28,7 @@ mod refusal;
 mod resolution;
 mod slots;
 mod table;
+mod templates;
 mod value;
 
 pub use axis::Placed;
@@ -49,4 +50,5 @@ pub use refusal::{MAX_BATCH, MAX_SHARES, MAX_VALUES, Place, Refusal};
 pub use resolution::{Branch, MAX_BRANCHES, Reached};
 pub use slots::Slot;
 pub use table::Table;
+pub use templates::{TEMPLATES, Template};
 pub use value::{Held, Kind, Material, Op, Value, combined};

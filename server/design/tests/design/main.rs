@@ -10,3 +10,4 @@ mod lives;
 mod refusals;
 mod resolution;
 mod said;
+mod templates;
