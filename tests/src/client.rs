@@ -427,7 +427,7 @@ impl Client {
             }
             ServerMessage::Notice { notice } => self.notices.push(notice),
             // Said to a person, who is not here.
-            ServerMessage::Hint { .. } | ServerMessage::Gathered { .. } => {}
+            ServerMessage::Hint { .. } | ServerMessage::Deed { .. } | ServerMessage::Gathered { .. } => {}
             ServerMessage::People { people, .. } => self.people = people,
             ServerMessage::Role { role } => self.role = Some(role),
             ServerMessage::Pong { nonce } => self.pongs.push(nonce),

@@ -9,6 +9,7 @@ import type { LookDraft } from "./document/appearance/look-draft";
 import type { Draft } from "./document/draft";
 import type { GrowControl } from "./document/growth/grow-control";
 import type { ProgrammeControl } from "./document/growth/programme-control";
+import type { OwnUndo } from "./document/timeline/own-undo";
 import type { UnsavedTrees } from "./library/unsaved-trees";
 import type { Layout } from "./page/layout";
 import { explained, plainWords } from "./problems/explained";
@@ -43,6 +44,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly firstView: FirstView;
   readonly drawnInVain: Pick<DrawnInVain, "show" | "clear">;
   readonly together: Together;
+  readonly undo: Pick<OwnUndo, "done" | "refused" | "forget">;
   readonly rights: Pick<Rights, "grant" | "mayChange">;
 }
 
@@ -72,6 +74,7 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
     widths: ({ widths }) => {
       page.widths.all.value = widths;
     },
+    deed: ({ deed }) => page.undo.done(deed),
     hint: ({ hint }) => page.drawnInVain.show(hint),
     people: (people) => {
       page.together.people.value = people;
@@ -96,7 +99,10 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
   const handlers = messageHandlers(page);
   return {
     message: (message) => handle(handlers, message),
-    refused: (problem, command) => refused(page, problem, command),
+    refused: (problem, command) => {
+      page.undo.refused(command);
+      refused(page, problem, command);
+    },
     opened: () => forget(page),
     rows: () => followRows(page),
     settled: (settled) => {
@@ -121,6 +127,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
       page.looks.letGo();
       page.obstacles.letGo();
       page.growth.forget();
+      page.undo.forget();
       page.tools.abandon();
       page.outline.clear();
     },

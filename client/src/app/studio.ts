@@ -11,8 +11,8 @@ import { GrowControl } from "./document/growth/grow-control";
 import { growthAhead } from "./document/growth/growth-ahead";
 import { ProgrammeControl } from "./document/growth/programme-control";
 import { ObstacleList } from "./document/obstacles/obstacle-list";
+import { OwnUndo } from "./document/timeline/own-undo";
 import { TimelineControl } from "./document/timeline/timeline-control";
-import { undoByTap } from "./document/timeline/undo-by-tap";
 import { Tour } from "./help/tour";
 import { Exports, keepFile } from "./library/exports";
 import { Trees } from "./library/trees";
@@ -111,6 +111,7 @@ export class Studio {
   readonly bends = new SharedBends();
   /** Who else has the tree open. */
   readonly together = new Together();
+  readonly undo = new OwnUndo(this);
   readonly obstacles = new ObstacleList({
     submit: (command) => this.submit(command),
     newGesture: () => this.link.next,
@@ -194,7 +195,7 @@ export class Studio {
     ready: () => this.link.open && this.hindrance.peek() === null && this.rights.mayChange.peek(),
     arranging: () => this.layout.panel.peek() === "scene",
     choose: (x, y) => chooseBud(this, x, y),
-    tapped: (fingers) => undoByTap(this, fingers),
+    tapped: (fingers) => this.undo.tapped(fingers),
   });
 
   readonly tour = new Tour({

@@ -101,8 +101,8 @@ function followKeys(studio: Studio): ReturnType<typeof listenToKeys> {
     return may;
   };
   return listenToKeys({
-    undo: () => studio.submit({ kind: "undo" }),
-    redo: () => studio.submit({ kind: "redo" }),
+    undo: () => studio.undo.undo(),
+    redo: () => studio.undo.redo(),
     fit: () => studio.stage.fitTree(),
     help: () => {
       studio.layout.sheet.value = "help";

@@ -1437,7 +1437,7 @@ appearance: Appearance, };
 
 export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "stale" | "unavailable";
 
-export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
+export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-of-yours" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
 
 export type Problem = { 
 /**
@@ -1473,7 +1473,7 @@ export type TimelineOperation = {
  */
 kind: OperationKind, 
 /**
- * Who did it: 0, 1, 2 … in the order in which people appear in this message.
+ * Who did it: the number of a person, as in `people` (`PS3`).
  */
 author: number, 
 /**
@@ -1834,6 +1834,32 @@ reason: HintReason,
  */
 position: [number, number, number], };
 
+export type Deed = { 
+/**
+ * The command.
+ */
+id: number, 
+/**
+ * What was taken back, or brought back.
+ */
+kind: OperationKind, 
+/**
+ * Whether it is taken back now.
+ */
+away: boolean, 
+/**
+ * So many metamers fell,
+ */
+fell: number, 
+/**
+ * so many rose,
+ */
+rose: number, 
+/**
+ * and so many of what was taken back stay, since wood that somebody else drew stands on them.
+ */
+held: number, };
+
 export type ServerMessage = { "type": "welcome", 
 /**
  * [`crate::version::PROTOCOL_VERSION`].
@@ -1882,7 +1908,11 @@ problem: Problem, } | { "type": "problem",
 /**
  * Why.
  */
-problem: Problem, } | { "type": "state", 
+problem: Problem, } | { "type": "deed", 
+/**
+ * What came of it.
+ */
+deed: Deed, } | { "type": "state", 
 /**
  * The document.
  */

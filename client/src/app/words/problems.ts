@@ -107,6 +107,10 @@ export const REFUSALS = {
   ],
   "problems.number-taken": MISUNDERSTOOD,
   "problems.nothing-to-undo": ["There is nothing to undo.", "Es gibt nichts rückgängig zu machen."],
+  "problems.nothing-of-yours": [
+    "Nothing of yours is left to undo; what others did is theirs. The timeline goes back through everything.",
+    "Von dir ist nichts mehr rückgängig zu machen; was andere taten, gehört ihnen. Die Zeitleiste geht durch alles zurück.",
+  ],
   "problems.nothing-to-redo": ["There is nothing to redo.", "Es gibt nichts zu wiederholen."],
   "problems.nothing-to-ungrow": [
     "The tree is a seed; it cannot grow back any further.",

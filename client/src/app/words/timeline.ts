@@ -16,6 +16,10 @@ export const OPERATIONS = {
   "operations.kind.prune": ["Pruning", "Schnitt"],
   "operations.kind.turn": ["Turn", "Drehung"],
   "operations.kind.graft": ["Graft", "Pfropfung"],
+  "operations.held": [
+    "{said}. {held} internodes stay, which bear what others drew.",
+    "{said}. {held} Internodien bleiben, die tragen, was andere gezeichnet haben.",
+  ],
   "operations.kind.taken_back": ["Taken back", "Zurückgenommen"],
   "operations.kind.brought_back": ["Brought back", "Zurückgeholt"],
 } as const;

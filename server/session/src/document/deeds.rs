@@ -106,8 +106,11 @@ impl Document {
     fn travel_back(&mut self) -> Result<(), Problem> {
         let before = (self.history.done, self.figures().metamers);
         self.undo()?;
-        let undone = self.history.done..before.0;
-        self.switched = self.travelled(undone.start, before.1).filter(|_| !undone.is_empty());
+        // Otherwise parameters are again what the line says.
+        let has_travelled = self.history.done < before.0;
+        let set_back = Switched { kind: OperationKind::Parameters, away: true, fell: 0, rose: 0, held: 0 };
+        let travelled = self.travelled(self.history.done, before.1);
+        self.switched = if has_travelled { travelled } else { Some(set_back) };
         Ok(())
     }
 

@@ -1,23 +1,21 @@
+import type { PeopleHere } from "../../together/together";
 import { say } from "../../words/say";
 
-/** Hues that are distinguished on the strip, light or dark. */
+/** Hues that are distinguished on the strip and in the tree, light or dark. */
 const HUES = [208, 28, 285, 340, 176, 52, 250, 5, 95, 310] as const;
 
-/** The colour of an author; that of the leaves as long as there is only one. */
+/** The colour of an author on the line of time; that of the leaves as long as there is only one. */
 export function authorColour(author: number, people: number): string {
-  return people < 2 ? "var(--leaf)" : colour(author);
+  return people < 2 ? "var(--leaf)" : personColour(author);
 }
 
-/** The colour of somebody who is here, by their number from 1. */
+/** The colour of a person, by their number from 1. */
 export function personColour(person: number): string {
-  return colour(person - 1);
+  return `oklch(62% 0.14 ${HUES[(person - 1) % HUES.length] ?? HUES[0]})`;
 }
 
-function colour(number: number): string {
-  return `oklch(62% 0.14 ${HUES[number % HUES.length] ?? HUES[0]})`;
-}
-
-/** People have no names: they are distinguished by colour and number. */
-export function authorName(author: number): string {
-  return say("timeline.person", { number: author + 1 });
+/** What an author is called: by name if they are here and have one, else by number. */
+export function authorName(author: number, here: PeopleHere | null): string {
+  const name = here?.people.find(({ person }) => person === author)?.name;
+  return name ?? say("timeline.person", { number: author });
 }

@@ -17,7 +17,6 @@ export function SideBar({ studio }: { studio: Studio }) {
       </nav>
     );
   }
-  const document = studio.document.value;
   const small = isSmall(studio.settings.namesShown.value);
   return (
     <nav class="panel side-bar" aria-label={say("bars.tools")} data-small={small}>
@@ -35,8 +34,8 @@ export function SideBar({ studio }: { studio: Studio }) {
           data-place="undo"
           aria-label={say("bars.undo")}
           title={say("bars.undo.title")}
-          aria-disabled={document?.can_undo !== true}
-          onClick={() => studio.submit({ kind: "undo" })}
+          aria-disabled={!studio.undo.may("undo")}
+          onClick={() => studio.undo.undo()}
         >
           <UndoIcon />
         </button>
@@ -45,8 +44,8 @@ export function SideBar({ studio }: { studio: Studio }) {
           class="tool"
           aria-label={say("bars.redo")}
           title={say("bars.redo.title")}
-          aria-disabled={document?.can_redo !== true}
-          onClick={() => studio.submit({ kind: "redo" })}
+          aria-disabled={!studio.undo.may("redo")}
+          onClick={() => studio.undo.redo()}
         >
           <RedoIcon />
         </button>

@@ -2,6 +2,7 @@ import { useRef, useState } from "preact/hooks";
 import { authorColour, authorName } from "../../document/timeline/authors";
 import { type Branching, forks, peopleOf } from "../../document/timeline/timeline";
 import type { Studio } from "../../studio";
+import type { PeopleHere } from "../../together/together";
 import { language, say } from "../../words/say";
 import { useDismissal } from "../use-dismissal";
 import { stepsOf } from "./step-count";
@@ -20,6 +21,7 @@ export function Forks({ studio, width }: { studio: Studio; width: number }) {
   const found = forks(timeline?.futures ?? [], studio.time.scale.value, width, ROOM);
   const shown = found.find(({ futures }) => futures[0]?.future.future === open);
   const people = timeline ? peopleOf(timeline) : 0;
+  const here = studio.together.people.value;
   useDismissal(host, open !== null, () => setOpen(null));
   return (
     <div class="timeline-forks" ref={host}>
@@ -53,6 +55,7 @@ export function Forks({ studio, width }: { studio: Studio; width: number }) {
               <FutureButton
                 branching={branching}
                 people={people}
+                here={here}
                 take={() => {
                   setOpen(null);
                   studio.time.take(branching.future.future);
@@ -69,10 +72,11 @@ export function Forks({ studio, width }: { studio: Studio; width: number }) {
 interface FutureProps {
   readonly branching: Branching;
   readonly people: number;
+  readonly here: PeopleHere | null;
   readonly take: () => void;
 }
 
-function FutureButton({ branching: { future }, people, take }: FutureProps) {
+function FutureButton({ branching: { future }, people, here, take }: FutureProps) {
   const { operations } = future;
   const authors = [...new Set(operations.map(({ author }) => author))];
   const left = operations.length - MOST_SIGNS;
@@ -100,7 +104,7 @@ function FutureButton({ branching: { future }, people, take }: FutureProps) {
           {people > 1 && authors.length > 0
             ? say("timeline.summary.by", {
                 step: future.from,
-                people: new Intl.ListFormat(language.value).format(authors.map(authorName)),
+                people: new Intl.ListFormat(language.value).format(authors.map((author) => authorName(author, here))),
               })
             : say("timeline.summary.from", { step: future.from })}
         </em>

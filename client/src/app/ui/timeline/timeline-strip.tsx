@@ -3,6 +3,7 @@ import type { Timeline } from "../../../wire/generated";
 import { authorColour, authorName } from "../../document/timeline/authors";
 import { clusters, peopleOf } from "../../document/timeline/timeline";
 import type { Studio } from "../../studio";
+import type { PeopleHere } from "../../together/together";
 import { say } from "../../words/say";
 import { isWorthShowing } from "./has-timeline";
 import { stepsOf } from "./step-count";
@@ -96,7 +97,7 @@ function Track({ studio, timeline }: { studio: Studio; timeline: Timeline }) {
         aria-valuemin={0}
         aria-valuemax={timeline.last_step}
         aria-valuenow={step}
-        aria-valuetext={speech(timeline, step)}
+        aria-valuetext={speech(timeline, step, studio.together.people.value)}
         data-pulled={scrubbing.place !== null}
         {...scrubbing.handlers}
       >
@@ -180,7 +181,8 @@ interface BubbleProps {
 }
 
 /** What was done here, by whom, and which step this is. */
-function Bubble({ timeline, operation, place, step }: BubbleProps) {
+function Bubble({ studio, timeline, operation, place, step }: BubbleProps) {
+  const here = studio.together.people.value;
   const done = operation === null ? undefined : timeline.operations[operation];
   const people = peopleOf(timeline);
   const sort = done && sortOf(done.kind);
@@ -190,7 +192,7 @@ function Bubble({ timeline, operation, place, step }: BubbleProps) {
         <span class="timeline-what" style={{ "--author": authorColour(done.author, people) }}>
           <sort.Icon />
           {say(sort.name)}
-          {people > 1 && <em>{authorName(done.author)}</em>}
+          {people > 1 && <em>{authorName(done.author, here)}</em>}
         </span>
       )}
       <span class="timeline-when">
@@ -215,7 +217,7 @@ function useWidth(element: { readonly current: HTMLElement | null }): number {
   return width;
 }
 
-function speech(timeline: Timeline, step: number): string {
+function speech(timeline: Timeline, step: number, here: PeopleHere | null): string {
   const at = operationAtStep(timeline, step);
   const operation = at === null ? undefined : timeline.operations[at];
   const where = { step, last: timeline.last_step };
@@ -224,7 +226,7 @@ function speech(timeline: Timeline, step: number): string {
   }
   const what = say(sortOf(operation.kind).name);
   return peopleOf(timeline) > 1
-    ? say("timeline.step-of.who", { ...where, what, who: authorName(operation.author) })
+    ? say("timeline.step-of.who", { ...where, what, who: authorName(operation.author, here) })
     : say("timeline.step-of.what", { ...where, what });
 }
 
