@@ -198,7 +198,7 @@ impl Carpenter {
         if !length.is_finite() {
             return Err(Stop::Extent(self.options.extent));
         }
-        if !(length >= least) {
+        if length < least {
             return Ok(());
         }
         let bearer = self.level.node.filter(|&node| !self.stands_apart(node));
