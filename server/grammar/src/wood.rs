@@ -168,7 +168,8 @@ impl Carpenter {
         if self.nodes.len() >= self.options.nodes {
             return Err(Stop::Nodes(self.options.nodes));
         }
-        if !(node.end.abs().max_element() <= self.options.extent as f32) {
+        let reach = node.end.abs().max_element();
+        if reach.is_nan() || reach > self.options.extent as f32 {
             return Err(Stop::Extent(self.options.extent));
         }
         self.nodes.push(node);
