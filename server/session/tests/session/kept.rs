@@ -173,7 +173,8 @@ fn account(document: &Document) -> Value {
     json!({
         "present": place(document),
         "operations": timeline.operations.iter().map(|operation| operation.kind).collect::<Vec<_>>(),
-        "authors": timeline.operations.iter().map(|operation| operation.author).collect::<Vec<_>>(),
+        // The kept ones were counted from 0.
+        "authors": timeline.operations.iter().map(|operation| operation.author - 1).collect::<Vec<_>>(),
         "done": timeline.done,
         "steps": steps,
         "undoes": undoes,

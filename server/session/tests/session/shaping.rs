@@ -205,7 +205,7 @@ fn tt1_the_timeline_names_no_keys() {
     world.command(ann, 2, grow(1));
     world.settle();
     let notified = timeline(world.peer(ann));
-    assert_eq!(notified.operations.iter().map(|op| op.author).collect::<Vec<_>>(), [0, 1, 0]);
+    assert_eq!(notified.operations.iter().map(|op| op.author).collect::<Vec<_>>(), [1, 2, 1]);
     assert_eq!((notified.step, notified.last_step, notified.done), (11, 11, 3));
     world.command(ann, 3, json!({ "kind": "go_to", "step": 4 }));
     world.command(ann, 4, json!({ "kind": "plant_seed", "position": [5.0, 0.0, 0.0] }));

@@ -129,7 +129,7 @@ fn ud3_only_what_was_taken_back_last_comes_back() {
     assert_eq!(take_back(&mut document, "bo"), Ok(()));
     draw(&mut document, "bo", 2, -9.0, 4.0);
     assert_eq!(refused(bring_back(&mut document, "bo")), Err(Reason::NothingToRedo));
-    assert_eq!(refused(take_back(&mut document, "cy")), Err(Reason::NothingToUndo));
+    assert_eq!(refused(take_back(&mut document, "cy")), Err(Reason::NothingOfYours));
 }
 
 #[test]
@@ -162,7 +162,7 @@ fn ud4_what_several_drew_at_once_is_passed_over() {
     let before = document.hash();
     for name in ["bo", "cy"] {
         let refused = take_back(&mut document, name).map_err(|problem| problem.reason);
-        assert_eq!((refused, document.hash()), (Err(Reason::NothingToUndo), before));
+        assert_eq!((refused, document.hash()), (Err(Reason::NothingOfYours), before));
     }
 }
 
