@@ -266,7 +266,7 @@ pub struct Hint {
     pub position: Position,
 }
 
-/// What came of `take_back` or `bring_back` (`UD7`).
+/// What came of `take_back` or `bring_back`, of `undo` or `redo` (`UD7`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Deed {

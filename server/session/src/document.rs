@@ -174,8 +174,8 @@ impl Document {
             // What it ends was begun before, and has ended by now.
             Action::Stop { .. } => Ok(()),
             Action::Ungrow { steps } => self.ungrow(steps.get()),
-            Action::Undo {} => self.undo(),
-            Action::Redo {} => self.redo(),
+            Action::Undo {} => self.travel_back(),
+            Action::Redo {} => self.travel_forth(),
             Action::TakeBack {} => self.take_back(cause),
             Action::BringBack {} => self.bring_back(cause),
             Action::SetParameters { parameters } => self.set_parameters(cause, parameters),

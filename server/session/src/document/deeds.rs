@@ -102,8 +102,8 @@ impl Document {
             .at("kind", "what some deed of yours is in force for"))
     }
 
-    /// Takes back what was done last, on a line of one person.
-    fn travel_back(&mut self) -> Result<(), Problem> {
+    /// Takes back what was done last on the line, whoever did it, by going back in time.
+    pub(super) fn travel_back(&mut self) -> Result<(), Problem> {
         let before = (self.history.done, self.figures().metamers);
         self.undo()?;
         // Otherwise parameters are again what the line says.
@@ -114,8 +114,8 @@ impl Document {
         Ok(())
     }
 
-    /// Does again what was taken back last, on a line of one person.
-    fn travel_forth(&mut self) -> Result<(), Problem> {
+    /// Does again what was taken back last on the line, by going forth in time.
+    pub(super) fn travel_forth(&mut self) -> Result<(), Problem> {
         let before = self.figures().metamers;
         self.redo()?;
         self.switched = self.history.done.checked_sub(1).and_then(|last| self.travelled(last, before));

@@ -90,18 +90,20 @@ fn ud7_who_takes_back_is_told_what_came_of_it() {
 
 #[test]
 fn ud7_who_is_alone_is_told_as_well() {
-    let mut world = World::new();
-    let ann = enter(&mut world, "Ann", "ann-tablet");
-    world.command(ann, 1, grow(8));
-    world.settle();
-    draw(&mut world, ann, 2, -9.0);
-    world.command(ann, 5, json!({ "kind": "take_back" }));
-    world.command(ann, 6, json!({ "kind": "bring_back" }));
-    world.settle();
-    let [away, back] = deeds(world.peer(ann))[..] else { panic!("two deeds are told") };
-    assert_eq!((away.kind, away.away, away.rose), (OperationKind::Stroke, true, 0));
-    assert!(away.fell > 0, "{away:?}");
-    assert_eq!(back, Deed { id: 6, away: false, fell: 0, rose: away.fell, ..away });
+    for (back, forth) in [("take_back", "bring_back"), ("undo", "redo")] {
+        let mut world = World::new();
+        let ann = enter(&mut world, "Ann", "ann-tablet");
+        world.command(ann, 1, grow(8));
+        world.settle();
+        draw(&mut world, ann, 2, -9.0);
+        world.command(ann, 5, json!({ "kind": back }));
+        world.command(ann, 6, json!({ "kind": forth }));
+        world.settle();
+        let [away, brought] = deeds(world.peer(ann))[..] else { panic!("two deeds are told of {back}") };
+        assert_eq!((away.kind, away.away, away.rose), (OperationKind::Stroke, true, 0));
+        assert!(away.fell > 0, "{away:?}");
+        assert_eq!(brought, Deed { id: 6, away: false, fell: 0, rose: away.fell, ..away });
+    }
 }
 
 #[test]
