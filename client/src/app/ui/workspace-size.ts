@@ -13,6 +13,13 @@ export function isToolBarFolded(names: boolean): boolean {
   return size.value.width < (names ? NAMED : BARE).toolBar;
 }
 
+/** How many buttons one row of the tool bar has room for, at the sizes of `bars.css`; with names it takes several rows. */
+export function roomOfToolBar(names: boolean): number {
+  const { width } = size.value;
+  const [target, around] = width < 440 ? [44, 25] : [54, 40];
+  return names ? Number.POSITIVE_INFINITY : Math.floor((width - around) / target);
+}
+
 /** Whether there is room for little more than the tree, as on a phone. */
 export function isSmall(names: boolean): boolean {
   const { width, height } = names ? NAMED : BARE;

@@ -24,7 +24,7 @@ import {
   WindIcon,
 } from "../icons";
 import { useDismissal } from "../use-dismissal";
-import { isToolBarFolded } from "../workspace-size";
+import { isToolBarFolded, roomOfToolBar } from "../workspace-size";
 import { DrawModeMenu } from "./draw-mode-menu";
 
 const PANEL_ICONS: Record<PanelName, ComponentType> = {
@@ -78,15 +78,20 @@ const TOOL_ACTIONS: readonly ToolAction[] = [
   { label: "bars.help", title: "bars.help.title", Icon: HelpIcon, act: sheet("help") },
 ];
 
-/** The panels, and what is done with a tree as a whole; where room is short the latter folds into a menu. */
+/** What the bar has beside the panels where it is folded: the draw modes and the menu. */
+const BESIDE_PANELS = 2;
+
+/** The panels, and what is done with a tree as a whole; where room is short the latter, and the last panels, fold into a menu. */
 export function ToolBar({ studio }: { studio: Studio }) {
   const mayChange = studio.rights.mayChange.value;
   // What is left for who only looks has room anywhere.
-  const folded = mayChange && isToolBarFolded(studio.settings.namesShown.value);
+  const names = studio.settings.namesShown.value;
+  const folded = mayChange && isToolBarFolded(names);
+  const room = mayChange ? (folded ? roomOfToolBar(names) - BESIDE_PANELS : PANEL_NAMES.length) : 0;
   const actions = TOOL_ACTIONS.filter(({ may }) => may?.(studio.rights) ?? true);
   return (
     <header class="panel tool-bar" data-folded={folded}>
-      {(mayChange ? PANEL_NAMES : []).map((panel) => {
+      {PANEL_NAMES.slice(0, room).map((panel) => {
         const Icon = PANEL_ICONS[panel];
         return (
           <button
@@ -105,7 +110,7 @@ export function ToolBar({ studio }: { studio: Studio }) {
       {mayChange && <hr />}
       <DrawModeMenu studio={studio} />
       {folded ? (
-        <Menu studio={studio} actions={actions} />
+        <Menu studio={studio} panels={PANEL_NAMES.slice(room)} actions={actions} />
       ) : (
         actions.map(({ label, place, title = label, Icon, act }) => (
           <button
@@ -125,7 +130,13 @@ export function ToolBar({ studio }: { studio: Studio }) {
   );
 }
 
-function Menu({ studio, actions }: { readonly studio: Studio; readonly actions: readonly ToolAction[] }) {
+interface MenuProps {
+  readonly studio: Studio;
+  readonly panels: readonly PanelName[];
+  readonly actions: readonly ToolAction[];
+}
+
+function Menu({ studio, panels, actions }: MenuProps) {
   const host = useRef<HTMLDivElement>(null);
   const [open, setOpen] = useState(false);
   useDismissal(host, open, () => setOpen(false));
@@ -144,7 +155,7 @@ function Menu({ studio, actions }: { readonly studio: Studio; readonly actions: 
       </button>
       {open && (
         <ul class="panel menu" aria-label={say("bars.more")}>
-          {actions.map(({ label, Icon, act }) => (
+          {[...panels.map(asAction), ...actions].map(({ label, Icon, act }) => (
             <li key={label}>
               <button
                 type="button"
@@ -162,4 +173,12 @@ function Menu({ studio, actions }: { readonly studio: Studio; readonly actions: 
       )}
     </div>
   );
+}
+
+function asAction(panel: PanelName): ToolAction {
+  return {
+    label: `panels.${panel}`,
+    Icon: PANEL_ICONS[panel],
+    act: (studio) => studio.layout.togglePanel(panel),
+  };
 }
