@@ -415,5 +415,8 @@ pub enum ServerMessage {
     Pong {
         /// The ping's.
         nonce: u32,
+        /// Milliseconds since the server started (`WD2`).
+        #[ts(type = "number")]
+        at: u64,
     },
 }

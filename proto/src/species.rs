@@ -21,6 +21,6 @@ pub struct Species {
     pub sentence: String,
     /// What `set_programme` is given when it is picked.
     pub programme: Programme,
-    /// What it looks like: all but the background is what `set_appearance` is given when it is picked.
+    /// What it looks like: all but the background and the wind is what `set_appearance` is given when it is picked.
     pub appearance: Appearance,
 }

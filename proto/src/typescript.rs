@@ -120,6 +120,8 @@ pub fn declarations() -> String {
         settings::Ground::decl(&config),
         settings::Background::decl(&config),
         settings::BackgroundPatch::decl(&config),
+        settings::WindLook::decl(&config),
+        settings::WindPatch::decl(&config),
         Appearance::decl(&config),
         settings::AppearancePatch::decl(&config),
         programme::Stage::decl(&config),

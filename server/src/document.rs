@@ -17,6 +17,10 @@ use crate::export_options::{ExportOptions, Size, option};
 
 /// Pixels of a picture across and down.
 const PICTURE: Size = Size(1000, 1000);
+/// The same of a moving picture.
+const MOVING: Size = Size(480, 540);
+/// Pictures of a loop of sway.
+const LOOP: u16 = 80;
 /// What writes files, as they name it.
 const PROGRAM: &str = concat!("Espalier ", env!("CARGO_PKG_VERSION"));
 
@@ -51,10 +55,14 @@ pub enum Format {
     Mtg,
     /// Cylinders as comma-separated values.
     Qsm,
+    /// The joints by which trees sway, as comma-separated values.
+    Joints,
     /// A point cloud with labels.
     Cloud,
     /// A picture as PNG.
     Picture,
+    /// A loop of sway as an animated PNG.
+    Sway,
     /// The whole document.
     Document,
 }
@@ -111,6 +119,7 @@ pub const FORMATS: &[FormatRow] = &[
             option::HULL,
             option::BY_LIMB,
             option::LIGHTMAP,
+            option::SWAY,
             option::AUTHOR,
             option::LICENCE,
         ],
@@ -192,6 +201,19 @@ pub const FORMATS: &[FormatRow] = &[
         [1e3, 140.0, 0.0],
     ),
     row(
+        Format::Joints,
+        ["joints.csv", "joints that sway", "text/csv"],
+        [
+            ["Joints (CSV)", "Gelenke (CSV)"],
+            [
+                "The limbs that sway in wind, each with its frequency, damping and compliance, for programs of your own.",
+                "Die Äste, die im Wind schwingen, jeder mit Frequenz, Dämpfung und Nachgiebigkeit, für eigene Programme.",
+            ],
+        ],
+        &[],
+        [1e3, 12.0, 0.0],
+    ),
+    row(
         Format::Cloud,
         ["ply", "labelled points", "application/octet-stream"],
         [
@@ -218,6 +240,19 @@ pub const FORMATS: &[FormatRow] = &[
         [300e3, 0.0, 0.0],
     ),
     row(
+        Format::Sway,
+        ["sway.png", "moving picture of a tree in wind", "image/png"],
+        [
+            ["Sway (PNG)", "Schwingen (PNG)"],
+            [
+                "An animated picture of the tree in its wind that goes on without a seam, made by the server.",
+                "Ein bewegtes Bild des Baums in seinem Wind, das ohne Naht weitergeht, vom Server gemacht.",
+            ],
+        ],
+        &[option::SIZE, option::TURN, option::RISE, option::FRAMES],
+        [3e6, 0.0, 0.0],
+    ),
+    row(
         Format::Document,
         ["espalier", "document", "application/octet-stream"],
         [
@@ -237,12 +272,16 @@ const LEVELS: [f64; 4] = [1.0, 0.22, 0.036, 0.0022];
 /// The same of USD, which says more of each mesh.
 const USD_LEVELS: [f64; 4] = [1.0, 0.22, 0.048, 0.0008];
 
+/// Bytes of the keys of a bone.
+const BONE: f64 = 17e3;
+
 /// The shares of the bytes for metamers and for leaves that options leave.
 const SHARES: &[(&str, [f64; 2])] = &[
     (option::QUANTISED, [0.58, 0.58]),
     (option::COMPRESSED, [0.5, 0.5]),
     (option::INSTANCED, [1.0, 0.08]),
     (option::LIGHTMAP, [1.12, 1.12]),
+    (option::SWAY, [1.23, 1.23]),
 ];
 
 impl FormatRow {
@@ -253,7 +292,7 @@ impl FormatRow {
 
     /// Whether its files are text, for people to read.
     pub fn is_text(&self) -> bool {
-        matches!(self.format, Format::Usda | Format::Skeleton | Format::Mtg | Format::Qsm)
+        matches!(self.format, Format::Usda | Format::Skeleton | Format::Mtg | Format::Qsm | Format::Joints)
     }
 
     fn levels(&self) -> [f64; 4] {
@@ -316,7 +355,8 @@ impl Stored {
         let given = options.given();
         let shares = SHARES.iter().filter(|(option, _)| given.contains(option));
         let [wood, foliage] = shares.fold([1.0, 1.0], |[a, b], (_, [c, d])| [a * c, b * d]);
-        let least = least * f64::from(options.frames());
+        let bones = options.model().sway.unwrap_or_default();
+        let least = least * f64::from(options.frames()) + BONE * f64::from(bones);
         (least + level * metamers * (metamer * wood + 0.5 * leaves * leaf * foliage)) as u64
     }
 
@@ -365,6 +405,7 @@ pub fn write(
         }
         Format::Mtg => espalier_export::mtg(document.plant(), &style, metres, out),
         Format::Qsm => espalier_export::qsm_csv(document.plant(), &style, metres, out),
+        Format::Joints => espalier_export::joints_csv(document.portrait(), &style, &appearance, metres, out),
         Format::Cloud => {
             let sampling = Sampling { points: options.points(), seed };
             espalier_export::ply(document.portrait(), &style, &appearance, metres, sampling, out)
@@ -385,6 +426,14 @@ pub fn write(
                 out,
             )
         }
+        Format::Sway => {
+            let stand = species.map(|species| species.stand).unwrap_or_default();
+            let look = Look { appearance, stand };
+            let Size(width, height) = options.size.unwrap_or(MOVING);
+            let frames = options.frames.map_or(LOOP, |frames| frames.0);
+            let (plant, look, size) = (document.portrait(), (&look, metres), [width, height]);
+            picture::swaying(plant, &style, look, size, options.camera(), frames, out)
+        }
     }
 }
 
@@ -394,8 +443,8 @@ fn species_of(parameters: &ParameterValues, looks: &Appearance) -> Option<&'stat
     let changes_to = |stage: &Stage| matches!(stage, Stage::Change(values) if **values == *parameters);
     let is_it = |species: &&Species| {
         let grows_so = species.parameters == *parameters || species.schedule.iter().any(changes_to);
-        // Species differ in leaves, flowers, fruits and bark; the background is no part of one.
-        grows_so && Appearance { background: looks.background, ..species.appearance } == *looks
+        // Species differ in leaves, flowers, fruits and bark; the background and the wind are no part of one.
+        grows_so && species.appearance.among(looks) == *looks
     };
     let mut found = species::all().iter().filter(is_it);
     found.next().filter(|_| found.next().is_none())

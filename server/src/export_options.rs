@@ -14,6 +14,9 @@ const MOST_PIXELS: usize = 4_000_000;
 /// Texels along a side of a light map, as engines have them.
 const FEWEST_TEXELS: u32 = 64;
 const MOST_TEXELS: u32 = 8192;
+/// Bones of a plant: some programs take 64, most 256.
+const FEWEST_BONES: u32 = 2;
+const MOST_BONES: u32 = 1024;
 /// The most pictures of a turntable.
 const MOST_FRAMES: u16 = 180;
 /// The most points of a cloud.
@@ -47,6 +50,9 @@ pub struct ExportOptions {
     /// Add a second place for each vertex, in a light map of so many texels square.
     #[arg(long, value_name = "TEXELS", requires = "export")]
     pub lightmap: Option<Texels>,
+    /// Add at most so many bones for each plant, with animations of its sway in the wind that is set, or in a breeze.
+    #[arg(long, value_name = "BONES", requires = "export", conflicts_with = "instanced")]
+    pub sway: Option<Bones>,
     /// Pixels of a picture across and down.
     #[arg(long, value_name = "WIDTHxHEIGHT", requires = "export")]
     pub size: Option<Size>,
@@ -82,6 +88,7 @@ pub mod option {
     pub const HULL: &str = "hull";
     pub const BY_LIMB: &str = "by_limb";
     pub const LIGHTMAP: &str = "lightmap";
+    pub const SWAY: &str = "sway";
     pub const SIZE: &str = "size";
     pub const TURN: &str = "turn";
     pub const RISE: &str = "rise";
@@ -106,6 +113,7 @@ impl ExportOptions {
             (option::HULL, self.hull),
             (option::BY_LIMB, self.by_limb),
             (option::LIGHTMAP, self.lightmap.is_some()),
+            (option::SWAY, self.sway.is_some()),
             (option::SIZE, self.size.is_some()),
             (option::TURN, self.turn.is_some()),
             (option::RISE, self.rise.is_some()),
@@ -120,6 +128,8 @@ impl ExportOptions {
     /// Whether a format with these options has all that are given.
     pub fn check(&self, options: &[&str]) -> Result<(), NotOfFormat> {
         let other = self.given().into_iter().find(|name| !options.contains(name));
+        // Leaves that are places of few meshes stand still: their sway would have to be left out.
+        let other = other.or((self.sway.is_some() && self.instanced).then_some(option::SWAY));
         other.map_or(Ok(()), |name| Err(NotOfFormat(name)))
     }
 
@@ -128,7 +138,8 @@ impl ExportOptions {
         let &Self { quantised, compressed, instanced, hull, by_limb, .. } = self;
         let detail = self.lod.map_or(Detail::Level(0), |lod| lod.0);
         let lightmap = self.lightmap.map(|texels| texels.0);
-        Model { detail, quantised, compressed, instanced, hull, by_limb, lightmap }
+        let sway = self.sway.map(|bones| bones.0);
+        Model { detail, quantised, compressed, instanced, hull, by_limb, lightmap, sway }
     }
 
     /// Where the first picture is taken from.
@@ -151,9 +162,9 @@ impl ExportOptions {
     }
 }
 
-/// An option that the format does not have.
+/// An option that the format does not have, or not together with the others that are given.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
-#[error("this format has no option `{0}`")]
+#[error("this format has no option `{0}`, or not together with the others")]
 pub struct NotOfFormat(pub &'static str);
 
 /// A text, or a number as it is written.
@@ -234,6 +245,8 @@ values! {
     Rise(f32): "1 to 80", |text| number(text, 1.0, 80.0).map(Self);
     /// Texels along a side of a light map.
     Texels(u32): format!("{FEWEST_TEXELS} to {MOST_TEXELS}"), |text| number(text, FEWEST_TEXELS, MOST_TEXELS).map(Self);
+    /// Bones of a plant.
+    Bones(u32): format!("{FEWEST_BONES} to {MOST_BONES}"), |text| number(text, FEWEST_BONES, MOST_BONES).map(Self);
     /// Pictures of a turntable.
     Frames(u16): format!("1 to {MOST_FRAMES}"), |text| number(text, 1, MOST_FRAMES).map(Self);
     /// Points of a cloud.
@@ -279,5 +292,9 @@ mod tests {
         let options = ExportOptions { lightmap: Some(Texels(512)), ..ExportOptions::default() };
         assert_eq!(options.check(option::MESHES), Err(NotOfFormat("lightmap")), "OBJ has no second places");
         assert_eq!(options.check(option::SCENES), Ok(()));
+        let options = ExportOptions { sway: Some(Bones(64)), instanced: true, ..ExportOptions::default() };
+        let both = [option::SWAY, option::INSTANCED];
+        assert_eq!(options.check(&both), Err(NotOfFormat("sway")), "leaves that are instances stand still");
+        assert_eq!(ExportOptions { instanced: false, ..options }.check(&both), Ok(()));
     }
 }

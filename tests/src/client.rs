@@ -430,7 +430,7 @@ impl Client {
             ServerMessage::Hint { .. } | ServerMessage::Deed { .. } | ServerMessage::Gathered { .. } => {}
             ServerMessage::People { people, .. } => self.people = people,
             ServerMessage::Role { role } => self.role = Some(role),
-            ServerMessage::Pong { nonce } => self.pongs.push(nonce),
+            ServerMessage::Pong { nonce, .. } => self.pongs.push(nonce),
         }
     }
 

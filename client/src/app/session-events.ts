@@ -4,6 +4,7 @@ import type { DocumentState, Parameters } from "../wire/generated";
 import { FrameKind } from "../wire/generated";
 import type { Rights } from "./access/rights";
 import { handle, type MessageHandlers } from "./connection/page-message";
+import type { ServerTime } from "./connection/server-time";
 import type { SessionEvents } from "./connection/session-link";
 import type { LookDraft } from "./document/appearance/look-draft";
 import type { Draft } from "./document/draft";
@@ -44,6 +45,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly firstView: FirstView;
   readonly drawnInVain: Pick<DrawnInVain, "show" | "clear">;
   readonly together: Together;
+  readonly serverTime: Pick<ServerTime, "heard">;
   readonly undo: Pick<OwnUndo, "done" | "refused" | "forget">;
   readonly rights: Pick<Rights, "grant" | "mayChange">;
 }
@@ -79,6 +81,7 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
     people: (people) => {
       page.together.people.value = people;
     },
+    pong: ({ nonce, at }) => page.serverTime.heard(nonce, at),
     gathered: (call) => page.together.listener?.gathered(call),
     role: ({ role }) => {
       page.rights.grant(role);

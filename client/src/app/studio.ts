@@ -4,6 +4,7 @@ import { TreeTable } from "../scene/table/tree-table";
 import { type Command, DEFAULT_PARAMETERS, type DocumentState, type Parameters } from "../wire/generated";
 import { Rights } from "./access/rights";
 import { rowStore } from "./connection/row-store";
+import { ServerTime } from "./connection/server-time";
 import { SessionLink } from "./connection/session-link";
 import { LookDraft } from "./document/appearance/look-draft";
 import { Draft, type GrowthAhead } from "./document/draft";
@@ -104,6 +105,8 @@ export class Studio {
     begun: () => this.document.peek() !== null,
     events: sessionEvents(this),
   });
+  /** The time that all in the session share. */
+  readonly serverTime = new ServerTime((nonce) => this.link.tell({ type: "ping", nonce }), browserClock);
   readonly bud = new ChosenBud(this.table);
   readonly outline = new OutlineTrace();
   readonly drawnInVain = new DrawnInVain(browserClock);

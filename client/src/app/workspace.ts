@@ -1,5 +1,6 @@
 import { effect } from "@preact/signals";
 import { nextDrawMode } from "../scene/mode/draw-mode";
+import { blows } from "../scene/motion/air-settings";
 import { Viewport } from "../scene/viewport";
 import { deflectionFor, KEY_RATE } from "./document/growth/grow-pacer";
 import { listenToKeys } from "./input/keyboard";
@@ -12,7 +13,7 @@ import { stepRadius } from "./tools/brush/brush-radius";
 import { stepBack } from "./tools/step-back";
 import { nextKind } from "./tools/symmetry/symmetry";
 import { symmetryText } from "./tools/symmetry/symmetry-text";
-import { SLOWNESS } from "./ui/parts";
+import { SLOWNESS, WIND } from "./ui/parts";
 import { PictureLoss } from "./view/picture-loss";
 import { say } from "./words/say";
 
@@ -58,6 +59,12 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
     }
   });
   const stopLooks = effect(() => studio.stage.setAppearance(studio.appearance.value));
+  // The wind is loaded when it first blows, whoever has set it.
+  const stopWaiting = effect(() => {
+    if (blows(studio.appearance.value.wind)) {
+      void WIND.load().then(() => WIND.content.peek()?.(studio));
+    }
+  });
   const stopThorough = effect(() => viewport.setThorough(studio.settings.thorough.value));
   const stopDrawMode = effect(() => studio.stage.setDrawMode(studio.drawMode.value));
   const stopFollowing = effect(() => {
@@ -76,6 +83,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
     stopFollowing();
     stopLeaves();
     stopLooks();
+    stopWaiting();
     stopThorough();
     stopDrawMode();
     stopPublishing();

@@ -188,6 +188,18 @@ export const LOOKS = {
     sun_azimuth: {"kind":"number","least":0.0,"most":360.0,"step":1.0,"unit":"°"},
     sun_elevation: {"kind":"number","least":-10.0,"most":90.0,"step":1.0,"unit":"°"},
   },
+  wind: {
+    speed: {"kind":"number","least":0.0,"most":25.0,"step":0.5,"unit":"m/s"},
+    direction: {"kind":"number","least":0.0,"most":360.0,"step":5.0,"unit":"°"},
+    rise: {"kind":"number","least":-10.0,"most":10.0,"step":0.5,"unit":"m/s"},
+    turbulence: {"kind":"number","least":0.0,"most":1.0,"step":0.05},
+    flutter: {"kind":"number","least":0.0,"most":2.0,"step":0.1},
+    sag: {"kind":"number","least":0.0,"most":1.0,"step":0.05},
+    suppleness: {"kind":"number","least":0.2,"most":5.0,"step":0.1},
+    damping: {"kind":"number","least":0.2,"most":5.0,"step":0.1},
+    snow: {"kind":"number","least":0.0,"most":0.5,"step":0.01,"unit":"m"},
+    rain: {"kind":"number","least":0.0,"most":1.0,"step":0.05},
+  },
 } as const satisfies { [Part in keyof Appearance]: Record<keyof Appearance[Part], Setting> };
 
 export const LEAF_NATURES: Record<LeafKind, LeafNature> = {
@@ -234,7 +246,7 @@ export const LIMB_ENDS = [0.25,0.8] as const;
 
 export const DEFAULT_PARAMETERS: Parameters = {"internode_length":0.1,"occupancy_radius":1.5,"perception_depth":3.0,"perception_angle":90.0,"phyllotactic_angle":137.5,"buds_per_node":1,"branching_angle":50.0,"deflection_angle":5.0,"apical_control":0.52,"mature_apical_control":0.52,"maturity_start":0,"maturity_steps":0,"light_sensitivity":1.0,"max_shoot_length":4,"shedding_threshold":0.0,"vigor_gain":2.0,"vigor_model":"borchert_honda","priority_least_weight":0.006,"priority_decline":0.5,"heading_weight":0.5,"tropism_weight":0.25,"space_weight":0.25,"phototropism":0.0,"setpoint_angle":0.0,"trunk_upward":true,"tropism_from_stroke":false,"gravimorphism_vertical":1.0,"gravimorphism_horizontal":1.0,"gravimorphism_shift":0.0,"marker_density":0.15,"markers_per_bud":6,"marker_max_age":8,"shadow_strength":0.12,"shadow_decay":2.0,"shadow_depth":6,"girth_exponent":2.5,"twig_diameter":0.07,"leaves_per_node":4,"leaf_size":1.0};
 
-export const DEFAULT_APPEARANCE: Appearance = {"leaves":{"shape":"ovate","tint":[88,128,52],"vigor_shift":0.4,"season":1.0,"orientation":0.0},"flowers":{"kind":"none","tint":[246,236,240],"size":0.5,"share":0.5,"place":"twigs","vigor":0.0},"fruits":{"kind":"none","tint":[178,44,34],"size":0.4,"share":0.2,"place":"twigs","vigor":0.0},"bark":{"kind":"furrowed","tint":[121,110,97],"relief":1.0,"root_flare":1.0,"collar":1.0,"smoothing":1.0},"background":{"sky":"meadow","ground":"grass","backdrop":[226,222,214],"sun_azimuth":310.0,"sun_elevation":48.0}};
+export const DEFAULT_APPEARANCE: Appearance = {"leaves":{"shape":"ovate","tint":[88,128,52],"vigor_shift":0.4,"season":1.0,"orientation":0.0},"flowers":{"kind":"none","tint":[246,236,240],"size":0.5,"share":0.5,"place":"twigs","vigor":0.0},"fruits":{"kind":"none","tint":[178,44,34],"size":0.4,"share":0.2,"place":"twigs","vigor":0.0},"bark":{"kind":"furrowed","tint":[121,110,97],"relief":1.0,"root_flare":1.0,"collar":1.0,"smoothing":1.0},"background":{"sky":"meadow","ground":"grass","backdrop":[226,222,214],"sun_azimuth":310.0,"sun_elevation":48.0},"wind":{"speed":0.0,"direction":0.0,"rise":0.0,"turbulence":0.6,"flutter":1.0,"sag":0.0,"suppleness":1.0,"damping":1.0,"snow":0.0,"rain":0.0}};
 
 export type StrokeSample = { 
 /**
@@ -248,7 +260,7 @@ radius: number, };
 
 export type VigorModel = "borchert_honda" | "priority";
 
-export type Unit = "m" | "internodes" | "°" | "steps";
+export type Unit = "m" | "m/s" | "internodes" | "°" | "steps";
 
 export type Setting = { 
 /**
@@ -1099,6 +1111,90 @@ sun_azimuth?: number,
  */
 sun_elevation?: number, };
 
+export type WindLook = { 
+/**
+ * How fast it blows on average 10 m above the ground, level; 0 is a calm.
+ */
+speed: number, 
+/**
+ * Where it blows to, around the vertical from the x axis towards the z axis.
+ */
+direction: number, 
+/**
+ * How fast it rises, or falls where it is less than 0.
+ */
+rise: number, 
+/**
+ * From an even wind to one that comes in gusts.
+ */
+turbulence: number, 
+/**
+ * How much leaves flutter beside what is usual for their form.
+ */
+flutter: number, 
+/**
+ * How much more wood weighs than it grew under: 1 is its own weight once more.
+ */
+sag: number, 
+/**
+ * How much softer wood is than it swings in nature.
+ */
+suppleness: number, 
+/**
+ * How much sooner wood comes to rest than in nature.
+ */
+damping: number, 
+/**
+ * How deep fresh snow lies on all that holds it.
+ */
+snow: number, 
+/**
+ * From dry leaves to leaves heavy with rain.
+ */
+rain: number, };
+
+export type WindPatch = { 
+/**
+ * How fast it blows on average 10 m above the ground, level; 0 is a calm.
+ */
+speed?: number, 
+/**
+ * Where it blows to, around the vertical from the x axis towards the z axis.
+ */
+direction?: number, 
+/**
+ * How fast it rises, or falls where it is less than 0.
+ */
+rise?: number, 
+/**
+ * From an even wind to one that comes in gusts.
+ */
+turbulence?: number, 
+/**
+ * How much leaves flutter beside what is usual for their form.
+ */
+flutter?: number, 
+/**
+ * How much more wood weighs than it grew under: 1 is its own weight once more.
+ */
+sag?: number, 
+/**
+ * How much softer wood is than it swings in nature.
+ */
+suppleness?: number, 
+/**
+ * How much sooner wood comes to rest than in nature.
+ */
+damping?: number, 
+/**
+ * How deep fresh snow lies on all that holds it.
+ */
+snow?: number, 
+/**
+ * From dry leaves to leaves heavy with rain.
+ */
+rain?: number, };
+
 export type Appearance = { 
 /**
  * The leaves.
@@ -1119,7 +1215,11 @@ bark: BarkLook,
 /**
  * All around.
  */
-background: Background, };
+background: Background, 
+/**
+ * The wind.
+ */
+wind: WindLook, };
 
 export type AppearancePatch = { 
 /**
@@ -1141,7 +1241,11 @@ bark?: BarkPatch,
 /**
  * All around.
  */
-background?: BackgroundPatch, };
+background?: BackgroundPatch, 
+/**
+ * The wind.
+ */
+wind?: WindPatch, };
 
 export type Stage = { "kind": "change", 
 /**
@@ -1431,7 +1535,7 @@ sentence: string,
  */
 programme: Programme, 
 /**
- * What it looks like: all but the background is what `set_appearance` is given when it is picked.
+ * What it looks like: all but the background and the wind is what `set_appearance` is given when it is picked.
  */
 appearance: Appearance, };
 
@@ -1976,7 +2080,11 @@ role: Role, } | { "type": "pong",
 /**
  * The ping's.
  */
-nonce: number, };
+nonce: number, 
+/**
+ * Milliseconds since the server started (`WD2`).
+ */
+at: number, };
 
 export type NewSession = { 
 /**

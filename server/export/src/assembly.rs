@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use espalier_mesh::{Bodies, Body, Grain, Style, TriangleMesh, Wood, seeds};
+use espalier_motion::Rig;
 use espalier_plant::{AxisId, MetamerId, Plant};
 use espalier_settings::Appearance;
 use glam::{Vec2, Vec3, Vec4};
@@ -27,6 +28,7 @@ use crate::{
         bark::{Bark, CUT},
         thin::{self, Thin},
     },
+    swaying::{Rider, Swaying},
 };
 
 /// Metamers whose leaves are made before they are written.
@@ -64,6 +66,8 @@ pub(crate) struct Block<'a> {
     pub second: &'a [u32],
     /// The place of each vertex in the part's light map, upwards, where it has one.
     pub places: Option<&'a [Vec2]>,
+    /// What each vertex goes along with in the wind; none where nothing sways.
+    pub riders: &'a [Rider],
 }
 
 /// Gives blocks one by one, always the same; it may be asked several times.
@@ -86,6 +90,8 @@ pub(crate) struct Part<'a> {
     /// Whether the texture comes again beyond its borders.
     pub repeats: bool,
     pub lightmap: Option<&'a LightMap>,
+    /// Whether its vertices have something to go along with.
+    pub rides: bool,
     pub blocks: Blocks<'a>,
 }
 
@@ -112,7 +118,12 @@ pub(crate) struct Scatter<'a> {
 }
 
 /// Makes a file of nodes and parts.
-pub(crate) trait Builder {
+pub(crate) trait Builder<'s> {
+    /// The bones of the plant that is open, where it sways; they come before its parts.
+    fn bones(&mut self, swaying: &'s Swaying, rig: Rig) -> Result<(), ExportError> {
+        let _ = (swaying, rig);
+        Ok(())
+    }
     /// A node at a place, below the one that is open; what follows is below it.
     fn begin(&mut self, name: &str, place: Vec3, extras: Option<Value>) -> Result<(), ExportError>;
     /// The node that was begun last has all its parts.
@@ -134,6 +145,7 @@ pub(crate) struct Assembly<'a> {
     bark: Bark,
     thin: [Option<Thin>; 3],
     levels: Vec<Level<'a>>,
+    swaying: Option<&'a Swaying>,
 }
 
 const PARTS: [&str; 3] = ["Leaves", "Flowers", "Fruits"];
@@ -180,7 +192,18 @@ impl<'a> Assembly<'a> {
                 thin::fruits(&looks.fruits),
             ],
             levels: levels.collect(),
+            swaying: None,
         }
+    }
+
+    /// The same, with how it sways.
+    pub(crate) fn moved_by(self, swaying: Option<&'a Swaying>) -> Self {
+        Self { swaying, ..self }
+    }
+
+    /// How many plants there are at most.
+    pub(crate) fn plants(&self) -> usize {
+        (0..self.plant.metamer_count()).map(MetamerId::new).filter(|&id| self.plant.is_seed(id)).count()
     }
 
     /// At most so many nodes will have parts; none where no plant has grown.
@@ -199,7 +222,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// Gives all nodes and parts to what makes a file of them.
-    pub(crate) fn build(&self, builder: &mut dyn Builder) -> Result<(), ExportError> {
+    pub(crate) fn build(&self, builder: &mut dyn Builder<'a>) -> Result<(), ExportError> {
         let (plant, by_seed) = (self.plant, self.by_seed());
         let is_standing = |&id: &MetamerId| plant.is_seed(id) && plant.is_alive(id);
         let seeds: Vec<_> = (0..plant.metamer_count()).map(MetamerId::new).filter(is_standing).collect();
@@ -219,13 +242,16 @@ impl<'a> Assembly<'a> {
 
     fn plant(
         &self,
-        builder: &mut dyn Builder,
+        builder: &mut dyn Builder<'a>,
         name: &str,
         number: usize,
         seed: MetamerId,
         ids: &[MetamerId],
     ) -> Result<(), ExportError> {
         let place = self.plant.metamers().end(seed);
+        if let (Some(swaying), Some(most)) = (self.swaying, self.model.sway) {
+            builder.bones(swaying, swaying.rig(seed, most))?;
+        }
         for level in &self.levels {
             let is_set = self.model.detail == Detail::Set;
             if is_set {
@@ -302,7 +328,7 @@ impl<'a> Assembly<'a> {
 
     fn parts(
         &self,
-        builder: &mut dyn Builder,
+        builder: &mut dyn Builder<'a>,
         level: &Level<'_>,
         limb: &Limb<'_>,
     ) -> Result<(), ExportError> {
@@ -314,7 +340,15 @@ impl<'a> Assembly<'a> {
                 None => self.wood(limb, take),
             };
             let lightmap = map.as_ref().map(|map| &map.map);
-            builder.part(&Part { name: "Wood", surfaces: &surfaces, repeats: true, lightmap, blocks })?;
+            let rides = self.swaying.is_some();
+            builder.part(&Part {
+                name: "Wood",
+                surfaces: &surfaces,
+                repeats: true,
+                lightmap,
+                rides,
+                blocks,
+            })?;
         }
         for (kind, thin) in self.thin.iter().enumerate() {
             let (name, Some(thin)) = (PARTS[kind], thin) else { continue };
@@ -331,7 +365,7 @@ impl<'a> Assembly<'a> {
                 continue;
             }
             let each: EachCards<'_> = &|take| cards(level, limb, kind, thin.strength, take);
-            self.cards(builder, name, surface, each)?;
+            self.cards(builder, name, surface, self.swaying.is_some(), each)?;
         }
         Ok(())
     }
@@ -344,7 +378,9 @@ impl<'a> Assembly<'a> {
             body.sweep(&mut wood);
             colours.extend(wood.radii.iter().map(|&radius| self.bark.tint(radius)));
             let (mesh, tangents) = (&wood.surface, &wood.tangents);
-            take(Block { mesh, tangents, colours: &colours, second: &wood.cuts, places: None })?;
+            let riders = self.riders(body, mesh);
+            let (second, riders) = (&wood.cuts[..], &riders[..]);
+            take(Block { mesh, tangents, colours: &colours, second, places: None, riders })?;
             wood.clear();
             colours.clear();
         }
@@ -353,19 +389,27 @@ impl<'a> Assembly<'a> {
 
     /// Wood with its places in a light map.
     fn unrolled_wood(&self, limb: &Limb<'_>, map: &WoodMap, take: &mut Take<'_>) -> Result<(), ExportError> {
-        map.each(&limb.bodies, |UnrolledWood { wood, places }| {
+        map.each(&limb.bodies, |body, UnrolledWood { wood, places }| {
             let colours: Vec<Vec3> = wood.radii.iter().map(|&radius| self.bark.tint(radius)).collect();
             let (mesh, tangents) = (&wood.surface, &wood.tangents);
-            take(Block { mesh, tangents, colours: &colours, second: &wood.cuts, places: Some(places) })
+            let riders = self.riders(body, mesh);
+            let (second, places, riders) = (&wood.cuts[..], Some(&places[..]), &riders[..]);
+            take(Block { mesh, tangents, colours: &colours, second, places, riders })
         })
+    }
+
+    /// What the vertices of a body go along with; nothing where nothing sways.
+    fn riders(&self, body: &Body<'_>, mesh: &TriangleMesh) -> Vec<Rider> {
+        self.swaying.map_or_else(Vec::new, |swaying| swaying.along(self.plant, body.axis(), &mesh.positions))
     }
 
     /// A part of cards, with their places in a light map where one is asked for.
     fn cards(
         &self,
-        builder: &mut dyn Builder,
+        builder: &mut dyn Builder<'a>,
         name: &'static str,
         surface: Surface<'_>,
+        rides: bool,
         each: EachCards<'_>,
     ) -> Result<(), ExportError> {
         let map = match self.model.lightmap {
@@ -391,13 +435,13 @@ impl<'a> Assembly<'a> {
                 take(Block { places: lightmap.map(|_| &places[..]), ..shown(cards) })
             })
         };
-        builder.part(&Part { name, surfaces: &[surface], repeats: false, lightmap, blocks })
+        builder.part(&Part { name, surfaces: &[surface], repeats: false, lightmap, rides, blocks })
     }
 
     /// Two crossed cards with pictures of the plant.
     fn billboard(
         &self,
-        builder: &mut dyn Builder,
+        builder: &mut dyn Builder<'a>,
         level: &Level<'_>,
         limbs: &BTreeMap<AxisId, Limb<'_>>,
         place: Vec3,
@@ -417,14 +461,14 @@ impl<'a> Assembly<'a> {
         let Billboard { cards, texture } = Billboard::of(place, &each)?;
         // Each plant has pictures of its own.
         let name = if number == 1 { "Billboard".to_owned() } else { format!("Billboard_{number}") };
-        self.cards(builder, "Billboard", Surface::Thin(&name, &texture), &|take| take(&cards))
+        self.cards(builder, "Billboard", Surface::Thin(&name, &texture), false, &|take| take(&cards))
     }
 }
 
 /// Cards as a block that is in no light map.
 fn shown(cards: &Cards) -> Block<'_> {
-    let Cards { mesh, tangents, hues, .. } = cards;
-    Block { mesh, tangents, colours: hues, second: &[], places: None }
+    let Cards { mesh, tangents, hues, riders, .. } = cards;
+    Block { mesh, tangents, colours: hues, second: &[], places: None, riders }
 }
 
 /// Gives leaves, flowers or fruits.
@@ -443,6 +487,7 @@ fn cards(
                 1 => level.foliage.add_flowers(&mut cards, id),
                 _ => level.foliage.add_fruits(&mut cards, id),
             }
+            cards.ride_on(id);
         }
         for hue in &mut cards.hues {
             *hue *= strength;

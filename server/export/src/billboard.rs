@@ -248,7 +248,10 @@ mod tests {
         let tangents = vec![Vec3::X.extend(1.0); mesh.positions.len()];
         let billboard = Billboard::of(foot, &|take| {
             let (second, places) = (&[][..], None);
-            take(&plain, Block { mesh: &mesh, tangents: &tangents, colours: &colours, second, places })
+            take(
+                &plain,
+                Block { mesh: &mesh, tangents: &tangents, colours: &colours, second, places, riders: &[] },
+            )
         })
         .expect("it is painted");
         let depth = billboard.texture.depth.as_ref().expect("a billboard has depths");

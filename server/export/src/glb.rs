@@ -3,16 +3,19 @@
 mod instances;
 mod material;
 mod packing;
+mod skin;
 mod vertex;
 mod writer;
 
 use espalier_mesh::{Style, TriangleMesh};
+use espalier_motion::Rig;
 use espalier_plant::Plant;
 use espalier_settings::Appearance;
 use glam::{Vec2, Vec3, Vec4};
 use serde_json::Value;
 
 use self::{
+    skin::{CAPACITY_OF_BONE, Skeleton},
     vertex::Vertex,
     writer::{Packing, Writer},
 };
@@ -20,6 +23,7 @@ use crate::{
     About, ExportError, Model, Sink,
     assembly::{Assembly, Builder, Part, Scatter, Surface},
     gltf::{Asset, Scene},
+    swaying::Swaying,
 };
 
 /// Bytes for the JSON: of materials and the scene, and of a part with its node, mesh, accessors and views.
@@ -42,7 +46,8 @@ pub fn glb(
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
     let scale = about.scale()?;
-    let assembly = Assembly::of(plant, style, appearance, about.species, model);
+    let swaying = model.sway.map(|_| Swaying::of(plant, style, &appearance.wind, scale));
+    let assembly = Assembly::of(plant, style, appearance, about.species, model).moved_by(swaying.as_ref());
     let asset = Asset {
         version: "2.0",
         generator: about.program.to_owned(),
@@ -51,34 +56,54 @@ pub fn glb(
     };
     let capacity = match assembly.most_parts() {
         0 => 0,
-        parts => CAPACITY + serde_json::to_vec(&asset)?.len() + parts * CAPACITY_OF_PART,
+        parts => {
+            let bones = model.sway.unwrap_or_default() as usize * assembly.plants();
+            let parts = parts * (CAPACITY_OF_PART + 8 * model.sway.unwrap_or_default() as usize);
+            CAPACITY + serde_json::to_vec(&asset)?.len() + parts + bones * CAPACITY_OF_BONE
+        }
     };
     let packing = Packing { is_quantised: model.quantised, is_compressed: model.compressed };
-    let mut writer = Writer::new(out, asset, scale, packing, capacity)?;
-    assembly.build(&mut writer)?;
-    writer.finish()
+    let mut file = File { writer: Writer::new(out, asset, scale, packing, capacity)?, skeleton: None };
+    assembly.build(&mut file)?;
+    file.writer.finish()
 }
 
-impl Builder for Writer<'_> {
+/// A file, and the bones of the plant that is written.
+struct File<'w, 's> {
+    writer: Writer<'w>,
+    skeleton: Option<Skeleton<'s>>,
+}
+
+impl<'s> Builder<'s> for File<'_, 's> {
     fn begin(&mut self, name: &str, place: Vec3, extras: Option<Value>) -> Result<(), ExportError> {
-        self.open(name, place, extras);
+        self.writer.open(name, place, extras);
         Ok(())
     }
 
     fn end(&mut self) -> Result<(), ExportError> {
-        self.close();
+        self.writer.close();
+        Ok(())
+    }
+
+    fn bones(&mut self, swaying: &'s Swaying, rig: Rig) -> Result<(), ExportError> {
+        self.skeleton = Some(Skeleton::begin(&mut self.writer, swaying, rig)?);
         Ok(())
     }
 
     fn part(&mut self, part: &Part<'_>) -> Result<(), ExportError> {
         // What is not quantised has no bounds.
-        let reach = if self.packing.is_quantised { part.reach(self.origin())? } else { 1.0 };
-        if !(reach * self.scale).is_finite() {
+        let Self { writer, skeleton } = self;
+        let skeleton = skeleton.as_ref().filter(|_| part.rides);
+        let reach = if writer.packing.is_quantised { part.reach(writer.origin())? } else { 1.0 };
+        if !(reach * writer.scale).is_finite() {
             return Err(ExportError::NotFinite);
         }
-        let mut vertices = self.begin_part(part.repeats, reach);
+        let mut vertices = writer.begin_part(part.repeats, reach);
         if let Some(map) = part.lightmap {
-            vertices = vertices.with_lightmap(&map.about(self.scale));
+            vertices = vertices.with_lightmap(&map.about(writer.scale));
+        }
+        if skeleton.is_some() {
+            vertices = vertices.with_bones();
         }
         let mut triangles = [Vec::new(), Vec::new()];
         (part.blocks)(&mut |block| {
@@ -87,7 +112,9 @@ impl Builder for Writer<'_> {
                 let (normal, uv) = (block.mesh.normals[index], block.mesh.uvs[index]);
                 let (tangent, colour) = (block.tangents[index], block.colours[index]);
                 let lit = block.places.map_or(Vec2::ZERO, |places| places[index]);
-                vertices.vertex(self, &Vertex { place, normal, tangent, uv, colour, lit })?;
+                let rider = block.riders.get(index).zip(skeleton);
+                let bound = rider.map(|(&rider, skeleton)| skeleton.bound(rider)).unwrap_or_default();
+                vertices.vertex(writer, &Vertex { place, normal, tangent, uv, colour, lit, bound })?;
             }
             for (to, from) in triangles.iter_mut().zip([&block.mesh.indices[..], block.second]) {
                 to.extend(from.iter().map(|&index| first + index));
@@ -96,26 +123,31 @@ impl Builder for Writer<'_> {
         })?;
         let triangles: Vec<_> =
             triangles.iter().zip(part.surfaces).map(|(indices, &surface)| (&indices[..], surface)).collect();
-        vertices.finish(self, part.name, &triangles)
+        match skeleton {
+            Some(skeleton) => vertices.finish_bound(writer, skeleton, part.name, &triangles),
+            None => vertices.finish(writer, part.name, &triangles),
+        }
     }
 
     fn scatter(&mut self, scatter: &Scatter<'_>) -> Result<(), ExportError> {
-        instances::scatter(self, scatter)
+        instances::scatter(&mut self.writer, scatter)
     }
 
     fn hull(&mut self, name: &str, mesh: &TriangleMesh) -> Result<(), ExportError> {
-        if self.root.scenes.len() == 1 {
-            self.root.scenes.push(Scene { name: COLLISION, nodes: Vec::new() });
+        let writer = &mut self.writer;
+        if writer.root.scenes.len() == 1 {
+            writer.root.scenes.push(Scene { name: COLLISION, nodes: Vec::new() });
         }
-        let reach = mesh.positions.iter().map(|place| (*place - self.origin()).abs().max_element());
-        let mut vertices = self.begin_part(false, reach.fold(1.0, f32::max));
+        let reach = mesh.positions.iter().map(|place| (*place - writer.origin()).abs().max_element());
+        let mut vertices = writer.begin_part(false, reach.fold(1.0, f32::max));
         for (&place, &normal) in mesh.positions.iter().zip(&mesh.normals) {
             let tangent: Vec4 = normal.any_orthonormal_vector().extend(1.0);
             let (uv, colour) = (Vec2::ZERO, Vec3::ONE);
-            let vertex = Vertex { place, normal, tangent, uv, colour, lit: uv };
-            vertices.vertex(self, &vertex)?;
+            let bound = Default::default();
+            let vertex = Vertex { place, normal, tangent, uv, colour, lit: uv, bound };
+            vertices.vertex(writer, &vertex)?;
         }
         let surface = Surface::Plain(COLLISION, HULL);
-        vertices.finish_apart(self, name, &[(&mesh.indices, surface)])
+        vertices.finish_apart(writer, name, &[(&mesh.indices, surface)])
     }
 }

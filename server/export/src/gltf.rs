@@ -44,6 +44,10 @@ pub(crate) struct Root {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub accessors: Vec<Accessor>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub skins: Vec<Skin>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub animations: Vec<Animation>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub buffer_views: Vec<BufferView>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub buffers: Vec<Buffer>,
@@ -75,6 +79,8 @@ pub(crate) struct Node {
     pub scale: Option<[f32; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub skin: Option<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub children: Vec<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -111,6 +117,50 @@ pub(crate) struct Attributes {
     pub texcoord_1: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color_0: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joints_0: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weights_0: Option<usize>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Skin {
+    pub inverse_bind_matrices: usize,
+    pub joints: Vec<usize>,
+}
+
+#[derive(Serialize)]
+pub(crate) struct Animation {
+    pub name: String,
+    pub channels: Vec<Channel>,
+    pub samplers: Vec<Sampler>,
+}
+
+#[derive(Serialize)]
+pub(crate) struct Channel {
+    pub sampler: usize,
+    pub target: Target,
+}
+
+#[derive(Serialize)]
+pub(crate) struct Target {
+    pub node: usize,
+    pub path: Path,
+}
+
+#[derive(Clone, Copy, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Path {
+    Rotation,
+    Translation,
+}
+
+/// Between its keys values go on evenly.
+#[derive(Serialize)]
+pub(crate) struct Sampler {
+    pub input: usize,
+    pub output: usize,
 }
 
 #[derive(Serialize)]
@@ -179,9 +229,9 @@ pub(crate) struct Accessor {
     #[serde(rename = "type")]
     pub shape: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub min: Option<[f32; 3]>,
+    pub min: Option<Vec<f32>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub max: Option<[f32; 3]>,
+    pub max: Option<Vec<f32>>,
 }
 
 #[derive(Serialize)]

@@ -17,6 +17,8 @@ pub struct Model {
     pub by_limb: bool,
     /// A second place for each vertex in a light map of so many texels square, one for each mesh.
     pub lightmap: Option<u32>,
+    /// At most so many bones for each plant, and animations of its sway (`glTF`).
+    pub sway: Option<u32>,
 }
 
 /// How finely plants are drawn.

@@ -97,7 +97,7 @@ impl Writer<'_> {
     }
 }
 
-impl Builder for Writer<'_> {
+impl Builder<'_> for Writer<'_> {
     fn begin(&mut self, name: &str, _: Vec3, _: Option<Value>) -> Result<(), ExportError> {
         self.names.push(name.to_owned());
         Ok(())

@@ -143,7 +143,7 @@ impl Writer<'_> {
     }
 }
 
-impl Builder for Writer<'_> {
+impl Builder<'_> for Writer<'_> {
     fn begin(&mut self, name: &str, place: Vec3, extras: Option<Value>) -> Result<(), ExportError> {
         let [x, y, z] = ((place - self.origin()) * self.scale).to_array();
         let name = identifier(name);

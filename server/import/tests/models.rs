@@ -25,6 +25,7 @@ const PLAIN: Model = Model {
     hull: false,
     by_limb: false,
     lightmap: None,
+    sway: None,
 };
 
 type Export = fn(

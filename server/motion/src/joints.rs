@@ -62,6 +62,8 @@ pub struct Joint {
 pub struct Joints {
     joints: Vec<Joint>,
     rides: Vec<Ride>,
+    /// The row below each; [`NONE`] for seeds.
+    below: Vec<u32>,
 }
 
 impl Joints {
@@ -106,7 +108,7 @@ impl Joints {
         damping_by_company(&mut joints, limbs);
         let rides = rides(limbs, wood, &joint_of_limb, &shapes);
         find_lowest(&mut joints, wood, &rides);
-        Self { joints, rides }
+        Self { joints, rides, below: wood.parent.clone() }
     }
 
     /// From rows to joints in one go, with the wood they are made of.
@@ -120,6 +122,18 @@ impl Joints {
     /// All of them.
     pub fn all(&self) -> &[Joint] {
         &self.joints
+    }
+
+    /// The same with so many times the damping of wood and company.
+    #[must_use]
+    pub fn damped(mut self, times: f64) -> Self {
+        self.joints.iter_mut().for_each(|joint| joint.damping *= times);
+        self
+    }
+
+    /// The row below another; none below a seed.
+    pub fn below(&self, row: u32) -> Option<u32> {
+        Some(self.below[row as usize]).filter(|&below| below != NONE)
     }
 
     /// How each row rides, by row.

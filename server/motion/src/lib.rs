@@ -10,6 +10,7 @@
 
 pub mod answers;
 pub mod bodies;
+pub mod clips;
 mod exposure;
 mod frequency;
 mod joints;
@@ -17,6 +18,7 @@ mod limbs;
 mod pose;
 mod radii;
 mod rides;
+mod rig;
 mod rows;
 mod shapes;
 pub mod shelter;
@@ -33,6 +35,7 @@ pub use joints::{Joint, Joints, MAX_JOINTS};
 pub use limbs::{Limb, Limbs};
 pub use pose::{Node, Pose, Stand};
 pub use rides::Ride;
+pub use rig::{Bone, Bound, Rig};
 pub use rows::{BrokenRows, NONE, Row, Rows};
 pub use sway::{Pluck, Sway};
 pub use wind::{Direction, LIVE_PERIOD, Line, Weather, Wind, profile};

@@ -15,9 +15,9 @@ impl AppearanceChange {
         Ok(Self(*patch))
     }
 
-    /// The looks of a tree as a whole, all but what surrounds it.
+    /// The looks of a tree as a whole, all but what surrounds it and the wind.
     pub(crate) fn of_tree(looks: &Appearance) -> AppearancePatch {
-        AppearancePatch { background: None, ..(*looks).into() }
+        AppearancePatch { background: None, wind: None, ..(*looks).into() }
     }
 
     /// An appearance with these fields put in.

@@ -343,7 +343,9 @@ impl Session {
                     self.here(client, said, name.as_deref());
                 }
             }
-            Ok(ClientMessage::Ping { nonce }) => self.send(client, &ServerMessage::Pong { nonce }),
+            Ok(ClientMessage::Ping { nonce }) => {
+                self.send(client, &ServerMessage::Pong { nonce, at: self.now });
+            }
             Ok(ClientMessage::Hello { .. }) => {
                 let problem = Problem::new(Reason::Malformed, "hello is only the first message")
                     .at("type", "any other message");

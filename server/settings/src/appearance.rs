@@ -7,7 +7,7 @@ use ts_rs::TS;
 use crate::{
     looks::{
         Background, BackgroundPatch, BarkKind, BarkLook, BarkPatch, FlowerLook, FlowerPatch, FruitLook,
-        FruitPatch, LeafKind, LeafLook, LeafPatch,
+        FruitPatch, LeafKind, LeafLook, LeafPatch, WindLook, WindPatch,
     },
     schema::without_null,
     setting::{OutOfRange, Setting},
@@ -77,6 +77,8 @@ sections! {
     bark: BarkLook / BarkPatch,
     /// All around.
     background: Background / BackgroundPatch,
+    /// The wind.
+    wind: WindLook / WindPatch,
 }
 
 /// A section that is there holds fields; `null` is none.
@@ -85,6 +87,12 @@ fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> R
 }
 
 impl Appearance {
+    /// This appearance with what belongs to a place and a day, not to a tree, as in another one: all around, and the wind.
+    #[must_use]
+    pub fn among(self, surroundings: &Self) -> Self {
+        Self { background: surroundings.background, wind: surroundings.wind, ..self }
+    }
+
     /// This appearance with leaves of this form and colour.
     #[must_use]
     pub fn leafy(mut self, shape: LeafKind, tint: Tint) -> Self {

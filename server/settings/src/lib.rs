@@ -22,7 +22,7 @@ pub use bark_nature::{BARK_BEGINS, BARK_SQUARES, BarkNature, LIMB_ENDS, Mixture,
 pub use leaf_nature::{Change, Course, LeafNature};
 pub use looks::{
     Background, BackgroundPatch, BarkKind, BarkLook, BarkPatch, FlowerKind, FlowerLook, FlowerPatch,
-    FruitKind, FruitLook, FruitPatch, Ground, LeafKind, LeafLook, LeafPatch, Place, Sky,
+    FruitKind, FruitLook, FruitPatch, Ground, LeafKind, LeafLook, LeafPatch, Place, Sky, WindLook, WindPatch,
 };
 pub use ornament_nature::{FLOWER_SALT, FRUIT_SALT, OrnamentNature, THICKEST_BEARING};
 pub use parameters::{ParameterValues, ParametersPatch, VigorModel};

@@ -1,8 +1,8 @@
-//! Looks: of leaves, flowers, fruits, bark, and what surrounds the tree. Growth takes no notice of them.
+//! Looks: of leaves, flowers, fruits, bark, what surrounds the tree, and the wind. Growth takes no notice of them.
 
 use crate::{
     choice::choices,
-    setting::Unit::{Degrees, Internodes},
+    setting::Unit::{Degrees, Internodes, Metres, MetresPerSecond},
     table::settings,
     value::Tint,
 };
@@ -198,6 +198,31 @@ settings! {
         sun_azimuth: f32 = 310.0, range(0.0, 360.0), step(1.0), unit(Degrees);
         /// How high it is above the horizon.
         sun_elevation: f32 = 48.0, range(-10.0, 90.0), step(1.0), unit(Degrees);
+    }
+
+    /// The wind in which trees sway, and what else the weather does to them. No row, light or growth knows of it.
+    #[derive(Copy)]
+    WindLook / #[derive(Copy)] WindPatch {
+        /// How fast it blows on average 10 m above the ground, level; 0 is a calm.
+        speed: f32 = 0.0, range(0.0, 25.0), step(0.5), unit(MetresPerSecond);
+        /// Where it blows to, around the vertical from the x axis towards the z axis.
+        direction: f32 = 0.0, range(0.0, 360.0), step(5.0), unit(Degrees);
+        /// How fast it rises, or falls where it is less than 0.
+        rise: f32 = 0.0, range(-10.0, 10.0), step(0.5), unit(MetresPerSecond);
+        /// From an even wind to one that comes in gusts.
+        turbulence: f32 = 0.6, range(0.0, 1.0), step(0.05);
+        /// How much leaves flutter beside what is usual for their form.
+        flutter: f32 = 1.0, range(0.0, 2.0), step(0.1);
+        /// How much more wood weighs than it grew under: 1 is its own weight once more.
+        sag: f32 = 0.0, range(0.0, 1.0), step(0.05);
+        /// How much softer wood is than it swings in nature.
+        suppleness: f32 = 1.0, range(0.2, 5.0), step(0.1);
+        /// How much sooner wood comes to rest than in nature.
+        damping: f32 = 1.0, range(0.2, 5.0), step(0.1);
+        /// How deep fresh snow lies on all that holds it.
+        snow: f32 = 0.0, range(0.0, 0.5), step(0.01), unit(Metres);
+        /// From dry leaves to leaves heavy with rain.
+        rain: f32 = 0.0, range(0.0, 1.0), step(0.05);
     }
 }
 

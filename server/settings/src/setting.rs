@@ -10,6 +10,8 @@ choices! {
     Unit {
         /// Metres.
         Metres = "m",
+        /// Metres in a second.
+        MetresPerSecond = "m/s",
         /// Lengths of an internode.
         Internodes = "internodes",
         /// Degrees of an angle.

@@ -77,7 +77,8 @@ pub(super) fn parse_export(path: &str) -> Result<Export, String> {
     let ends = |row: &&FormatRow| {
         name.strip_suffix(row.ending).is_some_and(|stem| stem.len() > 1 && stem.ends_with('.'))
     };
-    let row = FORMATS.iter().find(ends).ok_or_else(|| {
+    // Of endings that both fit the longer one is meant.
+    let row = FORMATS.iter().filter(ends).max_by_key(|row| row.ending.len()).ok_or_else(|| {
         let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
         format!("{}the name must end in one of: {}", unknown(ending), endings())
     })?;
@@ -124,6 +125,9 @@ mod tests {
         assert_eq!(format("tree.json"), Ok(Format::Skeleton));
         assert_eq!(format("tree.obj.zip"), Ok(Format::Obj));
         assert_eq!(format("tree.png"), Ok(Format::Picture));
+        assert_eq!(format("tree.sway.png"), Ok(Format::Sway));
+        assert_eq!(format("tree.csv"), Ok(Format::Qsm));
+        assert_eq!(format("tree.joints.csv"), Ok(Format::Joints));
         for bad in ["tree", "tree.obj", "glb", ".json"] {
             assert!(parse_export(bad).unwrap_err().contains(".glb"), "{bad}");
         }

@@ -79,6 +79,9 @@ it.each([
   [["--lod", "3"], ["UNUSED_OBJECT"]],
   [["--compressed", "--quantised"], ["UNSUPPORTED_EXTENSION"]],
   [["--instanced"], ["UNSUPPORTED_EXTENSION", "UNUSED_OBJECT"]],
+  [["--sway", "256"], []],
+  [["--sway", "64", "--by-limb", "--hull", "--quantised", "--lod", "set"], ["UNUSED_OBJECT"]],
+  [["--sway", "1024", "--compressed"], ["UNSUPPORTED_EXTENSION"]],
   // Light is baked later: no material uses the places in light maps.
   [["--lightmap", "1024"], ["UNUSED_OBJECT"]],
   [["--lightmap", "512", "--lod", "set", "--hull", "--quantised"], ["UNUSED_OBJECT"]],

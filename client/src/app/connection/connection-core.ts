@@ -46,7 +46,7 @@ export type Effect =
   | { readonly kind: "refused"; readonly problem: Problem; readonly command?: Command };
 
 /** What a page says that is no command: it is not numbered, and not said again. */
-export type Told = Extract<ClientMessage, { type: "predict" | "here" | "follow" | "gather" }>;
+export type Told = Extract<ClientMessage, { type: "predict" | "here" | "follow" | "gather" | "ping" }>;
 
 export interface CoreOptions {
   /** Draws a new client key. */
@@ -191,8 +191,6 @@ export class ConnectionCore {
         break;
       case "refused":
         this.#refuse(message.id, message.problem);
-        break;
-      case "pong":
         break;
       default:
         this.#effects.push({ kind: "message", message });

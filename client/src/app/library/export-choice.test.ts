@@ -28,6 +28,10 @@ describe("a choice", () => {
     expect([...optionsOf({ ...FIRST_CHOICE, lightmap: "1024" }, lit)]).toEqual([["lightmap", "1024"]]);
     expect([...optionsOf({ ...FIRST_CHOICE, lightmap: "1024" }, GLB)]).toEqual([]);
     expect([...optionsOf({ ...FIRST_CHOICE, lightmap: "" }, lit)]).toEqual([]);
+    const swaying = { ...GLB, options: ["sway", "instanced"] };
+    const choice = { ...FIRST_CHOICE, sway: "64", on: ["instanced"] };
+    expect([...optionsOf(choice, swaying)], "leaves that are instances stand still").toEqual([["sway", "64"]]);
+    expect([...optionsOf({ ...choice, sway: "" }, swaying)]).toEqual([["instanced", "true"]]);
     expect([
       isExportChoice({ ...FIRST_CHOICE, lightmap: "1024" }),
       isExportChoice({ ...FIRST_CHOICE, lightmap: 1 }),

@@ -8,6 +8,8 @@ export interface ExportChoice {
   readonly frames: string;
   /** Texels along a side of light maps; none, or missing in what was kept before there were any. */
   readonly lightmap?: string;
+  /** The most bones of a plant that sways; none, or missing in what was kept before there were any. */
+  readonly sway?: string;
   /** Switches that are on, for all formats that have them. */
   readonly on: readonly string[];
   readonly author: string;
@@ -32,7 +34,7 @@ export function isExportChoice(value: unknown): boolean {
     [choice.format, choice.lod, choice.frames, choice.author, choice.licence].every(
       (text) => typeof text === "string",
     ) &&
-    ["undefined", "string"].includes(typeof choice.lightmap) &&
+    [choice.lightmap, choice.sway].every((text) => ["undefined", "string"].includes(typeof text)) &&
     Array.isArray(choice.on) &&
     choice.on.every((name) => typeof name === "string")
   );
@@ -40,10 +42,13 @@ export function isExportChoice(value: unknown): boolean {
 
 /** What of a choice the format can do, as the server is asked for it. */
 export function optionsOf(choice: ExportChoice, format: ExportFormat): ReadonlyMap<string, string> {
+  const sways = format.options.includes("sway") && (choice.sway ?? "") !== "";
   const all: [string, string][] = [
     ["lod", choice.lod === "0" ? "" : choice.lod],
-    ...choice.on.map((name): [string, string] => [name, "true"]),
+    // Leaves that are instances stand still.
+    ...choice.on.filter((name) => !(sways && name === "instanced")).map((name): [string, string] => [name, "true"]),
     ["lightmap", choice.lightmap ?? ""],
+    ["sway", choice.sway ?? ""],
     ["frames", choice.frames],
     ["author", choice.author.trim()],
     ["licence", choice.licence.trim()],

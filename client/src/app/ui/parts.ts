@@ -102,6 +102,12 @@ export const TOOL_PARTS = Object.fromEntries(
 export const CHIPS = new Part(async () => (await import("./notices/chips")).Chips);
 
 /** Why the picture is coarse. It comes with texts of its own: it is said before a picture that takes long. */
+/** The wind in the picture. */
+export const WIND = new Part(
+  async () => (await import("../document/wind/wind-of")).windOf,
+  () => Promise.resolve(),
+);
+
 export const SLOWNESS = new Part(
   async () => (await import("./notices/slowness-chip")).SlownessChip,
   () => Promise.resolve(),

@@ -18,6 +18,8 @@ export const EXPORTS = {
   "exports.by_limb": ["A node for each limb", "Ein Knoten je Ast"],
   "exports.lightmap": ["Light map, in texels", "Lichtkarte, in Texeln"],
   "exports.lightmap.none": ["None", "Keine"],
+  "exports.sway": ["Bones that sway in wind", "Knochen, die im Wind schwingen"],
+  "exports.sway.none": ["None", "Keine"],
   "exports.frames": ["Pictures", "Bilder"],
   "exports.author": ["Author", "Urheber"],
   "exports.licence": ["Licence", "Lizenz"],

@@ -2,11 +2,23 @@
 export const WIND = {
   "wind.air": ["Air", "Luft"],
   "wind.wood": ["Wood", "Holz"],
+  "wind.weather": ["Snow and rain", "Schnee und Regen"],
+  "wind.snow": ["Snow", "Schnee"],
+  "wind.snow.help": [
+    "How deep fresh snow lies on leaves and level wood, which bend under it.",
+    "Wie hoch Neuschnee auf Blättern und flachem Holz liegt, die sich darunter biegen.",
+  ],
+  "wind.rain": ["Rain", "Regen"],
+  "wind.rain.help": [
+    "How wet leaves and bark are: leaves hang, and bark is darker.",
+    "Wie nass Blätter und Rinde sind: Blätter hängen, und Rinde ist dunkler.",
+  ],
   "wind.presets": ["How strong the wind is", "Wie stark der Wind ist"],
   "wind.presets.calm": ["Calm", "Windstille"],
   "wind.presets.breeze": ["Breeze", "Brise"],
   "wind.presets.wind": ["Wind", "Wind"],
   "wind.presets.storm": ["Storm", "Sturm"],
+  "wind.presets.snow": ["Snow", "Schnee"],
   "wind.disc": ["Wind by strength and direction", "Wind nach Stärke und Richtung"],
   "wind.disc.value": ["{speed} towards {direction}°", "{speed} in Richtung {direction}°"],
   "wind.speed": ["Strength", "Stärke"],
@@ -16,6 +28,11 @@ export const WIND = {
   ],
   "wind.direction": ["Direction", "Richtung"],
   "wind.direction.help": ["Where the wind blows to.", "Wohin der Wind weht."],
+  "wind.rise": ["Upwards", "Aufwärts"],
+  "wind.rise.help": [
+    "How fast the wind rises; it falls where this is less than nothing.",
+    "Wie schnell der Wind aufsteigt; unter null fällt er.",
+  ],
   "wind.turbulence": ["Turbulence", "Böigkeit"],
   "wind.turbulence.help": [
     "From an even wind to one that comes in gusts.",
@@ -49,8 +66,12 @@ export const WIND = {
     "Nothing moves, because this device is set to show less motion.",
     "Nichts bewegt sich, weil dieses Gerät weniger Bewegung zeigen soll.",
   ],
-  "wind.local": [
-    "The wind blows on this page alone: others in the session do not see it, and it is not saved.",
-    "Der Wind weht nur auf dieser Seite: Andere in der Sitzung sehen ihn nicht, und er wird nicht gesichert.",
+  "wind.shared": [
+    "All in the session see the same wind and the same gusts, and it is saved with the tree. To hold it concerns this page alone.",
+    "Alle in der Sitzung sehen denselben Wind und dieselben Böen, und er wird mit dem Baum gesichert. Angehalten wird er nur auf dieser Seite.",
+  ],
+  "wind.fine": [
+    "Motion has no time step to set, for it is a formula of time; how finely curves are drawn follows the screen.",
+    "Ein Zeitschritt ist nicht einzustellen, denn die Bewegung ist eine Formel der Zeit; wie fein Kurven gezeichnet werden, folgt dem Bildschirm.",
   ],
 } as const;

@@ -1,12 +1,14 @@
 import type { WebGLRenderer } from "three";
 import { type DrawnElsewhere, type Pick, type Projection, pickBranch } from "../camera/picking";
 import type { QualityControl } from "../rendering/quality";
+import type { Vec3 } from "../vector";
 import type { World } from "../world";
-import { type AirSettings, blows, CALM } from "./air-settings";
+import { type AirSettings, blows, CALM, stirs } from "./air-settings";
 import { Amount } from "./amount";
 import { Answers } from "./answers";
 import { JointMaker } from "./joint-maker";
 import type { JointOrder, JointsMade } from "./joint-work";
+import { loaded } from "./loads";
 import { motionRows } from "./motion-rows";
 import { MovedRows } from "./moved-rows";
 import type { Moving } from "./moving";
@@ -29,6 +31,8 @@ const RETUNED = 250;
 /** Milliseconds between two looks at how far the tree reaches, and rows that are looked at. */
 const MEASURED = 1000;
 const SAMPLES = 600;
+/** Metres of snow that hide what they lie on. */
+const COVERED = 0.04;
 /** Which gusts come; everybody has the same. */
 const SEED = 7;
 
@@ -141,11 +145,13 @@ export class Air {
       amount,
       share: share * share * (3 - 2 * share),
       flutter: this.wanted.flutter * this.leaves,
+      snow: amount * Math.min(1, this.wanted.snow / COVERED),
+      rain: amount * this.wanted.rain,
     });
     this.materials.sway(true);
     stage.world.shadow.stale ||= this.pace.shadow(began);
     this.reach(began);
-    const blown = amount > 0 && this.held === null;
+    const blown = amount > 0 && this.held === null && (stirs(this.wanted) || this.changing(at));
     const moves = blown || share < 1 || this.amount.changing || this.made.joints === "";
     if (moves && this.pace.heavy(began)) stage.control.moved(began);
     return moves;
@@ -247,13 +253,11 @@ export class Air {
 
   /** The wind as it is wanted, and what all joints answer it. */
   private answers(): Answers {
-    const { speed, direction, turbulence, sag, damping } = this.wanted;
-    const turn = (direction * Math.PI) / 180;
-    const velocity = [speed * Math.cos(turn), 0, speed * Math.sin(turn)] as const;
-    this.wind = windOf({ velocity, turbulence, seed: SEED }, LIVE_PERIOD);
+    const { turbulence, damping } = this.wanted;
+    this.wind = windOf({ velocity: velocityOf(this.wanted), turbulence, seed: SEED }, LIVE_PERIOD);
     this.made.tuned = tuningOf(this.wanted);
-    const weights = sag > 0 ? this.moving!.sag.map((each) => sag * each) : null;
-    return new Answers(this.moving!.joints, this.wind, this.exposure, { damping, sag: weights });
+    const sag = loaded(this.moving!.loads, this.wanted);
+    return new Answers(this.moving!.joints, this.wind, this.exposure, { damping, sag });
   }
 
   /** Has another wind take over, if another is wanted. While none is, what blew last dies away. */
@@ -266,6 +270,11 @@ export class Air {
       this.mix(began);
       this.sway = new Sway(this.answers());
     }
+  }
+
+  /** Whether one wind still takes over from another. */
+  private changing(time: number): boolean {
+    return this.made.tuned !== tuningOf(this.wanted) || (this.sway?.changing(time) ?? false);
   }
 
   /** What is shown now is held, and what comes then shows over it by and by. */
@@ -311,6 +320,12 @@ export class Air {
 }
 
 /** All that a wind and the answers to it depend on. */
-function tuningOf({ speed, direction, turbulence, sag, damping }: AirSettings): string {
-  return [speed, direction, turbulence, sag, damping].join(" ");
+function tuningOf({ speed, direction, rise, turbulence, sag, damping, snow, rain }: AirSettings): string {
+  return [speed, direction, rise, turbulence, sag, damping, snow, rain].join(" ");
+}
+
+/** Mean wind 10 m above the ground, m/s. */
+function velocityOf({ speed, direction, rise }: AirSettings): Vec3 {
+  const turn = (direction * Math.PI) / 180;
+  return [speed * Math.cos(turn), rise, speed * Math.sin(turn)];
 }

@@ -2,11 +2,9 @@ import type { Vec3 } from "../vector";
 import { behindCrowns, exposureOf } from "./exposure";
 import { type Grown, jointsOf } from "./joints";
 import type { MotionRows } from "./limbs";
-import { type Moving, movingOf, sagOf } from "./moving";
-import { turnsUnder } from "./statics";
+import { loadsOf } from "./loads";
+import { type Moving, movingOf } from "./moving";
 import type { Scale } from "./wood";
-
-const GRAVITY = 9.81;
 
 /** What is asked of whoever makes joints. */
 export interface JointOrder {
@@ -33,8 +31,7 @@ export class JointWork {
     if (rows) {
       const { internodeLength } = rows.scale;
       this.grown = jointsOf(rows.rows, rows.scale, rows.suppleness);
-      const { wood } = this.grown;
-      moving = movingOf(this.grown, sagOf(this.grown, turnsUnder(wood, wood.mass, -GRAVITY)), internodeLength);
+      moving = movingOf(this.grown, loadsOf(this.grown, rows.rows, rows.scale), internodeLength);
     }
     if (!this.grown) return { moving: null, exposure: new Float64Array(0) };
     const { wood, joints } = this.grown;

@@ -41,6 +41,9 @@ export interface Motion {
   readonly share: number;
   /** How much leaves flutter. */
   readonly flutter: number;
+  /** How far snow covers what it lies on, and how wet everything is, 0 to 1 each. */
+  readonly snow: number;
+  readonly rain: number;
 }
 
 /** How each row moves, as a texture that the graphics card makes from joints: a fragment a row and frame. */
@@ -75,6 +78,7 @@ export class MovedRows {
     shared.uMoved = { value: this.targets[0].texture };
     shared.uLee = { value: new Vector3(1, 0, 0) };
     shared.uFlutter = { value: [1, 0] };
+    shared.uWeather = { value: [0, 0] };
     this.material = new RawShaderMaterial({
       glslVersion: GLSL3,
       uniforms: this.uniforms,
@@ -175,7 +179,7 @@ export class MovedRows {
   }
 
   /** The gusts that pass over the tree, as they are now. */
-  private blow({ wind, internodeLength, time, amount, flutter }: Motion): void {
+  private blow({ wind, internodeLength, time, amount, flutter, snow, rain }: Motion): void {
     const gusts = this.uniforms.uGust!.value as Vector4[];
     let count = 0;
     for (const { harmonic, direction, amplitude, phase, wave } of wind.lines) {
@@ -190,6 +194,7 @@ export class MovedRows {
     (this.uniforms.uAir!.value as Vector3).set(wind.speed, gone, amount);
     const [x, , z] = wind.axes[0] as Vec3;
     (this.shared.uLee!.value as Vector3).set(x, 0, z);
+    this.shared.uWeather!.value = [snow, rain];
     this.shared.uFlutter!.value = [flutter, (gone * FLUTTER_CELLS) % 256];
   }
 }

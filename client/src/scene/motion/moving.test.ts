@@ -34,10 +34,10 @@ describe("joints made beside the page", () => {
   const oak = tableOfSwaying(SWAYING_TREES[3]!);
 
   it("say for each row what it rides on and shivers with", () => {
-    const { rows, rowCount, joints, hinges, sag } = movingOf(oak);
+    const { rows, rowCount, joints, hinges, loads } = movingOf(oak);
     expect(rowCount).toBe(oak.rows);
     expect(hinges.count).toBe(joints.count);
-    expect(sag.every(Number.isFinite)).toBe(true);
+    expect(loads.sag.every(Number.isFinite)).toBe(true);
     let shivers = 0;
     for (let row = 0; row < rowCount; row += 1) {
       const at = ROW_NUMBERS * row;
@@ -63,8 +63,8 @@ describe("joints made beside the page", () => {
         begins: i === 0,
       })),
     ];
-    const { sag, hinges, joints } = movingOf(tableOf(lying));
-    const bends = new Float64Array(3 * joints.count).map((_, i) => sag[i]!);
+    const { loads, hinges, joints } = movingOf(tableOf(lying));
+    const bends = new Float64Array(3 * joints.count).map((_, i) => loads.sag[i]!);
     const stands = new Float64Array(STAND * joints.count);
     pose(hinges, bends, stands);
     const table = tableOf(lying);

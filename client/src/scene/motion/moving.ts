@@ -2,6 +2,7 @@ import { leafHash } from "../leaf-hash";
 import type { SwayingJoints } from "./answers";
 import type { Grown, Joints } from "./joints";
 import { NONE } from "./limbs";
+import type { Loads } from "./loads";
 import { type Hinges, hingesOf } from "./pose";
 import { RIDE } from "./rides";
 
@@ -15,15 +16,15 @@ export interface Moving {
   /** Rows it was made from. */
   readonly rowCount: number;
   readonly joints: SwayingJoints;
-  /** How each joint turns where its wood weighs twice as much, radians. */
-  readonly sag: Float64Array;
+  /** How each joint turns under what may lie on the tree. */
+  readonly loads: Loads;
   readonly hinges: Hinges;
   /** See `ROW_NUMBERS`. */
   readonly rows: Float32Array;
 }
 
 /** Of joints as they were made. */
-export function movingOf({ limbs, wood, joints }: Grown, sag: Float64Array, internodeLength: number): Moving {
+export function movingOf({ limbs, wood, joints }: Grown, loads: Loads, internodeLength: number): Moving {
   const hinges = hingesOf(joints, wood);
   const per = 1 / internodeLength;
   const each = hinges.numbers.length / Math.max(1, hinges.count);
@@ -53,7 +54,7 @@ export function movingOf({ limbs, wood, joints }: Grown, sag: Float64Array, inte
   return {
     rowCount: count,
     joints: { count: jointCount, frequency, damping, drag, compliance, centre, area },
-    sag,
+    loads,
     hinges,
     rows,
   };
@@ -65,7 +66,7 @@ function isJoint(joints: Joints, row: number): boolean {
   return joint !== NONE && joints.first[joint] === row;
 }
 
-/** How far each joint turns when all it bears weighs so much more: the part of statics under weight that its shape can show. */
+/** How far each joint turns where the nodes of rows turn like this under a load: the part of it that its shape can show. */
 export function sagOf({ limbs, wood, joints }: Grown, turns: Float64Array): Float64Array {
   const sag = new Float64Array(3 * joints.count);
   for (let joint = 0; joint < joints.count; joint += 1) {

@@ -1,10 +1,12 @@
 import { type Material, Mesh, type Object3D, PerspectiveCamera, RawShaderMaterial, type WebGLRenderer } from "three";
-import { swaying } from "./sway-shaders";
+import { swaying, weathering } from "./sway-shaders";
+
+type Shaders = Readonly<Pick<RawShaderMaterial, "vertexShader" | "fragmentShader">>;
 
 interface Pair {
   readonly material: RawShaderMaterial;
-  readonly plain: string;
-  readonly swaying: string;
+  readonly plain: Shaders;
+  readonly swaying: Shaders;
 }
 
 /** What rows are drawn with, as they stand or as they sway; their programs for the latter are made when wind first blows. */
@@ -29,11 +31,11 @@ export class SwayMaterials {
         if (part instanceof Mesh && part.material instanceof RawShaderMaterial) materials.add(part.material);
       });
     }
-    this.pairs = [...materials].map((material) => ({
-      material,
-      plain: material.vertexShader,
-      swaying: swaying(material.vertexShader),
-    }));
+    this.pairs = [...materials].map((material) => {
+      const { vertexShader, fragmentShader } = material;
+      const other = { vertexShader: swaying(vertexShader), fragmentShader: weathering(fragmentShader) };
+      return { material, plain: { vertexShader, fragmentShader }, swaying: other };
+    });
   }
 
   /** Has the programs made, once, while the picture goes on as it is. */
@@ -47,7 +49,7 @@ export class SwayMaterials {
     if (sways === this.swaying) return;
     this.swaying = sways;
     for (const { material, plain, swaying: other } of this.pairs) {
-      material.vertexShader = sways ? other : plain;
+      Object.assign(material, sways ? other : plain);
       material.needsUpdate = true;
     }
   }
@@ -66,7 +68,7 @@ export class SwayMaterials {
       const copy = material.clone();
       material.uniforms = uniforms;
       copy.uniforms = uniforms;
-      copy.vertexShader = shader;
+      Object.assign(copy, shader);
       this.copies.push(copy);
       return new Mesh(this.pass.geometry, copy);
     });

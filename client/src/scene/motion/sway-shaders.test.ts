@@ -1,10 +1,10 @@
 import { describe, expect, it } from "vitest";
 import { leanShader } from "../../../shader-plugin";
-import { BRANCH_VERTEX } from "../glsl/branch";
-import { LEAF_VERTEX } from "../glsl/leaf";
-import { ornamentVertex } from "../glsl/ornament";
+import { BRANCH_FRAGMENT, BRANCH_VERTEX } from "../glsl/branch";
+import { LEAF_DEPTH_FRAGMENT, LEAF_FRAGMENT, LEAF_VERTEX } from "../glsl/leaf";
+import { ornamentFragment, ornamentVertex } from "../glsl/ornament";
 import { SKELETON_VERTEX } from "../glsl/skeleton";
-import { swaying } from "./sway-shaders";
+import { swaying, weathering } from "./sway-shaders";
 
 const SHADERS: readonly (readonly [name: string, shader: string, has: readonly string[]])[] = [
   ["branches", BRANCH_VERTEX, ["end.arc - (1.0 - u) * distance("]],
@@ -32,4 +32,23 @@ describe.each(SHADERS)("the shader of %s", (_, shader, has) => {
 
 it("a shader that draws no rows is no shader that sways", () => {
   expect(() => swaying("void main() {}")).toThrow();
+});
+
+describe.each([
+  ["bark", BRANCH_FRAGMENT],
+  ["leaves", LEAF_FRAGMENT],
+  ["flowers", ornamentFragment("Flower")],
+])("the colour of %s", (_, shader) => {
+  it.each([
+    ["as it is written", shader],
+    ["as the build shortens it", leanShader(shader)],
+  ])("is that of what snow lies on, %s", (_, plain) => {
+    const changed = weathering(plain);
+    expect(count(changed, "albedo = weathered(albedo, normal);")).toBe(1);
+    expect(changed.indexOf("vec3 weathered(")).toBeLessThan(changed.indexOf("void main"));
+  });
+});
+
+it("shadows are those of what snow lies on", () => {
+  expect(weathering(LEAF_DEPTH_FRAGMENT)).toBe(LEAF_DEPTH_FRAGMENT);
 });

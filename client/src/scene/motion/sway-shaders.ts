@@ -134,6 +134,7 @@ const FLUTTER = /* glsl */ `
 uniform sampler2D uFlatNoise;
 uniform vec3 uLee;
 uniform vec2 uFlutter; // how much of it, and cells of noise that have gone by
+uniform vec2 uWeather;
 float flutterNoise(float along, float seed) {
   float cell = floor(along);
   float f = along - cell;
@@ -144,6 +145,8 @@ void flutter(float air, vec3 base, vec4 more, inout vec3 d, inout vec3 side, ino
   float gone = uFlutter.y - 0.45 * dot(base, uLee) + 13.0 * more.z;
   float much = uFlutter.x;
   vec3 by = cross(d, uLee) * min(0.06 * air, 0.9) * min(much, 1.0);
+  // Wet blades hang, and so do those that snow lies on.
+  by += cross(d, vec3(0.0, -1.0, 0.0)) * min(0.7, 0.35 * uWeather.y + 0.5 * uWeather.x);
   by += side * (0.25 * much * min(1.0, air / 8.0) * flutterNoise(gone, more.x));
   by += d * (0.5 * much * min(1.0, air / 6.0) * flutterNoise(gone + 57.3, more.y));
 #ifdef SPRIG
@@ -199,6 +202,26 @@ export function swaying(shader: string): string {
   if (PLACED.from.test(changed)) changed = apply(changed, PLACED);
   if (FLUTTERS.from.test(changed)) changed = apply(apply(changed, FLUTTERS), FLUTTERING);
   return changed;
+}
+
+/** What lies on what is drawn: wet it is darker, and snow lies on what looks up. */
+const WEATHER = /* glsl */ `
+uniform vec2 uWeather; // how far snow covers what it lies on, how wet it is
+vec3 weathered(vec3 albedo, vec3 normal) {
+  albedo *= mix(1.0, 0.64, uWeather.y);
+  return mix(albedo, vec3(0.84, 0.87, 0.93), uWeather.x * smoothstep(0.12, 0.5, normal.y));
+}
+`;
+const LIES_ON: readonly Change[] = ["vLight", "vLight.x"].map((light) => ({
+  from: line(`if (${light} < 0.0) albedo = condemned(albedo);`),
+  to: `albedo = weathered(albedo, normal); if (${light} < 0.0) albedo = condemned(albedo);`,
+}));
+const WEATHERED: Change = { from: line("void main()"), to: `${WEATHER}void main() ` };
+
+/** The same fragment shader for what stands in rain and snow; one that draws no colour of rows is left as it is. */
+export function weathering(shader: string): string {
+  const lies = LIES_ON.find(({ from }) => from.test(shader));
+  return lies ? apply(apply(shader, lies), WEATHERED) : shader;
 }
 
 function apply(shader: string, { from, to }: Change): string {

@@ -62,6 +62,11 @@ export class Sway {
     }
   }
 
+  /** Whether something is still on its way at a time, however even the wind: another wind, or a pluck. */
+  changing(time: number): boolean {
+    return this.plucks.length > 0 || time < this.winds.at(-1)!.since + FADE;
+  }
+
   /** The rotations of all joints at a time in seconds, radians. */
   bends(time: number, out: Float64Array): void {
     const { newer } = this;

@@ -4,11 +4,12 @@
 use std::f32::consts::{PI, TAU};
 
 use espalier_mesh::{TriangleMesh, leaves::Leaf};
+use espalier_plant::MetamerId;
 use espalier_settings::{LeafKind, LeafNature, OrnamentNature};
 use glam::{Mat3, Quat, Vec2, Vec3, Vec4};
 
 use super::leaf_look::{bending, own_numbers};
-use crate::painted::LAYOUT;
+use crate::{painted::LAYOUT, swaying::Rider};
 
 /// With more leaves than this each gets half the triangles or fewer: nobody sees single ones then.
 const MANY_LEAVES: usize = 60_000;
@@ -29,6 +30,8 @@ pub(crate) struct Cards {
     pub hues: Vec<Vec3>,
     /// The cards, in the order of their vertices.
     pub grids: Vec<Grid>,
+    /// What the vertices go along with in the wind, as far as that has been said.
+    pub riders: Vec<Rider>,
 }
 
 /// One card: lines of vertices, each from its left to its right, from its foot upwards.
@@ -310,6 +313,12 @@ impl Cards {
         self.tangents.clear();
         self.hues.clear();
         self.grids.clear();
+        self.riders.clear();
+    }
+
+    /// What has been added since the last time goes along with a metamer.
+    pub(crate) fn ride_on(&mut self, id: MetamerId) {
+        self.riders.resize(self.mesh.positions.len(), Rider { row: id.raw(), share: 1.0 });
     }
 }
 

@@ -83,7 +83,10 @@ fn prototype(writer: &mut Writer<'_>, scatter: &Scatter<'_>, which: usize) -> Re
     for (index, &place) in cards.mesh.positions.iter().enumerate() {
         let (normal, uv) = (cards.mesh.normals[index], cards.mesh.uvs[index]);
         let (tangent, colour) = (cards.tangents[index], Vec3::ONE);
-        part.vertex(writer, &Vertex { place, normal, tangent, uv, colour, lit: uv })?;
+        part.vertex(
+            writer,
+            &Vertex { place, normal, tangent, uv, colour, lit: uv, bound: Default::default() },
+        )?;
     }
     let mesh = part
         .mesh(writer, format!("{} {which}", scatter.name), &[(&cards.mesh.indices, scatter.surface)])?

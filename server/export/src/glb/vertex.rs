@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3, Vec4};
 use crate::gltf::{BYTE, FLOAT, SHORT, UNSIGNED_BYTE, UNSIGNED_SHORT};
 
 /// The most bytes that a vertex has.
-const MOST: usize = 60;
+const MOST: usize = 72;
 
 /// One vertex, lengths in internodes.
 pub(super) struct Vertex {
@@ -18,6 +18,8 @@ pub(super) struct Vertex {
     pub colour: Vec3,
     /// Its place in a light map, upwards, where there is one.
     pub lit: Vec2,
+    /// The bones it goes along with, and by which shares of 255, where there are any.
+    pub bound: ([u16; 4], [u8; 4]),
 }
 
 /// Where one attribute stands in the bytes of a vertex.
@@ -37,6 +39,8 @@ pub(super) struct Layout {
     pub uv: Attribute,
     pub colour: Attribute,
     pub lit: Option<Attribute>,
+    /// Bones and their shares.
+    pub bound: Option<[Attribute; 2]>,
     pub stride: usize,
 }
 
@@ -51,6 +55,7 @@ const PLAIN: Layout = Layout {
     uv: at(40, FLOAT, "VEC2"),
     colour: at(48, UNSIGNED_BYTE, "VEC4"),
     lit: None,
+    bound: None,
     stride: 52,
 };
 /// For places in an atlas, which are between 0 and 1.
@@ -61,6 +66,7 @@ const SMALL: Layout = Layout {
     uv: at(16, UNSIGNED_SHORT, "VEC2"),
     colour: at(20, UNSIGNED_BYTE, "VEC4"),
     lit: None,
+    bound: None,
     stride: 24,
 };
 /// For bark, which repeats itself along a limb.
@@ -82,6 +88,13 @@ impl Layout {
         let (component_type, bytes) = if is_small { (UNSIGNED_SHORT, 4) } else { (FLOAT, 8) };
         let lit = Some(at(self.stride, component_type, "VEC2"));
         Self { lit, stride: self.stride + bytes, ..self }
+    }
+
+    /// The same with bones behind all others.
+    pub(super) fn with_bones(self) -> Self {
+        let bones = at(self.stride, UNSIGNED_SHORT, "VEC4");
+        let shares = at(self.stride + 8, UNSIGNED_BYTE, "VEC4");
+        Self { bound: Some([bones, shares]), stride: self.stride + 12, ..self }
     }
 
     /// The bytes of a vertex whose `place` is in the units of its node, and the place as its accessor counts it.
@@ -112,6 +125,13 @@ impl Layout {
             put(attribute, &[lit.x, 1.0 - lit.y]);
         }
         put(self.colour, &colour.clamp(Vec3::ZERO, Vec3::ONE).extend(1.0).to_array());
+        if let Some([bones, shares]) = self.bound {
+            let (numbers, parts) = vertex.bound;
+            for (i, number) in numbers.into_iter().enumerate() {
+                bytes[bones.offset + 2 * i..][..2].copy_from_slice(&number.to_le_bytes());
+            }
+            bytes[shares.offset..][..4].copy_from_slice(&parts);
+        }
         let counted =
             if self.place.component_type == FLOAT { place } else { place.map(|part| whole(part, i16::MAX)) };
         (bytes, counted)

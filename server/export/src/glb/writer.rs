@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::{
     packing,
+    skin::Skeleton,
     vertex::{Attribute, Layout, Vertex},
 };
 use crate::{
@@ -300,6 +301,11 @@ impl Part {
         Self { layout: self.layout.with_lightmap(), extras: Some(json!({ "lightmap": about })), ..self }
     }
 
+    /// Its vertices go along with bones; none have been added yet.
+    pub(super) fn with_bones(self) -> Self {
+        Self { layout: self.layout.with_bones(), ..self }
+    }
+
     /// Vertices so far.
     pub(super) fn count(&self) -> u32 {
         self.count as u32
@@ -350,6 +356,26 @@ impl Part {
         Ok(())
     }
 
+    /// The same for vertices that go along with bones. Such a mesh stands where its bones do, so its node is nobody's.
+    pub(super) fn finish_bound(
+        self,
+        writer: &mut Writer<'_>,
+        skeleton: &Skeleton<'_>,
+        name: &str,
+        triangles: &[(&[u32], Surface<'_>)],
+    ) -> Result<(), ExportError> {
+        let (unit, origin) = (self.unit, self.origin);
+        let called = format!("{} {name}", writer.owner());
+        if let Some(mesh) = self.mesh(writer, called.clone(), triangles)? {
+            // What is not quantised is in metres.
+            let skin = skeleton.skin(writer, origin, unit)?;
+            let node = Node { name: called, mesh: Some(mesh), skin: Some(skin), ..Node::default() };
+            writer.root.scenes[0].nodes.push(writer.root.nodes.len());
+            writer.root.nodes.push(node);
+        }
+        Ok(())
+    }
+
     /// Makes a mesh of them that no node shows yet.
     pub(super) fn mesh(
         self,
@@ -380,9 +406,13 @@ impl Part {
             texcoord_0: is_textured.then(|| accessor(layout.uv)),
             texcoord_1: layout.lit.map(&mut accessor),
             color_0: is_textured.then(|| accessor(layout.colour)),
+            joints_0: None,
+            weights_0: layout.bound.map(|[_, shares]| accessor(shares)),
         };
+        let bones = layout.bound.map(|[bones, _]| writer.accessor(view, bones, false, count));
+        let attributes = Attributes { joints_0: bones, ..attributes };
         let places = &mut writer.root.accessors[attributes.position];
-        (places.min, places.max) = (Some(low.to_array()), Some(high.to_array()));
+        (places.min, places.max) = (Some(low.to_array().to_vec()), Some(high.to_array().to_vec()));
         let mut primitives = Vec::new();
         for (indices, surface) in triangles.iter().filter(|(indices, _)| !indices.is_empty()) {
             let attributes = match surface {

@@ -48,7 +48,7 @@ impl WoodMap {
     pub(crate) fn each<E>(
         &self,
         bodies: &[Body<'_>],
-        mut take: impl FnMut(&UnrolledWood) -> Result<(), E>,
+        mut take: impl FnMut(&Body<'_>, &UnrolledWood) -> Result<(), E>,
     ) -> Result<(), E> {
         let (mut outlines, mut first) = (self.bodies.iter(), 0);
         for body in bodies {
@@ -60,7 +60,7 @@ impl WoodMap {
                 sides: sheet.sides,
                 to: UnrolledWood { wood: Wood::of(body.seed()), places: Vec::new() },
             };
-            take(&unrolled.run(&sheet, outline, &outline.cuts(self.longest), first))?;
+            take(body, &unrolled.run(&sheet, outline, &outline.cuts(self.longest), first))?;
             first += outline.sizes(self.longest).count();
         }
         Ok(())

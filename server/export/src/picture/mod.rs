@@ -6,9 +6,11 @@ mod palette;
 pub(crate) mod raster;
 mod scene;
 mod sheet;
+mod swaying;
 mod turntable;
 
 pub use canvas::Canvas;
 pub use scene::{Look, draw};
 pub use sheet::{Cell, sheet};
+pub use swaying::swaying;
 pub use turntable::{Camera, strip, turntable};

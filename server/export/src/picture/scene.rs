@@ -11,9 +11,10 @@ use espalier_plant::Plant;
 use espalier_settings::Appearance;
 use glam::{Vec2, Vec3};
 
+pub(super) use self::meshes::Meshes;
 use self::{
     ground::{ground, stand},
-    meshes::{Painted, Skin, borne, wooden},
+    meshes::{Painted, Skin},
     shading::{Lawn, Scene},
     sun::Sun,
 };
@@ -77,12 +78,16 @@ pub(super) struct Stage {
 
 impl Stage {
     pub(super) fn of(plant: &Plant, style: &Style, look: &Look) -> Self {
-        let mut meshes = wooden(plant, style, &look.appearance);
-        meshes.extend(borne(plant, style, &look.appearance));
+        Self::on(Meshes::of(plant, style, &look.appearance, None), look.stand, &[])
+    }
+
+    /// Meshes on what they stand on, framed with room for more corners than theirs.
+    pub(super) fn on(Meshes(mut meshes): Meshes, under: Stand, room: &[Vec3]) -> Self {
         let (points, reach) = extent(&meshes);
-        let base = stand(&mut meshes, look.stand, reach);
+        let base = stand(&mut meshes, under, reach);
         // What it stands on is to be seen as well.
-        let (points, _) = if base < 0.0 { extent(&meshes) } else { (points, reach) };
+        let (mut points, _) = if base < 0.0 { extent(&meshes) } else { (points, reach) };
+        points.extend(room);
         ground(&mut meshes, base, reach);
         let sun = Sun::new(&meshes, &points);
         Self { scene: Scene { sun, meshes, reach }, points, base }

@@ -31,7 +31,7 @@ impl Default for Camera {
 
 impl Camera {
     /// The unit vector to the eye.
-    fn eye(self) -> Vec3 {
+    pub(super) fn eye(self) -> Vec3 {
         let [turn, rise] = [self.turn, self.rise].map(|degrees| libm::sincosf(degrees.to_radians()));
         Vec3::new(turn.0 * rise.1, rise.0, turn.1 * rise.1)
     }

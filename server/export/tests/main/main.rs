@@ -7,6 +7,7 @@ mod saplings;
 mod scenes;
 mod species;
 mod structure;
+mod swaying;
 
 use espalier_export::{About, ExportError, Model, in_memory};
 use espalier_mesh::{Style, StyleOptions, leaves, wood};

@@ -17,6 +17,7 @@ const PLAIN: Model = Model {
     hull: false,
     by_limb: false,
     lightmap: None,
+    sway: None,
 };
 
 fn file(plant: &Plant, options: &Model) -> Vec<u8> {
@@ -33,6 +34,7 @@ pub fn numbers(file: &[u8], accessor: usize) -> Vec<f32> {
         Some("SCALAR") => 1,
         Some("VEC2") => 2,
         Some("VEC3") => 3,
+        Some("MAT4") => 16,
         _ => 4,
     };
     let size = match accessor["componentType"].as_u64() {

@@ -28,7 +28,7 @@ pub struct Species {
     pub botanical: &'static str,
     /// What tells it from others, in one sentence.
     pub sentence: &'static str,
-    /// What it looks like; its background is the default one and is not applied.
+    /// What it looks like; its background and wind are the default ones and are not applied.
     pub appearance: Appearance,
     /// What it stands on in a picture.
     pub stand: Stand,

@@ -8,6 +8,7 @@ mod hostile;
 mod joints;
 mod limbs;
 mod poses;
+mod rigs;
 mod shelter;
 mod statics;
 mod sway;

@@ -180,7 +180,7 @@ fn fl4_a_ping_is_answered_at_once() {
     assert!(world.working.is_some() || world.writing.is_some(), "the session is busy");
     for nonce in [7, 8] {
         world.send(client, &ClientMessage::Ping { nonce });
-        assert_eq!(world.peer(client).texts.last(), Some(&ServerMessage::Pong { nonce }));
+        assert_eq!(world.peer(client).texts.last(), Some(&ServerMessage::Pong { nonce, at: world.now }));
     }
 }
 

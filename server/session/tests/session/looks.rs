@@ -89,3 +89,97 @@ fn looks_survive_journal_snapshot_and_undo() {
     assert_eq!(seasons(world.peer(client)), [2.5, 1.0], "AP2: a drag is one operation");
     assert_eq!(world.document().figures().step, 3);
 }
+
+fn wind(fields: Value) -> Value {
+    json!({ "kind": "set_appearance", "appearance": { "wind": fields } })
+}
+
+#[test]
+fn wd1_all_see_one_wind_and_it_moves_no_row() {
+    let mut world = World::new();
+    let [birch, maple] = ["birch-01", "maple-01"].map(|name| world.join(name));
+    world.command(birch, 1, grow(5));
+    world.settle();
+    let (rows, deltas) = (world.document().plant().metamer_count(), world.peer(maple).frames.len());
+    let step = world.document().figures().step;
+    world.command(birch, 2, wind(json!({ "speed": 8.0, "direction": 90.0 })));
+    world.command(maple, 1, wind(json!({ "snow": 0.2 })));
+    world.settle();
+    let told = |client| {
+        let looks = world.peer(client).texts.iter().rev().find_map(|text| match text {
+            ServerMessage::Appearance { appearance } => Some(appearance.wind),
+            _ => None,
+        });
+        looks.expect("looks are told")
+    };
+    let both = told(birch);
+    assert_eq!(
+        (both.speed, both.direction, both.snow),
+        (8.0, 90.0, 0.2),
+        "two who set it do not undo each other"
+    );
+    assert_eq!(told(maple), both);
+    assert_eq!(world.document().plant().metamer_count(), rows);
+    assert_eq!(world.document().figures().step, step);
+    assert_eq!(world.peer(maple).frames.len(), deltas, "nothing is drawn anew");
+    let late = world.join("cedar-01");
+    world.settle();
+    assert!(
+        world
+            .peer(late)
+            .texts
+            .iter()
+            .any(|text| matches!(text, ServerMessage::Appearance { appearance } if appearance.wind == both))
+    );
+    assert_eq!(world.document().hash(), world.replayed_hash());
+}
+
+#[test]
+fn wd1_growth_is_the_same_in_any_wind() {
+    let grown = |weather: Option<Value>| {
+        let mut world = World::new();
+        let client = world.join("birch-01");
+        let commands = [Some(grow(4)), weather.map(wind), Some(grow(4))];
+        for (id, command) in (1..).zip(commands.into_iter().flatten()) {
+            world.command(client, id, command);
+        }
+        world.settle();
+        let plant = world.document().plant();
+        (plant.metamer_count(), plant.hash())
+    };
+    let storm =
+        json!({ "speed": 25.0, "turbulence": 1.0, "rise": -10.0, "snow": 0.5, "rain": 1.0, "sag": 1.0 });
+    assert_eq!(grown(None), grown(Some(storm)));
+}
+
+#[test]
+fn wd1_a_wind_that_cannot_be_is_refused_with_its_field() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    for (id, (field, value)) in (1..).zip([
+        ("speed", json!(1e9)),
+        ("speed", json!(-1.0)),
+        ("rise", json!(11.0)),
+        ("suppleness", json!(0.0)),
+        ("snow", json!(0.6)),
+    ]) {
+        world.command(client, id, wind(json!({ field: value })));
+        world.settle();
+        let refused = world.peer(client).refused();
+        let (last, problem) = refused.last().expect("it is refused");
+        assert_eq!((*last, problem.field.clone()), (id, Some(format!("appearance.wind.{field}"))));
+    }
+    assert_eq!(world.document().appearance().wind, Appearance::default().wind);
+    assert!(world.disk.is_empty());
+}
+
+#[test]
+fn wd2_a_pong_tells_the_time() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    for (nonce, wait) in [(1, 500), (2, 12_000)] {
+        world.pass(wait);
+        world.send(client, &espalier_proto::ClientMessage::Ping { nonce });
+        assert_eq!(world.peer(client).texts.last(), Some(&ServerMessage::Pong { nonce, at: world.now }));
+    }
+}

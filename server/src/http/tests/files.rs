@@ -171,7 +171,11 @@ async fn ex4_a_version_is_taken_in_every_format() {
         assert_eq!(send(&server, request(&Method::POST, &path), SCAN).await.status(), StatusCode::CREATED);
     }
     for row in FORMATS {
-        let query = if row.ending == "ply" { "?points=100" } else { "" };
+        let query = match row.ending {
+            "ply" => "?points=100",
+            "sway.png" => "?size=40x40&frames=2",
+            _ => "",
+        };
         let file = take(&format!("2/tree.{}{query}", row.ending)).await;
         assert_eq!(file.status(), StatusCode::OK, "{}", row.ending);
         assert_eq!(file.headers()[header::CONTENT_TYPE], row.media_type);

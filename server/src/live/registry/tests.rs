@@ -296,7 +296,7 @@ async fn op2_op3_an_older_journal_is_done_again_and_said_once() {
     visitor.say(r#"{"type":"ping","nonce":5}"#).await;
     let pong = |message| match message {
         ServerMessage::Notice { notice } => panic!("{notice:?}"),
-        ServerMessage::Pong { nonce } => Some(nonce),
+        ServerMessage::Pong { nonce, .. } => Some(nonce),
         _ => None,
     };
     assert_eq!(visitor.hear(pong).await, 5);

@@ -1,4 +1,4 @@
-import { AIR_NUMBERS } from "../../../scene/motion/air-settings";
+import { AIR_NUMBERS } from "../../../scene/motion/air-numbers";
 import { onStep } from "../../words/number-text";
 
 /** Share of the disc's half width at which the wind is strongest. */

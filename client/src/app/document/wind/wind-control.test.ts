@@ -10,12 +10,19 @@ import { PRESET_NAMES, presetOf, WIND_PRESETS } from "./wind-presets";
 function page({ calmly = false } = {}) {
   const told = { made: 0, settings: null as AirSettings | null, leaves: 0, touched: false, held: false };
   const [touched, leaves] = [signal(false), signal<LeafKind>("ovate")];
+  const settings = signal<AirSettings>(CALM);
   const air = {
     set: (settings: AirSettings, _: unknown, leaves: number) => Object.assign(told, { settings, leaves }),
     touch: (touched: boolean) => Object.assign(told, { touched }),
     hold: (held: boolean) => Object.assign(told, { held }),
   } as unknown as Air;
+  const put = (patch: Partial<AirSettings>) => {
+    settings.value = { ...settings.peek(), ...patch };
+  };
   const wind = new WindControl({
+    settings,
+    drag: put,
+    commit: put,
     parameters: signal(DEFAULT_PARAMETERS),
     leaves: () => leaves.value,
     touched: () => touched.value,
@@ -26,7 +33,7 @@ function page({ calmly = false } = {}) {
     air: () => air,
     calmly,
   });
-  return { wind, told, touched, leaves };
+  return { wind, told, touched, leaves, put };
 }
 
 describe("the wind on a page", () => {
@@ -39,6 +46,14 @@ describe("the wind on a page", () => {
     wind.set({ speed: 6 });
     expect(told.made).toBe(1);
     expect(told.settings).toEqual({ ...CALM, turbulence: 1, speed: 6 });
+  });
+
+  it("is the one that others set", () => {
+    const { wind, told, put } = page();
+    put({ speed: 12, direction: 90 });
+    expect(told.made).toBe(1);
+    expect(told.settings).toEqual({ ...CALM, speed: 12, direction: 90 });
+    expect(wind.settings.value.speed).toBe(12);
   });
 
   it("is held and let go, and rests under a hand", () => {

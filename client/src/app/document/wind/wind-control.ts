@@ -1,11 +1,16 @@
-import { computed, effect, type ReadonlySignal, type Signal, signal } from "@preact/signals";
+import { effect, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import type { Air, AirStage } from "../../../scene/motion/air";
-import { type AirSettings, airSettings, blows, CALM } from "../../../scene/motion/air-settings";
+import { type AirSettings, blows, CALM } from "../../../scene/motion/air-settings";
 import type { Scale } from "../../../scene/motion/wood";
 import { DEFAULT_PARAMETERS, type LeafKind, type Parameters } from "../../../wire/generated";
 
 /** What the wind needs of the page. */
 export interface WindPage {
+  /** What all in the session share of it. */
+  readonly settings: ReadonlySignal<AirSettings>;
+  /** Sets some of it for all: while a control moves, and once it is let go. */
+  readonly drag: (patch: Partial<AirSettings>) => void;
+  readonly commit: (patch: Partial<AirSettings>) => void;
   readonly parameters: ReadonlySignal<Parameters | null>;
   readonly leaves: () => LeafKind;
   /** Whether a hand works at the tree. */
@@ -24,19 +29,20 @@ export type WindMode = "moving" | "held" | "still";
 /** How much leaves flutter beside those of most forms: needles and scales are stiff, round blades hang on long stalks. */
 const FLUTTER: { readonly [Kind in LeafKind]?: number } = { needle: 0.2, scale: 0.2, round: 1.5 };
 
-/** The wind on this page. */
+/** The wind on this page. What is set is shared by all in the session; to hold it concerns this page alone. */
 export class WindControl {
   readonly mode: Signal<WindMode>;
   readonly settings: ReadonlySignal<AirSettings>;
-  readonly #settings = signal<AirSettings>(CALM);
+  readonly #page: WindPage;
   readonly #stop: () => void;
 
   constructor(page: WindPage) {
     this.mode = signal<WindMode>(page.calmly ? "still" : "moving");
-    this.settings = computed(() => this.#settings.value);
+    this.#page = page;
+    this.settings = page.settings;
     let air: Air | null = null;
     this.#stop = effect(() => {
-      const settings = this.#settings.value;
+      const settings = page.settings.value;
       const mode = this.mode.value;
       const { internode_length: internodeLength, leaf_size: leafSize } = page.parameters.value ?? DEFAULT_PARAMETERS;
       const touched = page.touched();
@@ -50,9 +56,14 @@ export class WindControl {
     });
   }
 
-  /** Sets some of the numbers; what is out of range goes back to where it begins. */
+  /** Sets some of the numbers, while a control still moves. */
+  drag(patch: Partial<AirSettings>): void {
+    this.#page.drag(patch);
+  }
+
+  /** Sets some of the numbers. */
   set(patch: Partial<AirSettings>): void {
-    this.#settings.value = airSettings({ ...this.#settings.peek(), ...patch });
+    this.#page.commit(patch);
   }
 
   /** Holds what moves, or lets it go. */

@@ -1,3 +1,4 @@
+import { computed } from "@preact/signals";
 import { Air } from "../../../scene/motion/air";
 import { SharedClock } from "../../../scene/motion/shared-clock";
 import { typing } from "../../input/keyboard";
@@ -8,18 +9,20 @@ const WINDS = new WeakMap<Studio, WindControl>();
 /** The key that holds what moves and lets it go. */
 const KEY = "a";
 
-/** The wind on a page, from the first time that somebody asks for it on. */
+/** The wind on a page, from the first time on that it blows or somebody asks for it. */
 export function windOf(studio: Studio): WindControl {
   const known = WINDS.get(studio);
   if (known) {
     return known;
   }
-  // Clocks of devices are set by the same time, so that all see the same gust.
   const clock = new SharedClock(
     () => performance.now() / 1000,
-    () => Date.now() / 1000,
+    () => studio.serverTime.read() / 1000,
   );
   const wind = new WindControl({
+    settings: computed(() => studio.appearance.value.wind),
+    drag: (patch) => studio.looks.drag({ wind: patch }),
+    commit: (patch) => studio.looks.commit({ wind: patch }),
     parameters: studio.parameters,
     leaves: () => studio.appearance.value.leaves.shape,
     touched: () => studio.tools.drawing.value || studio.branches.held.row.value !== null,

@@ -1,16 +1,20 @@
-import { AIR_NUMBERS, type AirName, blows, CALM } from "../../../scene/motion/air-settings";
-import type { WindControl, WindMode } from "../../document/wind/wind-control";
+import { type AirName, CALM, stirs } from "../../../scene/motion/air-settings";
+import type { WindMode } from "../../document/wind/wind-control";
 import { windOf } from "../../document/wind/wind-of";
 import { PRESET_NAMES, presetOf, WIND_PRESETS } from "../../document/wind/wind-presets";
 import type { Studio } from "../../studio";
 import { type Key, say } from "../../words/say";
 import { ResetIcon } from "../controls/icons";
 import { Section } from "../controls/section";
-import { Slider } from "../controls/slider";
+import { LookSlider } from "./looks/look-slider";
 import { WindDisc } from "./wind/wind-disc";
 
 /** What the button that holds and lets go says in each mode. */
 const MODES: Record<WindMode, Key> = { moving: "wind.hold", held: "wind.let-go", still: "wind.move" };
+
+const AIR = ["speed", "direction", "rise", "turbulence", "flutter"] as const satisfies readonly AirName[];
+const WOOD = ["sag", "suppleness", "damping"] as const satisfies readonly AirName[];
+const WEATHER = ["snow", "rain"] as const satisfies readonly AirName[];
 
 /** The wind in which trees sway. */
 export function WindPanel({ studio }: { studio: Studio }) {
@@ -35,15 +39,14 @@ export function WindPanel({ studio }: { studio: Studio }) {
           ))}
         </fieldset>
         <WindDisc studio={studio} wind={wind} />
-        <AirSlider wind={wind} name="speed" />
-        <AirSlider wind={wind} name="direction" />
-        <AirSlider wind={wind} name="turbulence" />
-        <AirSlider wind={wind} name="flutter" />
+        {AIR.map((name) => (
+          <LookSlider key={name} studio={studio} name={`wind.${name}`} middle={name === "rise"} />
+        ))}
         <button
           type="button"
           class="wind-hold"
           aria-pressed={mode === "held"}
-          disabled={!blows(settings)}
+          disabled={!stirs(settings)}
           title={say("wind.hold.title")}
           onClick={() => wind.toggle()}
         >
@@ -52,11 +55,17 @@ export function WindPanel({ studio }: { studio: Studio }) {
         {mode === "still" && <p class="quiet">{say("wind.still")}</p>}
       </Section>
       <Section name="wind.wood" title={say("wind.wood")} open>
-        <AirSlider wind={wind} name="sag" />
-        <AirSlider wind={wind} name="suppleness" />
-        <AirSlider wind={wind} name="damping" />
+        {WOOD.map((name) => (
+          <LookSlider key={name} studio={studio} name={`wind.${name}`} />
+        ))}
       </Section>
-      <p class="quiet">{say("wind.local")}</p>
+      <Section name="wind.weather" title={say("wind.weather")} open>
+        {WEATHER.map((name) => (
+          <LookSlider key={name} studio={studio} name={`wind.${name}`} />
+        ))}
+      </Section>
+      <p class="quiet">{say("wind.shared")}</p>
+      <p class="quiet">{say("wind.fine")}</p>
       <button
         type="button"
         class="reset-all"
@@ -67,20 +76,5 @@ export function WindPanel({ studio }: { studio: Studio }) {
         {say("controls.reset-all")}
       </button>
     </>
-  );
-}
-
-/** A slider for one number of the wind. */
-function AirSlider({ wind, name }: { wind: WindControl; name: AirName }) {
-  const { least, most, step, unit, standard } = AIR_NUMBERS[name];
-  return (
-    <Slider
-      label={say(`wind.${name}`)}
-      help={say(`wind.${name}.help`)}
-      {...{ least, most, step, unit, standard }}
-      value={wind.settings.value[name]}
-      onDrag={(value) => wind.set({ [name]: value })}
-      onCommit={(value) => wind.set({ [name]: value })}
-    />
   );
 }

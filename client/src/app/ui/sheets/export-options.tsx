@@ -7,6 +7,8 @@ import { Segments } from "../controls/segments";
 
 const LODS = ["0", "1", "2", "3", "set"] as const;
 const LIGHTMAPS = ["", "512", "1024", "2048", "4096"] as const;
+/** The most bones of a plant; some programs take 64, most 256. */
+const BONES = ["", "64", "256", "1024"] as const;
 const FRAMES = ["24", "36", "72"] as const;
 const SWITCHES = ["quantised", "compressed", "instanced", "hull", "by_limb"] as const;
 const TEXTS = ["author", "licence"] as const;
@@ -42,6 +44,16 @@ export function ExportOptions({ format, choice, choose }: OptionsProps) {
           onChoose={(lightmap) => choose({ lightmap })}
         />
       )}
+      {has("sway") && (
+        <Segments
+          legend={say("exports.sway")}
+          name="sway"
+          values={BONES}
+          chosen={choice.sway ?? ""}
+          text={(bones) => bones || say("exports.sway.none")}
+          onChoose={(sway) => choose({ sway })}
+        />
+      )}
       {has("frames") && (
         <Segments
           legend={say("exports.frames")}
@@ -56,6 +68,7 @@ export function ExportOptions({ format, choice, choose }: OptionsProps) {
         <label key={option} class="switch">
           <input
             type="checkbox"
+            disabled={option === "instanced" && has("sway") && (choice.sway ?? "") !== ""}
             checked={choice.on.includes(option)}
             onChange={({ currentTarget: { checked } }) =>
               choose({ on: [...choice.on.filter((other) => other !== option), ...(checked ? [option] : [])] })

@@ -1,17 +1,21 @@
 //! Meshes with colours and textures: wood in its bark, and what it bears.
 
-use espalier_mesh::{Style, TriangleMesh, wood};
+use std::collections::BTreeMap;
+
+use espalier_mesh::{Bodies, Grain, Style, TriangleMesh, Wood};
 use espalier_plant::{MetamerId, Plant};
 use espalier_settings::Appearance;
 use glam::{Vec2, Vec3};
 
 use crate::{
     foliage::{Foliage, cards::Cards, leaf_look::Shoot, living},
+    picture::swaying::Posed,
     surface::{
         Texture,
         bark::{Bark, CUT},
         thin::{self, Thin},
     },
+    swaying::{Rider, Swaying},
 };
 
 /// A mesh with a colour at each corner, which multiplies that of a texture.
@@ -20,6 +24,8 @@ pub(super) struct Painted {
     pub(super) mesh: TriangleMesh,
     pub(super) colours: Vec<Vec3>,
     pub(super) texture: Option<Texture>,
+    /// What its corners go along with in the wind; none where nothing sways.
+    pub(super) riders: Vec<Rider>,
 }
 
 impl Painted {
@@ -43,36 +49,86 @@ pub(super) enum Skin {
     Ground,
 }
 
+/// All that a plant shows.
+pub(in crate::picture) struct Meshes(pub(super) Vec<(Skin, Painted)>);
+
+impl Meshes {
+    /// With what its corners go along with, where it sways.
+    pub(in crate::picture) fn of(
+        plant: &Plant,
+        style: &Style,
+        look: &Appearance,
+        motion: Option<&Swaying>,
+    ) -> Self {
+        let mut meshes = wooden(plant, style, look, motion);
+        meshes.extend(borne(plant, style, look));
+        Self(meshes)
+    }
+
+    /// The same as it stands at a moment.
+    pub(in crate::picture) fn moved(&self, posed: &Posed<'_>) -> Self {
+        let moved = |(skin, painted): &(Skin, Painted)| {
+            let mut painted = painted.clone();
+            let is_leaf = *skin == Skin::Leaf;
+            for (at, &rider) in painted.riders.iter().enumerate() {
+                let (place, turn) = posed.moved(rider, painted.mesh.positions[at], is_leaf);
+                painted.mesh.positions[at] = place;
+                painted.mesh.normals[at] = turn * painted.mesh.normals[at];
+            }
+            (*skin, painted)
+        };
+        Self(self.0.iter().map(moved).collect())
+    }
+
+    /// All its corners.
+    pub(in crate::picture) fn corners(&self) -> Vec<Vec3> {
+        self.0.iter().flat_map(|(_, painted)| painted.mesh.positions.iter().copied()).collect()
+    }
+}
+
 /// Wood in its bark, and the faces of cuts.
-pub(super) fn wooden(plant: &Plant, style: &Style, look: &Appearance) -> Vec<(Skin, Painted)> {
+fn wooden(plant: &Plant, style: &Style, look: &Appearance, motion: Option<&Swaying>) -> Vec<(Skin, Painted)> {
     let bark = Bark::of(&look.bark);
     let mut meshes = Vec::new();
-    for wood in wood(plant, style, &look.bark) {
+    let mut plants: BTreeMap<MetamerId, (Wood, Vec<Rider>)> = BTreeMap::new();
+    for body in Bodies::of(plant, style, &look.bark, Grain::default()).iter() {
+        let seed = body.seed();
+        let (wood, riders) = plants.entry(seed).or_insert_with(|| (Wood::of(seed), Vec::new()));
+        let first = wood.surface.positions.len();
+        body.sweep(wood);
+        if let Some(motion) = motion {
+            riders.extend(motion.along(plant, body.axis(), &wood.surface.positions[first..]));
+        }
+    }
+    for (wood, riders) in plants.into_values() {
         let colours = wood.radii.iter().map(|&radius| bark.tint(radius)).collect();
         let cut = TriangleMesh { indices: wood.cuts, ..wood.surface.clone() };
         let colour_of_cuts = vec![CUT; cut.positions.len()];
-        meshes.push((Skin::Bark, Painted { mesh: cut, colours: colour_of_cuts, texture: None }));
-        let texture = Some(bark.texture.clone());
-        meshes.push((Skin::Bark, Painted { mesh: wood.surface, colours, texture }));
+        let (colours_of_all, texture) = (colours, Some(bark.texture.clone()));
+        let cuts = Painted { mesh: cut, colours: colour_of_cuts, texture: None, riders: riders.clone() };
+        meshes.push((Skin::Bark, cuts));
+        meshes.push((Skin::Bark, Painted { mesh: wood.surface, colours: colours_of_all, texture, riders }));
     }
     meshes
 }
 
 /// Leaves, flowers and fruits.
-pub(super) fn borne(plant: &Plant, style: &Style, look: &Appearance) -> Vec<(Skin, Painted)> {
+fn borne(plant: &Plant, style: &Style, look: &Appearance) -> Vec<(Skin, Painted)> {
     let foliage = Foliage::of(plant, style, look, 0);
     let painted = |thin: Thin, add: &dyn Fn(&mut Cards, MetamerId)| {
         let mut cards = Cards::default();
         for id in living(plant) {
             let first = cards.hues.len();
             add(&mut cards, id);
+            cards.ride_on(id);
             // The shadows of the simulation are soft: deep in a crown there is little of the sky.
             let sky = 0.62 + 0.38 * Shoot::of(plant, id).light;
             for hue in &mut cards.hues[first..] {
                 *hue *= thin.strength * sky;
             }
         }
-        (Skin::Leaf, Painted { mesh: cards.mesh, colours: cards.hues, texture: Some(thin.texture) })
+        let Cards { mesh, hues: colours, riders, .. } = cards;
+        (Skin::Leaf, Painted { mesh, colours, texture: Some(thin.texture), riders })
     };
     let mut meshes = vec![painted(thin::leaves(&look.leaves), &|cards, id| foliage.add_leaves(cards, id))];
     let flowers = thin::flowers(&look.flowers);

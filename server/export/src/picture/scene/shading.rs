@@ -63,7 +63,7 @@ impl Scene {
 
     fn colour(&self, view: &View, lawn: &Lawn, mesh: usize, triangle: u32, at: Vec2) -> Option<Vec3> {
         let (skin, painted) = &self.meshes[mesh];
-        let Painted { mesh, colours, texture } = painted;
+        let Painted { mesh, colours, texture, .. } = painted;
         let indices = mesh.indices.as_chunks::<3>().0[triangle as usize];
         let corners = indices.map(|corner| corner as usize);
         let shares = weights(corners.map(|corner| view.project(mesh.positions[corner])), at)?;

@@ -69,5 +69,6 @@ export function standardOf(studio: Studio): Parameters {
 /** The same of looks; what is around a tree is no species' own. */
 export function standardLooks(studio: Studio): Appearance {
   const own = kinNow(studio)?.species.appearance;
-  return own ? { ...own, background: DEFAULT_APPEARANCE.background } : DEFAULT_APPEARANCE;
+  const { background, wind } = DEFAULT_APPEARANCE;
+  return own ? { ...own, background, wind } : DEFAULT_APPEARANCE;
 }

@@ -1,5 +1,5 @@
 import { useRef } from "preact/hooks";
-import { AIR_NUMBERS } from "../../../../scene/motion/air-settings";
+import { AIR_NUMBERS } from "../../../../scene/motion/air-numbers";
 import { placeOnDisc, RIM, windAt } from "../../../document/wind/compass";
 import type { WindControl } from "../../../document/wind/wind-control";
 import type { Studio } from "../../../studio";
@@ -22,7 +22,7 @@ export function WindDisc({ studio, wind }: { studio: Studio; wind: WindControl }
   const follow = (event: PointerEvent & { readonly currentTarget: HTMLElement }) => {
     const { left, top, width, height } = event.currentTarget.getBoundingClientRect();
     const [x, y] = [((event.clientX - left) / width) * 2 - 1, ((event.clientY - top) / height) * 2 - 1];
-    wind.set(windAt(x, y, turned()));
+    return windAt(x, y, turned());
   };
   const step = (faster: number, round: number) =>
     wind.set({
@@ -46,14 +46,20 @@ export function WindDisc({ studio, wind }: { studio: Studio; wind: WindControl }
       onPointerDown={(event) => {
         if (event.button === 0) {
           event.currentTarget.setPointerCapture(event.pointerId);
-          follow(event);
+          wind.drag(follow(event));
         }
       }}
       onPointerMove={(event) => {
         if (event.currentTarget.hasPointerCapture(event.pointerId)) {
-          follow(event);
+          wind.drag(follow(event));
         }
       }}
+      onPointerUp={(event) => {
+        if (event.currentTarget.hasPointerCapture(event.pointerId)) {
+          wind.set(follow(event));
+        }
+      }}
+      onPointerCancel={() => wind.set({ speed, direction })}
       onKeyDown={(event) => {
         const by = KEYS[event.key];
         if (by) {

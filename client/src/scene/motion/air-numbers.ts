@@ -1,0 +1,4 @@
+import { LOOKS } from "../../wire/generated";
+
+/** What can be set of the wind, row by row; apart, for the first picture does without. */
+export const AIR_NUMBERS = LOOKS.wind;

@@ -1,0 +1,60 @@
+import type { Grown } from "./joints";
+import type { MotionRows } from "./limbs";
+import { sagOf } from "./moving";
+import { turnsUnder } from "./statics";
+import type { Scale, Wood } from "./wood";
+
+const GRAVITY = 9.81;
+/** Fresh snow, kg/m³. */
+const SNOW_DENSITY = 100;
+/** A film of 0.2 mm on leaves that rain has wetted, kg/m². */
+const FILM = 0.2;
+/** Share of a leaf's area that snow lies on: blades overlap, and not all are level. */
+const LEVEL = 0.35;
+/** Area of a leaf as a share of its length squared, as `wood.ts` has it. */
+const LEAF_FORM = 0.4;
+const LEAF_DRAG = 0.2;
+/** Cosines of the slopes on which snow begins to slide off wood, and on which none stays: 40° and 55°. */
+const [HOLDS, SLIDES] = [0.77, 0.57];
+
+/** How each joint turns under what lies on the tree, x y z in radians: its own weight once more, a metre of snow, rain on all leaves. */
+export interface Loads {
+  readonly sag: Float64Array;
+  readonly snow: Float64Array;
+  readonly rain: Float64Array;
+}
+
+/** How much of each there is. */
+export type Loading = Readonly<Record<keyof Loads, number>>;
+
+/** Of joints as they were made. */
+export function loadsOf(grown: Grown, { leaves }: MotionRows, scale: Scale): Loads {
+  const { wood } = grown;
+  const leafLength = scale.leafSize * scale.internodeLength;
+  const areas = Float64Array.from(leaves, (count) => count * LEAF_FORM * leafLength * leafLength);
+  const under = (weights: Float64Array) => sagOf(grown, turnsUnder(wood, weights, -GRAVITY));
+  return {
+    sag: under(wood.mass),
+    snow: under(snowOn(wood, areas)),
+    rain: under(areas.map((area, row) => (wood.length[row]! > 0 ? FILM * area : 0))),
+  };
+}
+
+/** The mass of a metre of snow on what each row has to hold it, kg. */
+function snowOn({ length, way, dragArea }: Wood, leafAreas: Float64Array): Float64Array {
+  return leafAreas.map((leaves, row) => {
+    const long = length[row]!;
+    if (long <= 0) return 0;
+    const level = Math.hypot(way[3 * row]!, way[3 * row + 2]!) / long;
+    const holds = Math.min(1, Math.max(0, (level - SLIDES) / (HOLDS - SLIDES)));
+    const wood = Math.max(0, dragArea[row]! - LEAF_DRAG * leaves);
+    return SNOW_DENSITY * (wood * level * holds + LEVEL * leaves);
+  });
+}
+
+/** How much each joint turns under all of it; null where there is nothing. */
+export function loaded(loads: Loads, loading: Loading): Float64Array | null {
+  const names = (Object.keys(loads) as (keyof Loads)[]).filter((name) => loading[name] > 0);
+  if (names.length === 0) return null;
+  return loads.sag.map((_, at) => names.reduce((sum, name) => sum + loading[name] * loads[name][at]!, 0));
+}

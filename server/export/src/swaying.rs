@@ -1,0 +1,106 @@
+//! What files say of how plants sway: bones, clips, and which vertices go along with which row.
+
+use std::collections::BTreeMap;
+
+use espalier_mesh::{RingTable, Style};
+use espalier_motion::{
+    Joints, Limbs, Rig, Rows, Scale, Weather, Wood,
+    clips::{Clip, clips, reaches},
+};
+use espalier_plant::{AxisId, MetamerId, Plant};
+use espalier_settings::looks::WindLook;
+use glam::{DVec3, Vec3};
+
+use crate::foliage::living;
+
+/// The wind that moves files of trees that stand in a calm, m/s.
+const BREEZE: f32 = 4.0;
+/// Which gusts come: those that clients draw.
+const SEED: u32 = 7;
+
+/// The row that a vertex goes along with, and where between the node below and its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rider {
+    pub row: u32,
+    pub share: f32,
+}
+
+/// The joints of all plants of a scene, and how they move.
+pub(crate) struct Swaying {
+    pub limbs: Limbs,
+    pub wood: Wood,
+    pub joints: Joints,
+    pub clips: [Clip; 2],
+    /// How much leaves flutter, 0 to 1: in a breeze of 6 m/s and more all of it.
+    pub stir: f32,
+    reach: Vec<f64>,
+    rows_of: BTreeMap<AxisId, Vec<MetamerId>>,
+}
+
+impl Swaying {
+    /// In the wind of a look; in a calm, in a breeze. `metres` is the length of an internode.
+    pub(crate) fn of(plant: &Plant, style: &Style, look: &WindLook, metres: f32) -> Self {
+        let (limbs, wood, joints) = grown(plant, style, look, metres);
+        let clips = clips(&joints, &wood, &weather(look));
+        let reach = reaches(&clips, joints.all().len());
+        let stir = (weather(look).velocity.length() / 6.0).min(1.0) as f32 * look.flutter;
+        let mut rows_of: BTreeMap<AxisId, Vec<MetamerId>> = BTreeMap::new();
+        for id in living(plant) {
+            rows_of.entry(plant.metamers().axis(id)).or_default().push(id);
+        }
+        Self { limbs, wood, joints, clips, stir, reach, rows_of }
+    }
+
+    /// At most so many bones for the plant of a seed.
+    pub(crate) fn rig(&self, seed: MetamerId, most: u32) -> Rig {
+        let Self { limbs, wood, joints, reach, .. } = self;
+        Rig::of(joints, limbs, wood, seed.raw(), reach, most as usize)
+    }
+
+    /// For each vertex of the wood of an axis what it goes along with.
+    pub(crate) fn along(&self, plant: &Plant, axis: AxisId, vertices: &[Vec3]) -> Vec<Rider> {
+        let metamers = plant.metamers();
+        let rows = self.rows_of.get(&axis).map_or(&[][..], Vec::as_slice);
+        let pieces: Vec<(u32, Vec3, Vec3)> = rows
+            .iter()
+            .map(|&id| {
+                let to = metamers.end(id);
+                let from = metamers.parent(id).map_or(to, |parent| metamers.end(parent));
+                (id.raw(), from, to - from)
+            })
+            .collect();
+        let nearest = |vertex: &Vec3| {
+            let mut best = (f32::INFINITY, Rider { row: 0, share: 0.0 });
+            for &(row, from, way) in &pieces {
+                let squared = way.length_squared();
+                let share =
+                    if squared > 0.0 { ((*vertex - from).dot(way) / squared).clamp(0.0, 1.0) } else { 1.0 };
+                let away = (from + share * way).distance_squared(*vertex);
+                if away < best.0 {
+                    best = (away, Rider { row, share });
+                }
+            }
+            best.1
+        };
+        vertices.iter().map(nearest).collect()
+    }
+}
+
+/// Limbs, wood and joints of all plants of a scene.
+pub(crate) fn grown(plant: &Plant, style: &Style, look: &WindLook, metres: f32) -> (Limbs, Wood, Joints) {
+    let mut table = RingTable::new();
+    table.sync(plant, style, 1);
+    let leaf_size = f64::from(style.options().leaf_size);
+    let scale = Scale { internode_length: f64::from(metres), leaf_size };
+    let (limbs, wood, joints) = Joints::grown(&Rows::of(&table), &scale, f64::from(look.suppleness));
+    (limbs, wood, joints.damped(f64::from(look.damping)))
+}
+
+/// The wind of a look; in a calm, a breeze.
+fn weather(look: &WindLook) -> Weather {
+    let is_calm = look.speed == 0.0 && look.rise == 0.0;
+    let speed = f64::from(if is_calm { BREEZE } else { look.speed });
+    let (sin, cos) = libm::sincos(f64::from(look.direction).to_radians());
+    let velocity = DVec3::new(speed * cos, f64::from(look.rise), speed * sin);
+    Weather { velocity, turbulence: f64::from(look.turbulence), seed: SEED }
+}
