@@ -1,6 +1,7 @@
 //! Connections: accepted, served over HTTP/1.1, and ended when the server stops.
 
 mod paced;
+mod unread;
 
 use std::{sync::Arc, time::Duration};
 

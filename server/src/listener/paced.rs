@@ -20,6 +20,8 @@ use tokio::{
 };
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
 
+use super::unread;
+
 /// A peer that takes no byte for so long is let go. One that reads slowly takes some now and then: systems tell of room
 /// by up to 128 KiB at a time where both ends are on one machine.
 pub const PATIENCE: Duration = Duration::from_secs(30);
@@ -41,6 +43,8 @@ pub struct Paced {
     /// Nothing only while it is dropped.
     stream: Option<TcpStream>,
     pace: Pace,
+    /// What is written instead of what was to be written, and how much of it is.
+    instead: Option<(Vec<u8>, usize)>,
     timer: Option<Pin<Box<Sleep>>>,
     /// Nothing more comes or goes.
     is_over: bool,
@@ -66,11 +70,29 @@ impl Paced {
             tracing::debug!(%error, "TCP_NOTSENT_LOWAT cannot be set");
         }
         let pace = Pace { patience, until: None };
-        Self { stream: Some(stream), pace, timer: None, is_over: false, stop, lingering }
+        Self { stream: Some(stream), pace, instead: None, timer: None, is_over: false, stop, lingering }
     }
 
     fn stream(&mut self) -> io::Result<Pin<&mut TcpStream>> {
         self.stream.as_mut().map(Pin::new).ok_or_else(|| ErrorKind::NotConnected.into())
+    }
+
+    /// Writes what is written instead, to its end. Whoever writes comes again with the same bytes until then.
+    fn write_instead(&mut self, context: &mut Context<'_>) -> Poll<io::Result<()>> {
+        while let Some((bytes, done)) = self.instead.take() {
+            let left = bytes.get(done..).unwrap_or_default();
+            if left.is_empty() {
+                break;
+            }
+            let written = self.stream()?.poll_write(context, left);
+            let more = match &written {
+                Poll::Ready(Ok(more)) => *more,
+                _ => 0,
+            };
+            self.instead = Some((bytes, done + more));
+            ready!(self.paced(written, context))?;
+        }
+        Poll::Ready(Ok(()))
     }
 
     /// What comes of an attempt to write.
@@ -117,6 +139,13 @@ impl AsyncWrite for Paced {
         context: &mut Context<'_>,
         bytes: &[u8],
     ) -> Poll<io::Result<usize>> {
+        if self.instead.is_none() {
+            self.instead = unread::instead(bytes).map(|instead| (instead, 0));
+        }
+        if self.instead.is_some() {
+            ready!(self.write_instead(context))?;
+            return Poll::Ready(Ok(bytes.len()));
+        }
         let written = self.stream()?.poll_write(context, bytes);
         self.paced(written, context)
     }
@@ -126,6 +155,9 @@ impl AsyncWrite for Paced {
         context: &mut Context<'_>,
         parts: &[io::IoSlice<'_>],
     ) -> Poll<io::Result<usize>> {
+        if let [only] = parts {
+            return self.poll_write(context, only);
+        }
         let written = self.stream()?.poll_write_vectored(context, parts);
         self.paced(written, context)
     }

@@ -2,6 +2,7 @@ use std::net::SocketAddr;
 
 use axum::{body::Body, routing::get};
 use futures_util::stream;
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
 use super::*;
 
@@ -81,6 +82,32 @@ async fn lm15_places_of_those_who_do_not_read_become_free() {
         answer = house.answer("/anything").await;
     }
     assert_eq!(answer, "", "not found");
+}
+
+#[tokio::test]
+async fn requests_whose_head_cannot_be_read_are_told_why() {
+    let house = House::new(Limits { connections: 3, of_one: 3, told: 2, patience: LONG }).await;
+    let long = "a".repeat(70_000);
+    let many = "a: b\r\n".repeat(101);
+    for (request, status, field) in [
+        (format!("GET / HTTP/1.1\r\na: {long}\r\n\r\n"), 431, "headers"),
+        (format!("GET / HTTP/1.1\r\n{many}\r\n"), 431, "headers"),
+        ("GET / HTTP/9.1\r\n\r\n".to_owned(), 400, "request"),
+        ("GET /a b c HTTP/1.1\r\n\r\n".to_owned(), 400, "request"),
+    ] {
+        let mut stream = TcpStream::connect(house.at).await.unwrap();
+        let mut heard = Vec::new();
+        let _ = stream.write_all(request.as_bytes()).await;
+        stream.read_to_end(&mut heard).await.unwrap();
+        let heard = String::from_utf8(heard).unwrap();
+        let (head, body) = heard.split_once("\r\n\r\n").unwrap();
+        assert!(head.starts_with(&format!("HTTP/1.1 {status} ")), "{head}");
+        assert!(head.contains(&format!("content-length: {}\r\n", body.len())), "{head}");
+        assert!(head.contains("content-type: application/json\r\n"), "{head}");
+        let problem: espalier_proto::Problem = serde_json::from_str(body).unwrap();
+        assert_eq!(problem.field.as_deref(), Some(field));
+        assert!(problem.allowed.is_some());
+    }
 }
 
 #[tokio::test]
