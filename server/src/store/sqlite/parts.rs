@@ -68,17 +68,21 @@ impl Keeping {
         let parts = cuts.iter().map(|(hash, _)| *hash).collect();
         let mut cuts = cuts.into_iter();
         let mut bytes = document.bytes;
+        let mut packed = Vec::new();
         loop {
             let packing = spawn_blocking(move || {
                 let packed = pack_some(&bytes, &mut cuts, &mut missing)?;
                 io::Result::Ok((packed, bytes, cuts, missing))
             });
-            let packed;
-            (packed, bytes, cuts, missing) = packing.await.map_err(broken)?.map_err(broken)?;
+            // What is packed is written while more is.
+            let writing =
+                async { if packed.is_empty() { Ok(0) } else { writer.write(Write::Parts(packed)).await } };
+            let (packing, written) = tokio::join!(packing, writing);
+            written?;
+            (packed, bytes, cuts, missing) = packing.map_err(broken)?.map_err(broken)?;
             if packed.is_empty() {
                 break;
             }
-            writer.write(Write::Parts(packed)).await?;
         }
         writer.write(name(Manifest { hash, simulation_version, parts }, bytes)).await
     }
