@@ -1,5 +1,6 @@
 //! The command line.
 
+mod groups;
 pub mod library;
 mod people;
 mod results;
@@ -16,6 +17,7 @@ use espalier_settings::{ParameterValues, ParametersPatch};
 use crate::{import, import_options::ImportOptions, load::Load, recipe::SeedRange, similar::similar};
 
 pub use self::{
+    groups::{Group, GroupOfRole, Members, NamedGroup, NewGroup},
     people::{
         Audit, Device, Invite, Listed, NamedUser, NewToken, NewUser, RemovedUser, Revoked, RoleOfUser, Scope,
         Token, User,
@@ -86,6 +88,9 @@ pub enum Command {
     /// Add those who log in with a password, list them, or remove them.
     #[command(subcommand)]
     User(User),
+    /// Give several of those who log in a role together.
+    #[command(subcommand)]
+    Group(Group),
     /// List the devices that are let in, or let one in no longer.
     #[command(subcommand)]
     Device(Device),

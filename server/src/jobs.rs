@@ -333,7 +333,13 @@ mod tests {
 
     async fn store_with(name: &str, role: Role) -> Arc<AnyStore> {
         let store = store();
-        let user = User { name: name.into(), role, password: "none".into(), created_at: "2026".into() };
+        let user = User {
+            name: name.into(),
+            role,
+            group_role: None,
+            password: "none".into(),
+            created_at: "2026".into(),
+        };
         store.add_user(user).await.unwrap();
         store
     }

@@ -1,6 +1,7 @@
-//! `espalier invite`, `user`, `device`, `token` and `audit`: who may come in, and what was done, said at the machine itself, while a server runs or not.
+//! `espalier invite`, `user`, `group`, `device`, `token` and `audit`: who may come in, and what was done, said at the machine itself, while a server runs or not.
 
 mod audit;
+mod groups;
 mod users;
 
 use std::{
@@ -20,7 +21,7 @@ use crate::{
     time::written,
 };
 
-pub use self::{audit::audit, users::user};
+pub use self::{audit::audit, groups::group, users::user};
 
 /// It could not be done; each message is one sentence.
 #[derive(Debug, thiserror::Error)]
@@ -45,6 +46,17 @@ pub enum PeopleError {
     /// Somebody goes by the name.
     #[error("There is a user {0} already; `espalier user passwd` gives them another password.")]
     Taken(String),
+    /// There is such a group.
+    #[error("There is a group {0} already; `espalier group role` gives it another role.")]
+    TakenGroup(String),
+    /// They are in no such group.
+    #[error("{user} is not in a group {group}; `espalier group ls` lists who is.")]
+    NoMember {
+        /// The group.
+        group: String,
+        /// Who was to leave it.
+        user: String,
+    },
     /// Nobody else is an administrator.
     #[error(
         "{0} is the last administrator: nobody would look after who comes in over the network. \

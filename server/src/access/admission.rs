@@ -90,11 +90,8 @@ pub async fn redeem(
 }
 
 /// Lets in a user whose password was right.
-pub async fn log_in(
-    store: &impl Passes,
-    User { name, role, .. }: User,
-    now: SystemTime,
-) -> Result<(Secret, Pass), StoreError> {
+pub async fn log_in(store: &impl Passes, user: User, now: SystemTime) -> Result<(Secret, Pass), StoreError> {
+    let (role, name) = (user.allowed(), user.name);
     let ends_at = written(now + DEVICE_LIFE);
     let (id, created_at, expires_at) = (name::unguessable(), String::new(), ends_at.clone());
     let pass = Pass { id, kind: PassKind::Login, name, role, tree: None, created_at, expires_at, ends_at };

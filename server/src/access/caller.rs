@@ -180,7 +180,7 @@ impl Caller {
     pub async fn still_may(&self, action: Action, store: &(impl Passes + Users)) -> Result<bool, StoreError> {
         let Some(held) = &self.pass else { return Ok(true) };
         let role = if held.kind == PassKind::Login {
-            store.user(&held.name).await?.map(|user| user.role)
+            store.user(&held.name).await?.map(|user| user.allowed())
         } else {
             store.pass(held.hash, &written(SystemTime::now())).await?.map(|pass| pass.role)
         };

@@ -199,7 +199,7 @@ fn parse_time(text: &str) -> Result<Duration, String> {
     }
 }
 
-fn parse_name(text: &str) -> Result<String, String> {
+pub(super) fn parse_name(text: &str) -> Result<String, String> {
     let name = text.parse::<Name>()?;
     // What a login finds a user by must be something.
     if folded(name.as_str()).is_empty() {

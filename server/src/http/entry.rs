@@ -148,7 +148,10 @@ pub(super) async fn me(caller: Caller) -> Json<Me> {
 
 /// Says who can log in.
 pub(super) async fn users(State(shared): State<Shared>) -> Result<Json<Vec<ListedUser>>, Failure> {
-    let listed = |User { name, role, created_at, .. }| ListedUser { name, role, created_at };
+    let listed = |user: User| {
+        let (role, User { name, created_at, .. }) = (user.allowed(), user);
+        ListedUser { name, role, created_at }
+    };
     Ok(Json(shared.store.users().await?.into_iter().map(listed).collect()))
 }
 

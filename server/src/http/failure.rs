@@ -162,6 +162,7 @@ impl From<Missing> for Failure {
             Missing::Tree => Self::no_tree(""),
             Missing::Version => Self::no_version(),
             Missing::User => Self::none_such("user", missing.field(), "the name of somebody who can log in"),
+            Missing::Group => Self::none_such("group", missing.field(), "the name of a group"),
             Missing::Collection | Missing::Parent => {
                 let problem = Problem::new(Reason::NoCollection, "There is no such collection.");
                 problem.at(missing.field(), "the identifier of a collection").into()

@@ -20,7 +20,8 @@ pub fn user(command: &cli::User) -> Result<(), PeopleError> {
     match command {
         cli::User::Add(NewUser { name, admin, role, database }) => {
             let role = if *admin { Role::Admin } else { *role };
-            let new = User { name: name.clone(), role, password: read_password()?, created_at: now() };
+            let password = read_password()?;
+            let new = User { name: name.clone(), role, group_role: None, password, created_at: now() };
             at(&database.path, async |store| {
                 match store.add_user(new).await {
                     Err(StoreError::Taken) => return Err(PeopleError::Taken(name.clone())),
@@ -31,10 +32,10 @@ pub fn user(command: &cli::User) -> Result<(), PeopleError> {
             print(&format!("{name} can log in: {}.", role.name()));
         }
         cli::User::Ls(options) => {
-            for User { name, role, created_at, .. } in
-                at(&options.database.path, async |store| Ok(store.users().await?))?
-            {
-                print(&format!("{name}: {}, since {created_at}", role.name()));
+            for user in at(&options.database.path, async |store| Ok(store.users().await?))? {
+                let by_group = if user.allowed() == user.role { "" } else { " by a group" };
+                let User { name, created_at, .. } = &user;
+                print(&format!("{name}: {}{by_group}, since {created_at}", user.allowed().name()));
             }
         }
         cli::User::Passwd(NamedUser { name, database }) => {

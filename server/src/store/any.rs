@@ -9,8 +9,8 @@ use espalier_session::JournalEntry;
 use super::MemoryStore;
 use super::{
     Answer, AnswerKey, Answering, Answers, Audit, Collection, CollectionChange, Commits, Damage, Event,
-    Finding, Lease, Library, MostAnswers, NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass,
-    PassKind, Passes, Picture, SessionTree, SqliteStore, Store, StoreError, StoredSession, StoredTree,
+    Finding, Group, Groups, Lease, Library, MostAnswers, NewSession, NewSnapshot, NewTree, NewVersion, Noted,
+    Pass, PassKind, Passes, Picture, SessionTree, SqliteStore, Store, StoreError, StoredSession, StoredTree,
     StoredVersion, TreeChange, TreeDocument, TreeQuery, User, UserChange, Users,
 };
 use crate::access::SecretHash;
@@ -263,6 +263,32 @@ impl Users for AnyStore {
 
     async fn remove_user(&self, name: &str) -> Result<bool, StoreError> {
         delegate!(self.remove_user(name))
+    }
+}
+
+impl Groups for AnyStore {
+    async fn add_group(&self, group: Group) -> Result<(), StoreError> {
+        delegate!(self.add_group(group))
+    }
+
+    async fn groups(&self) -> Result<Vec<Group>, StoreError> {
+        delegate!(self.groups())
+    }
+
+    async fn change_group(&self, name: &str, role: Role) -> Result<bool, StoreError> {
+        delegate!(self.change_group(name, role))
+    }
+
+    async fn remove_group(&self, name: &str) -> Result<bool, StoreError> {
+        delegate!(self.remove_group(name))
+    }
+
+    async fn join_group(&self, name: &str, user: &str) -> Result<(), StoreError> {
+        delegate!(self.join_group(name, user))
+    }
+
+    async fn leave_group(&self, name: &str, user: &str) -> Result<bool, StoreError> {
+        delegate!(self.leave_group(name, user))
     }
 }
 

@@ -3,6 +3,7 @@
 mod answers;
 mod audit;
 mod finding;
+mod groups;
 mod library;
 mod passes;
 mod users;
@@ -20,6 +21,7 @@ use self::finding::{
     collections_lie_in_each_other, every_order_goes_page_by_page, filters_hold_at_once,
     searching_is_looking_into_every_text, tags_and_favourites_find_trees,
 };
+use self::groups::{a_login_may_what_its_users_groups_may, groups_are_listed_with_their_members};
 pub use self::library::tree;
 pub(super) use self::library::tree_of_bytes;
 use self::library::{
@@ -33,12 +35,12 @@ use self::passes::{
 };
 use self::users::{a_login_has_the_role_of_its_user, a_name_is_one_person};
 use super::{
-    Answers, Audit, Damage, Finding, Lease, Library, NewSession, NewSnapshot, Passes, Store, StoreError,
-    StoredSession, Users,
+    Answers, Audit, Damage, Finding, Groups, Lease, Library, NewSession, NewSnapshot, Passes, Store,
+    StoreError, StoredSession, Users,
 };
 
 /// A store whose rows a test can damage.
-pub trait Breakable: Store + Library + Finding + Passes + Users + Audit + Answers {
+pub trait Breakable: Store + Library + Finding + Passes + Users + Groups + Audit + Answers {
     /// Changes a command in the row of the journal that begins with an entry.
     async fn break_journal(&self, session: &str, first: u64);
     /// Deletes the row of the journal that begins with an entry.
@@ -112,6 +114,8 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         a_pass_for_a_tree_goes_with_it,
         a_name_is_one_person,
         a_login_has_the_role_of_its_user,
+        groups_are_listed_with_their_members,
+        a_login_may_what_its_users_groups_may,
         events_are_listed_newest_first,
         events_that_come_again_are_counted,
         an_answer_is_kept_for_one_request,

@@ -3,6 +3,7 @@
 mod answers;
 mod audit;
 mod finding;
+mod groups;
 mod library;
 mod passes;
 mod users;
@@ -17,8 +18,8 @@ use espalier_proto::Notice;
 use espalier_session::JournalEntry;
 
 use super::{
-    Collection, Damage, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, Noted, Pass, Store, StoreError,
-    StoredSession, User,
+    Collection, Damage, Group, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, Noted, Pass, Store,
+    StoreError, StoredSession, User,
     lease::Leases,
     seal::{Found, JournalRow, SessionRow, SnapshotRow},
 };
@@ -47,6 +48,8 @@ struct Kept {
     last_event: u64,
     /// By their folded names.
     users: BTreeMap<String, User>,
+    /// By their folded names.
+    groups: BTreeMap<String, Group>,
 }
 
 #[derive(Debug)]

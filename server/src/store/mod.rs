@@ -1,6 +1,6 @@
 //! What is kept: sessions with their journals and snapshots, and the library of trees.
 //!
-//! [`Store`], [`Library`], [`Finding`], [`Passes`], [`Users`], [`Audit`] and [`Answers`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
+//! [`Store`], [`Library`], [`Finding`], [`Passes`], [`Users`], [`Groups`], [`Audit`] and [`Answers`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
 //! does, the model in `memory.rs` the second. The rest of the server knows [`AnyStore`] alone.
 
 mod answers;
@@ -10,6 +10,7 @@ mod audit;
 mod contract;
 mod finding;
 mod folding;
+mod groups;
 mod lease;
 mod library;
 #[cfg(test)]
@@ -30,6 +31,7 @@ pub use self::{
     audit::{Audit, DONE, EXPORT, Event, MOST_EVENTS, Noted},
     finding::{Collection, CollectionChange, Finding, Sort, TreePlace, TreeQuery},
     folding::folded,
+    groups::{Group, Groups},
     lease::Lease,
     library::{
         Contents, Deletion, Library, NewTree, NewVersion, Picture, Saved, SessionTree, StoredTree,
@@ -171,6 +173,8 @@ pub enum Missing {
     Parent,
     /// Somebody who logs in.
     User,
+    /// A group of those.
+    Group,
 }
 
 impl Missing {
@@ -182,6 +186,7 @@ impl Missing {
             Self::Collection => "collection",
             Self::Parent => "parent",
             Self::User => "name",
+            Self::Group => "group",
         }
     }
 }

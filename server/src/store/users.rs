@@ -28,12 +28,21 @@ pub trait Users {
 pub struct User {
     /// What they are called, and log in by.
     pub name: String,
-    /// What they may do.
+    /// What they may do by themselves.
     pub role: Role,
+    /// The most that a group of theirs lets them do; it is not kept here.
+    pub group_role: Option<Role>,
     /// What is kept of their password.
     pub password: String,
     /// When they were added.
     pub created_at: String,
+}
+
+impl User {
+    /// What they may do.
+    pub fn allowed(&self) -> Role {
+        self.group_role.map_or(self.role, |role| role.max(self.role))
+    }
 }
 
 /// What changes of somebody.

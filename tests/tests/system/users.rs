@@ -167,3 +167,51 @@ fn ac13_the_last_administrator_stays_unless_it_is_forced() {
     assert_eq!(user(&["role", "Ada", "owner"], &database, "").code, 0);
     assert_eq!(user(&["remove", "--force", "Cy"], &database, "").code, 0);
 }
+
+#[test]
+fn ac15_groups_give_their_members_a_role_while_the_server_runs() {
+    let scratch = Scratch::new();
+    let database = scratch.path("trees.db");
+    let server = Server::start_with(&database, 0, &["--auth"]);
+    let group = |arguments: &[&str]| {
+        program::run(&[&["group"], arguments, &["--database", name(&database)]].concat())
+    };
+    let said = |arguments: &[&str]| {
+        let done = group(arguments);
+        assert_eq!(done.code, 0, "{arguments:?}: {}", done.stderr);
+        done.stdout
+    };
+    for person in ["Ada", "Bo"] {
+        assert_eq!(user(&["add", person, "--role", "viewer"], &database, "battery staple").code, 0);
+    }
+    let bo = cookie(&server, "Bo", "battery staple");
+    assert_eq!(said(&["ls"]), "");
+    said(&["add", "Studio", "--role", "owner"]);
+    assert_eq!(said(&["join", "studio", "bo", "Ada"]), "bo, Ada are in studio from now on.\n");
+    assert_eq!(me(&server, &bo)["role"], "owner", "at once");
+    assert!(user(&["ls"], &database, "").stdout.contains("Bo: owner by a group, since "));
+    said(&["role", "Studio", "editor"]);
+    assert_eq!(me(&server, &bo)["role"], "editor");
+    assert_eq!(said(&["leave", "Studio", "Bo"]), "Bo is in Studio no longer.\n");
+    assert_eq!(me(&server, &bo)["role"], "viewer");
+    assert_eq!(said(&["ls"]), "Studio: editor: Ada\n");
+    for (arguments, sentence) in [
+        (&["add", "STUDIO"][..], "There is a group STUDIO already"),
+        (&["add", "Choir", "--role", "admin"], "invalid value 'admin'"),
+        (&["join", "Studio", "Cy"], "There is no user Cy"),
+        (&["join", "Choir", "Bo"], "There is no group Choir"),
+        (&["leave", "Studio", "Bo"], "Bo is not in a group Studio"),
+        (&["role", "Choir", "editor"], "There is no group Choir"),
+        (&["remove", "Choir"], "There is no group Choir"),
+    ] {
+        let refused = group(arguments);
+        assert_ne!(refused.code, 0, "{arguments:?}");
+        assert!(refused.stderr.contains(sentence), "{arguments:?}: {}", refused.stderr);
+    }
+    said(&["remove", "Studio"]);
+    assert_eq!(said(&["ls"]), "");
+    let audit = program::run(&["audit", "--database", name(&database)]).stdout;
+    for action in ["group-add Studio", "group-join studio bo", "group-role Studio", "group-remove Studio"] {
+        assert!(audit.contains(action), "{action}: {audit}");
+    }
+}

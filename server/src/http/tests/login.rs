@@ -5,13 +5,13 @@ use serde_json::{Value, json};
 use super::*;
 use crate::{
     access::password::Password,
-    store::{User, UserChange, Users},
+    store::{Group, Groups, User, UserChange, Users},
 };
 
 async fn with_ada(role: Role) -> (Router, Arc<AnyStore>) {
     let (server, store) = server().await;
     let password = Password::parse("correct horse").unwrap().kept().unwrap();
-    let ada = User { name: "Ada".into(), role, password, created_at: "2026".into() };
+    let ada = User { name: "Ada".into(), role, group_role: None, password, created_at: "2026".into() };
     store.add_user(ada).await.unwrap();
     (server, store)
 }
@@ -114,7 +114,8 @@ async fn ac11_right_logins_are_limited_for_a_user_and_an_address() {
     let password = store.user("Ada").await.unwrap().unwrap().password;
     for number in 0..5 {
         let name = format!("User {number}");
-        let user = User { name, role: Role::Viewer, password: password.clone(), created_at: "2026".into() };
+        let (role, password, created_at) = (Role::Viewer, password.clone(), "2026".into());
+        let user = User { name, role, group_role: None, password, created_at };
         store.add_user(user).await.unwrap();
     }
     let mut come = 0;
@@ -133,4 +134,28 @@ async fn ac9_the_page_is_told_whether_to_ask_for_a_password() {
         let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
         assert_eq!(serde_json::from_slice::<Value>(&bytes).unwrap(), json!({ "passwords": expected }));
     }
+}
+
+#[tokio::test]
+async fn ac15_a_login_may_what_a_group_of_its_user_may() {
+    let (server, store) = with_ada(Role::Viewer).await;
+    let cookie = cookie_of(&log_in(&server, "Ada", "correct horse", AFAR).await);
+    let delete = async |tree: &str| {
+        let path = format!("/api/v1/trees/{tree}");
+        let asked = from_afar(&Method::DELETE, &path, AFAR).header(header::COOKIE, &cookie);
+        server.clone().oneshot(asked.body(Body::empty()).unwrap()).await.unwrap().status()
+    };
+    assert_eq!(delete("oak").await, StatusCode::FORBIDDEN);
+    let (name, created_at) = ("Studio".into(), "2026".into());
+    store.add_group(Group { name, role: Role::Owner, created_at, members: Vec::new() }).await.unwrap();
+    store.join_group("Studio", "Ada").await.unwrap();
+    assert_eq!(me(&server, &cookie).await["role"], "owner", "at once");
+    assert_eq!(delete("oak").await, StatusCode::NOT_FOUND, "they may, but there is none");
+    store.change_group("Studio", Role::Editor).await.unwrap();
+    assert_eq!(delete("oak").await, StatusCode::FORBIDDEN);
+    // Who comes in while in a group has its role as well.
+    let again = cookie_of(&log_in(&server, "Ada", "correct horse", AFAR).await);
+    assert_eq!(me(&server, &again).await["role"], "editor");
+    store.leave_group("Studio", "Ada").await.unwrap();
+    assert_eq!(me(&server, &cookie).await["role"], "viewer");
 }

@@ -9,7 +9,7 @@ use super::{
 
 fn user(name: &str, role: Role) -> User {
     let created_at = "2026-04-01T12:00:00.000Z".into();
-    User { name: name.into(), role, password: format!("hash of {name}"), created_at }
+    User { name: name.into(), role, group_role: None, password: format!("hash of {name}"), created_at }
 }
 
 pub(super) async fn a_name_is_one_person(store: &impl Users) {

@@ -25,14 +25,14 @@ impl Passes for MemoryStore {
     async fn pass(&self, hash: SecretHash, now: &str) -> Result<Option<Pass>, StoreError> {
         let kept = self.kept();
         let found = kept.passes.iter().find(|(of, pass)| *of == hash && *pass.expires_at > *now);
-        Ok(found.map(|(_, pass)| pass.clone()))
+        Ok(found.map(|(_, pass)| kept.in_force(pass.clone())))
     }
 
     async fn passes(&self, kind: PassKind, now: &str) -> Result<Vec<Pass>, StoreError> {
         let kept = self.kept();
         let found = kept.passes.iter().map(|(_, pass)| pass);
-        let mut found: Vec<Pass> =
-            found.filter(|pass| pass.kind == kind && *pass.expires_at > *now).cloned().collect();
+        let found = found.filter(|pass| pass.kind == kind && *pass.expires_at > *now);
+        let mut found: Vec<Pass> = found.map(|pass| kept.in_force(pass.clone())).collect();
         found.sort_by(|a, b| (&b.created_at, &b.id).cmp(&(&a.created_at, &a.id)));
         Ok(found)
     }

@@ -17,11 +17,13 @@ impl Users for MemoryStore {
     }
 
     async fn user(&self, name: &str) -> Result<Option<User>, StoreError> {
-        Ok(self.kept().users.get(&folded(name)).cloned())
+        let kept = self.kept();
+        Ok(kept.users.get(&folded(name)).map(|user| kept.grouped(user)))
     }
 
     async fn users(&self) -> Result<Vec<User>, StoreError> {
-        Ok(self.kept().users.values().cloned().collect())
+        let kept = self.kept();
+        Ok(kept.users.values().map(|user| kept.grouped(user)).collect())
     }
 
     async fn change_user(&self, name: &str, change: UserChange) -> Result<bool, StoreError> {
@@ -45,7 +47,14 @@ impl Users for MemoryStore {
     async fn remove_user(&self, name: &str) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
         end_logins(&mut kept, name);
+        kept.leave_all(name);
         Ok(kept.users.remove(&folded(name)).is_some())
+    }
+}
+
+impl Kept {
+    fn grouped(&self, user: &User) -> User {
+        User { group_role: self.group_role(&user.name), ..user.clone() }
     }
 }
 

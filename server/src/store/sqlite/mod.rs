@@ -4,6 +4,7 @@ mod answers;
 mod audit;
 mod care;
 mod finding;
+mod groups;
 mod identity;
 mod library_file;
 mod open;

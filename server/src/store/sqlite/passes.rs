@@ -6,6 +6,7 @@ use sqlx::sqlite::SqliteConnection;
 use super::{
     super::{Missing, Pass, PassKind, Passes, StoreError, folding::folded},
     SqliteStore,
+    groups::most,
     writer::Write,
 };
 use crate::access::SecretHash;
@@ -57,8 +58,9 @@ macro_rules! select {
     ($rest:literal) => {
         concat!(
             "SELECT passes.id, kind, passes.name, coalesce(users.role, passes.role), key, passes.created_at,
-             expires_at, ends_at
-             FROM passes LEFT JOIN trees ON trees.id = tree LEFT JOIN users ON users.id = user WHERE expires_at > ?2 AND ",
+             expires_at, ends_at, (SELECT group_concat(studios.role) FROM studio_members
+             JOIN studios ON studios.id = studio WHERE studio_members.user = users.id)
+             FROM passes LEFT JOIN trees ON trees.id = tree LEFT JOIN users ON users.id = passes.user WHERE expires_at > ?2 AND ",
             $rest
         )
     };
@@ -67,13 +69,16 @@ macro_rules! select {
 const SELECT_BY_HASH: &str = select!("hash = ?1");
 const SELECT_BY_KIND: &str = select!("kind = ?1 ORDER BY passes.created_at DESC, passes.id DESC");
 
-/// Identifier, kind, name, role, tree, and the times when it was made, expires and ends.
-type Row = (String, String, String, String, Option<String>, String, String, String);
+/// Identifier, kind, name, role, tree, the times when it was made, expires and ends, and the roles of its user's groups.
+type Row = (String, String, String, String, Option<String>, String, String, String, Option<String>);
 
-fn read((id, kind, name, role, tree, created_at, expires_at, ends_at): Row) -> Result<Pass, StoreError> {
+fn read(
+    (id, kind, name, role, tree, created_at, expires_at, ends_at, of_groups): Row,
+) -> Result<Pass, StoreError> {
     let known = PassKind::named(&kind).zip(Role::named(&role));
     let (kind, role) =
         known.ok_or_else(|| StoreError::Damaged(format!("the pass {id} is of no known kind")))?;
+    let role = most(role, of_groups.as_deref())?;
     Ok(Pass { id, kind, name, role, tree, created_at, expires_at, ends_at })
 }
 

@@ -6,6 +6,7 @@ use sqlx::sqlite::SqliteConnection;
 use super::{
     super::{StoreError, User, UserChange, Users, folding::folded},
     SqliteStore,
+    groups::most,
     writer::Write,
 };
 
@@ -16,6 +17,13 @@ pub(super) enum UserWrite {
     Remove(String),
 }
 
+macro_rules! select {
+    () => {
+        "SELECT name, role, password, created_at, (SELECT group_concat(studios.role) FROM studio_members
+         JOIN studios ON studios.id = studio WHERE user = users.id) FROM users "
+    };
+}
+
 impl Users for SqliteStore {
     async fn add_user(&self, user: User) -> Result<(), StoreError> {
         let added = self.writer.write(Write::User(UserWrite::Add(user))).await?;
@@ -23,12 +31,12 @@ impl Users for SqliteStore {
     }
 
     async fn user(&self, name: &str) -> Result<Option<User>, StoreError> {
-        let found = sqlx::query_as("SELECT name, role, password, created_at FROM users WHERE folded = ?");
+        let found = sqlx::query_as(concat!(select!(), "WHERE folded = ?"));
         found.bind(folded(name)).fetch_optional(&self.readers).await?.map(read).transpose()
     }
 
     async fn users(&self) -> Result<Vec<User>, StoreError> {
-        let all = sqlx::query_as("SELECT name, role, password, created_at FROM users ORDER BY folded");
+        let all = sqlx::query_as(concat!(select!(), "ORDER BY folded"));
         all.fetch_all(&self.readers).await?.into_iter().map(read).collect()
     }
 
@@ -42,19 +50,20 @@ impl Users for SqliteStore {
     }
 }
 
-/// Name, role, password, and when they were added.
-type Row = (String, String, String, String);
+/// Name, role, password, when they were added, and the roles of their groups.
+type Row = (String, String, String, String, Option<String>);
 
-fn read((name, role, password, created_at): Row) -> Result<User, StoreError> {
+fn read((name, role, password, created_at, of_groups): Row) -> Result<User, StoreError> {
     let role = Role::named(&role)
         .ok_or_else(|| StoreError::Damaged(format!("the user {name} has no known role")))?;
-    Ok(User { name, role, password, created_at })
+    let group_role = of_groups.map(|roles| most(Role::Viewer, Some(&roles))).transpose()?;
+    Ok(User { name, role, group_role, password, created_at })
 }
 
 impl UserWrite {
     pub(super) async fn apply(&self, connection: &mut SqliteConnection) -> Result<u64, StoreError> {
         let query = match self {
-            Self::Add(User { name, role, password, created_at }) => sqlx::query(
+            Self::Add(User { name, role, password, created_at, .. }) => sqlx::query(
                 "INSERT INTO users (name, folded, role, password, created_at) VALUES (?, ?, ?, ?, ?)
                  ON CONFLICT (folded) DO NOTHING",
             )

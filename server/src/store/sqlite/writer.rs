@@ -21,6 +21,7 @@ use super::{
     answers::AnswerWrite,
     audit::AuditWrite,
     finding::FindingWrite,
+    groups::GroupWrite,
     parts::{self, Orphans, Part},
     passes::PassWrite,
     place::Place,
@@ -50,6 +51,7 @@ pub(super) enum Write {
     Shrink,
     Pass(PassWrite),
     User(UserWrite),
+    Group(GroupWrite),
     Audit(AuditWrite),
     Answer(AnswerWrite),
     #[cfg(test)]
@@ -68,6 +70,7 @@ impl Write {
             Self::Shrink => Ok(shrinking::step(connection).await?.into()),
             Self::Pass(write) => write.apply(connection).await,
             Self::User(write) => write.apply(connection).await,
+            Self::Group(write) => write.apply(connection).await,
             Self::Audit(write) => write.apply(connection).await,
             Self::Answer(write) => write.apply(connection).await,
             #[cfg(test)]

@@ -1,0 +1,39 @@
+//! Users who have a role together: a studio, a class, those who only look.
+
+use espalier_proto::access::Role;
+
+use super::StoreError;
+
+/// Keeps groups of users. Their names are compared as those of users are.
+pub trait Groups {
+    /// Adds a group without members; [`StoreError::Taken`] where one goes by the name.
+    async fn add_group(&self, group: Group) -> Result<(), StoreError>;
+
+    /// All of them, by name, each with its members, by name.
+    async fn groups(&self) -> Result<Vec<Group>, StoreError>;
+
+    /// Gives a group another role, from now on and wherever its members are logged in; whether it is there.
+    async fn change_group(&self, name: &str, role: Role) -> Result<bool, StoreError>;
+
+    /// Removes a group, not its members; whether it was there.
+    async fn remove_group(&self, name: &str) -> Result<bool, StoreError>;
+
+    /// Makes a user a member, who may be one already; [`StoreError::NotFound`] where there is no such group or user.
+    async fn join_group(&self, name: &str, user: &str) -> Result<(), StoreError>;
+
+    /// Makes a user a member no longer; whether they were one.
+    async fn leave_group(&self, name: &str, user: &str) -> Result<bool, StoreError>;
+}
+
+/// Users who have a role together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// How people call it.
+    pub name: String,
+    /// What its members may do, if their own role is not more.
+    pub role: Role,
+    /// When it was added.
+    pub created_at: String,
+    /// The names of its members.
+    pub members: Vec<String>,
+}
