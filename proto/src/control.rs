@@ -300,6 +300,11 @@ pub enum HintReason {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub enum ServerMessage {
+    /// The session is being read; the welcome comes when it is (`HS8`).
+    Loading {
+        /// How much of it is done, from 0 to 1.
+        share: f32,
+    },
     /// The answer to a hello (`HS2`).
     Welcome {
         /// [`crate::version::PROTOCOL_VERSION`].

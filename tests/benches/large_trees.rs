@@ -6,7 +6,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-use espalier_tests::{client::Client, http, scratch::Scratch, server::Server};
+use espalier_tests::{
+    client::{self, Client},
+    http,
+    scratch::Scratch,
+    server::Server,
+};
 use serde_json::{Value, json};
 
 /// Living metamers of the trees, at least.
@@ -31,13 +36,19 @@ async fn main() {
         println!("{} metamers", client.state.metamers);
         let tree = save(&server, &mut client).await;
         open(&server, &tree).await;
+        turn(&server, &tree);
         export(&server, &client, &mut other).await;
         let session = client.session.clone();
         drop(client);
         server = server.kill_and_restart();
         let begun = Instant::now();
+        let loading = first_sign(&server, &session).await;
         first_frame(&server, &session).await;
-        println!("  opened again after a crash: {:.0} ms", ms(begun.elapsed()));
+        println!(
+            "  opened again after a crash: {:.0} ms, told how far it is after {:.0} ms",
+            ms(begun.elapsed()),
+            ms(loading)
+        );
         other.reconnect(server.port()).await;
     }
 }
@@ -78,6 +89,23 @@ async fn open(server: &Server, tree: &str) {
         times.push(begun.elapsed());
     }
     println!("  a new session begun with it, up to its first frame: {}", spread(times));
+}
+
+/// Has its turntable drawn.
+fn turn(server: &Server, tree: &str) {
+    let begun = Instant::now();
+    let bytes = download(server.port(), &format!("/api/v1/trees/{tree}/versions/1/turntable"));
+    println!("  its turntable: {:.2} s, {} kB", begun.elapsed().as_secs_f64(), bytes / 1000);
+}
+
+/// From asking for a socket to the first word on it.
+async fn first_sign(server: &Server, session: &str) -> Duration {
+    let begun = Instant::now();
+    let mut socket = client::open(server.port(), session).await;
+    let first = client::next(&mut socket).await;
+    let text = first.as_ref().and_then(|message| message.to_text().ok()).unwrap_or_default();
+    assert!(text.contains("loading"), "{first:?}");
+    begun.elapsed()
 }
 
 /// Joins a session up to its first frame.

@@ -73,6 +73,8 @@ pub struct Client {
     pub people: Vec<Person>,
     /// What it was told that it may do, since it came in.
     pub role: Option<Role>,
+    /// How much of the session was loaded, each time that it was told.
+    pub loading: Vec<f32>,
     /// The highest durable command.
     pub acknowledged: u32,
     /// The command up to which nothing is left to do (`CM11`).
@@ -211,6 +213,7 @@ impl Client {
             problems: Vec::new(),
             notices: Vec::new(),
             pongs: Vec::new(),
+            loading: Vec::new(),
             frame_bytes: 0,
             frames: 0,
             receipts,
@@ -405,6 +408,7 @@ impl Client {
                 self.done = 0;
                 self.take_acknowledgement(acknowledged);
             }
+            ServerMessage::Loading { share } => self.loading.push(share),
             ServerMessage::Acknowledged { id } => self.take_acknowledgement(id),
             ServerMessage::Done { id } => self.done = id,
             ServerMessage::Refused { id, problem } => {

@@ -1964,7 +1964,11 @@ rose: number,
  */
 held: number, };
 
-export type ServerMessage = { "type": "welcome", 
+export type ServerMessage = { "type": "loading", 
+/**
+ * How much of it is done, from 0 to 1.
+ */
+share: number, } | { "type": "welcome", 
 /**
  * [`crate::version::PROTOCOL_VERSION`].
  */

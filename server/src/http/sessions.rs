@@ -249,8 +249,8 @@ async fn admit(shared: &Shared, caller: Result<Caller, Failure>, session: &str) 
     Ok(caller)
 }
 
-async fn connect(socket: WebSocket, shared: &Shared, name: &str, caller: Caller) {
-    let (code, sentence) = match shared.sessions.open(name).await {
+async fn connect(mut socket: WebSocket, shared: &Shared, name: &str, caller: Caller) {
+    let (code, sentence) = match live::open(&mut socket, &shared.sessions, name).await {
         Ok(Some(session)) => {
             let entrant = caller.entrant();
             return live::serve(socket, session, entrant, |grants| let_out(shared, caller, grants)).await;

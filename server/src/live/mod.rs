@@ -3,6 +3,7 @@
 mod actor;
 mod handle;
 mod leaving;
+mod loading;
 mod outbox;
 mod readers;
 mod registry;
@@ -11,6 +12,7 @@ mod socket;
 mod turn;
 
 pub use handle::{Ended, SessionFigures, SessionHandle};
+pub use loading::open;
 pub use readers::Unread;
 pub use registry::{Looked, Sessions};
 pub use restoring::OpenError;

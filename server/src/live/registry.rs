@@ -18,12 +18,13 @@ use tokio_util::{sync::CancellationToken, task::TaskTracker};
 use super::{
     actor::{Actor, Services},
     handle::{SessionFigures, SessionHandle},
+    loading::{Opening, Progress},
     restoring::{self, OpenError, Opened},
 };
 use crate::{
     memory::{Growing, Memory},
     places::{self, Places},
-    pool::{Panicked, SimulationPool},
+    pool::SimulationPool,
     store::{AnyStore, Lease, Store, StoreError},
 };
 
@@ -35,7 +36,13 @@ const MAX_SOCKETS_OF_ONE: usize = 256;
 /// A session that says nothing of itself for so long is being opened, or has ended.
 const LOOKING: Duration = Duration::from_secs(1);
 
-type Slot = OnceCell<SessionHandle>;
+/// A session's place in memory.
+#[derive(Debug, Default)]
+struct Slot {
+    session: OnceCell<SessionHandle>,
+    /// How far it is loaded.
+    progress: Progress,
+}
 
 /// A session in memory.
 #[derive(Clone, Debug)]
@@ -73,20 +80,35 @@ impl Sessions {
 
     /// The session of this name, loaded if need be; nothing if there is none.
     pub async fn open(&self, name: &str) -> Result<Option<SessionHandle>, OpenError> {
-        let (sessions, name) = (self.clone(), name.to_owned());
-        // Whoever asks may give up. What is being loaded is loaded all the same: dropped half-way, it would leave its
-        // lease and its slot behind.
-        let opened = self.0.tasks.spawn(async move { sessions.open_to_the_end(&name).await });
-        opened.await.unwrap_or(Err(OpenError::Panicked(Panicked)))
+        self.opening(name).opened().await
     }
 
-    async fn open_to_the_end(&self, name: &str) -> Result<Option<SessionHandle>, OpenError> {
+    /// The same, with how far it is.
+    pub(super) fn opening(&self, name: &str) -> Opening {
+        let (sessions, name) = (self.clone(), name.to_owned());
+        let slot = self.slot(&name);
+        let share = slot.session.get().is_none().then(|| slot.progress.watched());
+        // Whoever asks may give up. What is being loaded is loaded all the same: dropped half-way, it would leave its
+        // lease and its slot behind.
+        let opened = self.0.tasks.spawn(async move { sessions.open_to_the_end(&name, slot).await });
+        Opening::new(opened, share)
+    }
+
+    fn slot(&self, name: &str) -> Arc<Slot> {
+        Arc::clone(self.0.slots().entry(name.to_owned()).or_default())
+    }
+
+    async fn open_to_the_end(
+        &self,
+        name: &str,
+        mut slot: Arc<Slot>,
+    ) -> Result<Option<SessionHandle>, OpenError> {
         loop {
             if self.0.services.stop.is_cancelled() {
+                self.forget(name, slot);
                 return Err(OpenError::Stopping);
             }
-            let slot = Arc::clone(self.0.slots().entry(name.to_owned()).or_default());
-            match slot.get_or_try_init(|| self.load(name, &slot)).await {
+            match slot.session.get_or_try_init(|| self.load(name, &slot)).await {
                 Ok(session) if !session.is_ended() => return Ok(Some(session.clone())),
                 Ok(session) => session.gone.cancelled().await,
                 Err(unloaded) => {
@@ -97,14 +119,15 @@ impl Sessions {
                     };
                 }
             }
+            slot = self.slot(name);
         }
     }
 
     /// Puts a session that was just begun and kept into memory, for whoever comes next, so that it need not be read
     /// again. It leaves soon if nobody does.
     pub async fn seat(&self, name: &str, session: Session, room: Growing) {
-        let slot = Arc::clone(self.0.slots().entry(name.to_owned()).or_default());
-        let seated = slot.get_or_try_init(|| async {
+        let slot = self.slot(name);
+        let seated = slot.session.get_or_try_init(|| async {
             let lease = self.0.services.store.acquire(name).await?;
             Ok::<_, StoreError>(self.start(name, &slot, Opened { session, room, is_counted: false }, lease))
         });
@@ -118,7 +141,7 @@ impl Sessions {
     /// Who is in the session of this name; nobody where it is not in memory.
     pub async fn people(&self, name: &str) -> Vec<Principal> {
         let slot = self.0.slots().get(name).cloned();
-        match slot.as_ref().and_then(|slot| slot.get()) {
+        match slot.as_ref().and_then(|slot| slot.session.get()) {
             Some(session) => session.people().await.unwrap_or_default(),
             None => Vec::new(),
         }
@@ -129,7 +152,7 @@ impl Sessions {
         let slots: Vec<_> =
             self.0.slots().iter().map(|(name, slot)| (name.clone(), Arc::clone(slot))).collect();
         let looking = slots.into_iter().map(async |(name, slot)| {
-            let Some(session) = slot.get() else { return Looked { name, figures: None } };
+            let Some(session) = slot.session.get() else { return Looked { name, figures: None } };
             let figures = timeout(LOOKING, session.look()).await;
             Looked { name, figures: figures.ok().and_then(Result::ok) }
         });
@@ -154,7 +177,7 @@ impl Sessions {
     /// Ends every session in memory, for nothing of them can be kept any more.
     pub async fn fail(&self, reason: &str) {
         let slots: Vec<_> = self.0.slots().values().cloned().collect();
-        for session in slots.iter().filter_map(|slot| slot.get()) {
+        for session in slots.iter().filter_map(|slot| slot.session.get()) {
             // One that has ended already has nothing to lose.
             let _ = session.fail(reason).await;
         }
@@ -180,7 +203,7 @@ impl Sessions {
     async fn load(&self, name: &str, slot: &Arc<Slot>) -> Result<SessionHandle, Unloaded> {
         let services = &self.0.services;
         let lease = services.store.acquire(name).await?;
-        let restored = restoring::restored(services, name, &lease).await;
+        let restored = restoring::restored(services, name, &lease, &slot.progress).await;
         let opened =
             match restored.map_err(Unloaded::Error).and_then(|opened| opened.ok_or(Unloaded::Unknown)) {
                 Ok(opened) => opened,
@@ -213,7 +236,7 @@ impl Sessions {
     fn forget(&self, name: &str, slot: Arc<Slot>) {
         let mut slots = self.0.slots();
         // Slots are handed out under this lock only, so a count of two means the map and this function.
-        if Arc::strong_count(&slot) == 2 && !slot.initialized() {
+        if Arc::strong_count(&slot) == 2 && !slot.session.initialized() {
             slots.remove(name);
         }
     }

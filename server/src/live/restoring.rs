@@ -3,7 +3,7 @@
 use espalier_proto::{Notice, Problem, Reason};
 use espalier_session::{DocumentError, JournalEntry, RestoreError, Session, Tail};
 
-use super::actor::Services;
+use super::{actor::Services, loading::Progress};
 use crate::{
     SIMULATION_VERSION,
     memory::{self, Full, Growing, Use},
@@ -93,19 +93,27 @@ impl From<StoreError> for OpenError {
 }
 
 /// Makes a session of its name, epoch, snapshot, seed and entries.
-pub(super) type Make =
-    fn(String, u32, Option<&[u8]>, u32, Vec<JournalEntry>, Tail<'_>) -> Result<Session, RestoreError>;
+pub(super) type Make = fn(
+    String,
+    u32,
+    Option<&[u8]>,
+    u32,
+    Vec<JournalEntry>,
+    Tail<'_>,
+    &mut dyn FnMut(f32),
+) -> Result<Session, RestoreError>;
 
 /// Restores a session, if there is one, from its newest snapshot, or from the one before if that is of no use.
 pub(super) async fn restored(
     services: &Services,
     name: &str,
     lease: &Lease,
+    progress: &Progress,
 ) -> Result<Option<Opened>, OpenError> {
-    let make: Make = |name, epoch, snapshot, seed, entries, tail| {
-        Session::restore_with(name, epoch, snapshot, seed, entries, tail)
+    let make: Make = |name, epoch, snapshot, seed, entries, tail, tell| {
+        Session::restore_with(name, epoch, snapshot, seed, entries, tail, tell)
     };
-    restored_by(make, services, name, lease).await
+    restored_by(make, services, name, lease, progress).await
 }
 
 pub(super) async fn restored_by(
@@ -113,11 +121,17 @@ pub(super) async fn restored_by(
     services: &Services,
     name: &str,
     lease: &Lease,
+    progress: &Progress,
 ) -> Result<Option<Opened>, OpenError> {
+    if !services.store.has_session(name).await? {
+        return Ok(None);
+    }
+    progress.begun();
     let Some(stored) = services.store.load_session(name, None).await? else { return Ok(None) };
+    progress.read();
     let (through, passed_over) = (stored.through, stored.damage.clone());
     let tries = tries(services, name, lease, &stored).await;
-    let error = match restore(make, services, name, lease, stored, tries).await {
+    let error = match restore(make, services, name, lease, (stored, tries), progress).await {
         Err(error) if error.is_of_snapshot() => error,
         restored => return restored.map(Some),
     };
@@ -129,7 +143,8 @@ pub(super) async fn restored_by(
     // The checksum of its row is right, but no session can be made of it.
     older.damage.push(Damage::Snapshot(through));
     older.damage.extend(passed_over.into_iter().filter(|damage| matches!(damage, Damage::Snapshot(_))));
-    restore(make, services, name, lease, older, tries).await.map(Some).map_err(|_| error)
+    let older = restore(make, services, name, lease, (older, tries), progress);
+    older.await.map(Some).map_err(|_| error)
 }
 
 /// Counts that the session is tried to be opened, if there is anything that the server might not outlive; how often it
@@ -161,8 +176,8 @@ async fn restore(
     services: &Services,
     name: &str,
     lease: &Lease,
-    stored: StoredSession,
-    tries: u32,
+    (stored, tries): (StoredSession, u32),
+    progress: &Progress,
 ) -> Result<Opened, OpenError> {
     let last = stored.through + stored.entries.len() as u64;
     tracing::info!(session = name, entries = stored.entries.len(), last, "loading");
@@ -184,11 +199,11 @@ async fn restore(
         snapshot.as_ref().map_or(0, Vec::len) + entries.iter().map(|e| e.command.len()).sum::<usize>();
     let room = Growing::new(services.memory.take_soon(Use::Session, memory::restore(bytes)).await?);
     let made = services.pool.run(Class::Whole, name.into(), {
-        let (name, room) = (name.to_owned(), room.clone());
+        let (name, room, progress) = (name.to_owned(), room.clone(), progress.clone());
         move |_| {
             let mut has_room = |rows, urgency| room.has_room(rows, urgency);
             let tail = if waits { Tail::Waits } else { Tail::Done(&mut has_room) };
-            make(name, epoch, snapshot.as_deref(), seed, entries, tail)
+            make(name, epoch, snapshot.as_deref(), seed, entries, tail, &mut |share| progress.made(share))
         }
     });
     let mut session = made.await?.map_err(|error| match error {

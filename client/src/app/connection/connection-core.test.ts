@@ -1,6 +1,14 @@
 import { describe, expect, it } from "vitest";
 import { type Command, type DocumentState, type Parameters, PROTOCOL_VERSION, type Resume } from "../../wire/generated";
-import { type ClientRecord, ConnectionCore, type Effect, PING_AFTER, PONG_WITHIN, WATCHFUL } from "./connection-core";
+import {
+  type ClientRecord,
+  ConnectionCore,
+  type Effect,
+  OPEN_WITHIN,
+  PING_AFTER,
+  PONG_WITHIN,
+  WATCHFUL,
+} from "./connection-core";
 
 const state: DocumentState = {
   step: 0,
@@ -108,6 +116,36 @@ describe("handshake", () => {
     core.closed(1, 4000);
     expect(core.effects()).toEqual([{ kind: "reload" }]);
     expect([core.phase, core.stopReason, core.deadline]).toEqual(["stopped", "version", null]);
+  });
+
+  it("HS8: waits as long as the server tells how far it is", () => {
+    const { core, welcome } = setUp();
+    core.start(0);
+    core.opened(0);
+    expect(core.loading).toBe(null);
+    for (const [at, share] of [
+      [7_000, 0],
+      [14_000, 0.5],
+      [21_000, 0.5],
+    ] as const) {
+      core.message(at, { type: "loading", share });
+      core.tick(at + 1_000);
+      expect([core.phase, core.loading]).toEqual(["greeting", share]);
+    }
+    welcome(22_000, 0);
+    expect([core.phase, core.loading]).toEqual(["connected", null]);
+  });
+
+  it("HS8: comes back where it is told nothing any more", () => {
+    const { core } = setUp();
+    core.start(0);
+    core.opened(0);
+    core.message(1_000, { type: "loading", share: 0.5 });
+    core.tick(1_000 + OPEN_WITHIN);
+    expect([core.phase, core.loading]).toEqual(["waiting", null]);
+    core.tick(core.deadline ?? 0);
+    core.opened(core.deadline ?? 0);
+    expect(core.loading).toBe(null);
   });
 
   it("HS3: an unknown session stops for good", () => {

@@ -80,6 +80,7 @@ export class ConnectionCore {
   #phase: Phase = "idle";
   #stopReason: StopReason | null = null;
   #attempts = 0;
+  #loading: number | null = null;
   #deadline: number | null = null;
   #pinged: number | null = null;
   #nonce = 0;
@@ -110,6 +111,11 @@ export class ConnectionCore {
   /** Failed attempts since the last welcome. */
   get attempts(): number {
     return this.#attempts;
+  }
+
+  /** How much of the session the server has loaded, from 0 to 1, while it loads it (`HS8`). */
+  get loading(): number | null {
+    return this.#phase === "greeting" ? this.#loading : null;
   }
 
   /** How many times in a row the connection was closed because a frame could not be read. */
@@ -173,6 +179,7 @@ export class ConnectionCore {
       return;
     }
     this.#phase = "greeting";
+    this.#loading = null;
     this.#deadline = now + OPEN_WITHIN;
     const resume = this.#resumable ? this.#options.resume() : undefined;
     const hello = { type: "hello", protocol: PROTOCOL_VERSION, client: this.#key } as const;
@@ -185,6 +192,9 @@ export class ConnectionCore {
     switch (message.type) {
       case "welcome":
         this.#welcome(now, message);
+        break;
+      case "loading":
+        this.#load(now, message.share);
         break;
       case "acknowledged":
         this.#outbox.acknowledge(message.id);
@@ -331,6 +341,14 @@ export class ConnectionCore {
     this.#deadline = now + (this.watchful ? WATCHFUL : PONG_WITHIN);
     this.#nonce += 1;
     this.#send({ type: "ping", nonce: this.#nonce });
+  }
+
+  /** The server is at it: it may take as long as it takes. */
+  #load(now: number, share: number): void {
+    if (this.#phase === "greeting") {
+      this.#loading = share;
+      this.#deadline = now + OPEN_WITHIN;
+    }
   }
 
   #welcome(now: number, welcome: Extract<ServerMessage, { type: "welcome" }>): void {

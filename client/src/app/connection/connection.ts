@@ -31,7 +31,7 @@ export interface AsideFrame {
 
 /** The events of a connection. */
 export interface ConnectionEvents<Aside> {
-  phase(phase: Phase, attempts: number, stopped: StopReason | null, garbled: number): void;
+  phase(phase: Phase, attempts: number, stopped: StopReason | null, garbled: number, loading: number | null): void;
   commands(sent: number, settled: number): void;
   /** The server says what the page has to show. */
   message(message: PageMessage): void;
@@ -255,7 +255,8 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
           break;
       }
     }
-    events.phase(this.#core.phase, this.#core.attempts, this.#core.stopReason, this.#core.garbled);
+    const { phase, attempts, stopReason, garbled, loading } = this.#core;
+    events.phase(phase, attempts, stopReason, garbled, loading);
     events.commands(this.#core.next - 1, this.#core.settled);
     this.#arm();
   }

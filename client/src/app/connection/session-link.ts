@@ -76,6 +76,8 @@ export class SessionLink implements PageEvents {
   readonly attempts = signal(0);
   /** How often of late what the server sent could not be read. */
   readonly garbled = signal(0);
+  /** How much of the session the server has loaded, from 0 to 1, while it loads it. */
+  readonly loading = signal<number | null>(null);
   readonly sent = signal(0);
   readonly settled = signal(0);
   #options: SessionLinkOptions;
@@ -290,7 +292,12 @@ export class SessionLink implements PageEvents {
       ...(record ? { record } : {}),
       events: {
         ...events,
-        phase: (phase, attempts, stopped, garbled) => this.#onPhase(phase, attempts, stopped, garbled),
+        phase: (phase, attempts, stopped, garbled, loading) => {
+          batch(() => {
+            this.#onPhase(phase, attempts, stopped, garbled);
+            this.loading.value = loading;
+          });
+        },
         commands: (sent, settled) => {
           batch(() => {
             this.sent.value = sent;

@@ -76,6 +76,7 @@ export const NOTICES = {
     "Dieses Gerät hat das Bild verworfen und nicht zurückgegeben. Lade die Seite neu; deine Striche bleiben erhalten.",
   ],
   "notices.connecting": ["Connecting…", "Verbindet…"],
+  "notices.loading": ["Opening the tree, {percent} %", "Der Baum wird geöffnet, {percent} %"],
   "notices.reconnecting": ["Reconnecting… (try {attempt})", "Verbindet wieder… (Versuch {attempt})"],
   "notices.garbled": [
     "What the server sends cannot be read. This page tries again in a while; loading it anew may help.",

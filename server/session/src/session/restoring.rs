@@ -17,6 +17,10 @@ use crate::{
     work::{Order, Rest, Urgency},
 };
 
+/// The share of a snapshot in the time that it takes to load a session, where entries follow: nobody knows before how
+/// long those take.
+const SNAPSHOT_SHARE: f32 = 0.5;
+
 /// What becomes of the entries that no snapshot contains.
 pub enum Tail<'a> {
     /// They are done at once, as far as there is room; the rest is done when there is.
@@ -112,10 +116,10 @@ impl Session {
         entries: impl IntoIterator<Item = JournalEntry>,
     ) -> Result<Self, RestoreError> {
         let mut always = |_, _| true;
-        Self::restore_with(name, epoch, snapshot, seed, entries, Tail::Done(&mut always))
+        Self::restore_with(name, epoch, snapshot, seed, entries, Tail::Done(&mut always), &mut |_| {})
     }
 
-    /// The same where the entries may have to wait.
+    /// The same where the entries may have to wait, telling now and then which share is done, from 0 to 1.
     pub fn restore_with(
         name: impl Into<String>,
         epoch: u32,
@@ -123,6 +127,7 @@ impl Session {
         seed: u32,
         entries: impl IntoIterator<Item = JournalEntry>,
         mut tail: Tail<'_>,
+        tell: &mut dyn FnMut(f32),
     ) -> Result<Self, RestoreError> {
         let Snapshot { through, last_commands, document } = match snapshot {
             Some(bytes) => snapshot::from_bytes(bytes)?,
@@ -145,13 +150,21 @@ impl Session {
             taken_by,
             rest: Rest { orders, stops, hold, doing: None },
         };
+        let all = restored.rest.orders.len() as f32;
+        let begun = match snapshot {
+            _ if restored.rest.orders.is_empty() => 1.0,
+            Some(_) => SNAPSHOT_SHARE,
+            None => 0.0,
+        };
         if let Tail::Done(has_room) = &mut tail {
+            tell(begun);
             while restored.rest.hold.is_none()
                 && let Some(order) = restored.rest.orders.pop_front()
             {
                 if !restored.does(&order, *has_room) {
                     restored.rest.orders.push_front(order);
                 }
+                tell(1.0 - (1.0 - begun) * restored.rest.orders.len() as f32 / all);
             }
         }
         Ok(Self::with_document(name.into(), epoch, restored))

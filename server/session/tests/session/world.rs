@@ -127,7 +127,8 @@ impl World {
         let snapshot = self.snapshot.as_ref().map(|(_, bytes)| bytes.as_slice()).or(self.origin.as_deref());
         let entries = self.disk.iter().cloned();
         self.session =
-            Session::restore_with("plane-tree", self.next_epoch, snapshot, SEED, entries, tail).unwrap();
+            Session::restore_with("plane-tree", self.next_epoch, snapshot, SEED, entries, tail, &mut |_| {})
+                .unwrap();
         self.next_epoch += 1;
         self.peers.clear();
         (self.writing, self.working, self.wake_at) = (None, None, None);

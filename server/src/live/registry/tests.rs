@@ -228,7 +228,7 @@ async fn a_session_that_was_begun_is_in_memory_for_whoever_comes_and_leaves_if_n
     house.begin("ash", SIMULATION_VERSION, Some(snapshot)).await;
     house.sessions.seat("ash", session, room(&house)).await;
     let seated = house.sessions.0.slots().get("ash").cloned().unwrap();
-    seated.get().unwrap().gone.cancelled().await;
+    seated.session.get().unwrap().gone.cancelled().await;
     assert!(!house.sessions.0.slots().contains_key("ash"));
     assert!(house.sessions.0.slots().contains_key("elm"), "somebody is there");
 }
@@ -348,6 +348,25 @@ async fn cm2_nothing_is_acknowledged_that_was_not_written() {
 }
 
 #[tokio::test]
+async fn hs8_a_session_that_is_opened_says_how_far_it_is() {
+    let house = House::new().await;
+    let lease = house.store.acquire("oak").await.unwrap();
+    house.store.append(&lease, SIMULATION_VERSION, &[grown(1), grown(2)]).await.unwrap();
+    let share = |opening: &Opening| opening.share.clone();
+    let opening = house.sessions.opening("oak");
+    let oak = share(&opening).unwrap();
+    assert!(opening.opened().await.unwrap().is_some());
+    assert_eq!(*oak.borrow(), Some(1.0));
+    let opening = house.sessions.opening("oak");
+    assert!(share(&opening).is_none(), "it is in memory");
+    assert!(opening.opened().await.unwrap().is_some());
+    let opening = house.sessions.opening("elm");
+    let elm = share(&opening).unwrap();
+    assert!(opening.opened().await.unwrap().is_none());
+    assert_eq!(*elm.borrow(), None, "there is none");
+}
+
+#[tokio::test]
 async fn op4_a_panic_while_restoring_falls_back_to_the_snapshot_before() {
     let house = House::new().await;
     house.begin("elm", SIMULATION_VERSION, Some(Session::seedling(7, 1_000_000))).await;
@@ -356,11 +375,12 @@ async fn op4_a_panic_while_restoring_falls_back_to_the_snapshot_before() {
     let bytes = b"deadly".to_vec();
     let deadly = NewSnapshot { through: 1, simulation_version: SIMULATION_VERSION, bytes };
     house.store.keep_snapshot(&lease, deadly).await.unwrap();
-    let make: restoring::Make = |name, epoch, snapshot, seed, entries, tail| {
+    let make: restoring::Make = |name, epoch, snapshot, seed, entries, tail, tell| {
         assert_ne!(snapshot, Some(b"deadly".as_slice()), "on purpose, for a test");
-        Session::restore_with(name, epoch, snapshot, seed, entries, tail)
+        Session::restore_with(name, epoch, snapshot, seed, entries, tail, tell)
     };
-    let session = restoring::restored_by(make, &house.sessions.0.services, "elm", &lease).await;
+    let (services, progress) = (&house.sessions.0.services, Progress::default());
+    let session = restoring::restored_by(make, services, "elm", &lease, &progress).await;
     let Opened { session, .. } = session.unwrap().unwrap();
     assert_eq!(session.document().unwrap().figures().step, 2);
     let stored = house.store.load_session("elm", None).await.unwrap().unwrap();

@@ -13,6 +13,7 @@ export function Status({ studio }: { studio: Studio }) {
   const people = document?.people ?? 1;
   const full = document?.budget_reached === true;
   const away = phase !== "connected" && studio.hindrance.value === null && studio.link.session.value !== null;
+  const loading = studio.link.loading.value;
   const garbled = studio.link.garbled.value > 1;
   const unsent = studio.link.sent.value - studio.link.settled.value;
   return (
@@ -20,11 +21,14 @@ export function Status({ studio }: { studio: Studio }) {
       {away && (
         <p class="note away" key={attempts === 0 ? "first" : "again"}>
           <i class="pulse" />
-          {attempts === 0
-            ? say("notices.connecting")
-            : garbled
-              ? say("notices.garbled")
-              : say("notices.reconnecting", { attempt: attempts })}
+          {loading !== null
+            ? say("notices.loading", { percent: `${Math.round(100 * loading)}` })
+            : attempts === 0
+              ? say("notices.connecting")
+              : garbled
+                ? say("notices.garbled")
+                : say("notices.reconnecting", { attempt: attempts })}
+          {loading !== null && <progress max={1} value={loading} />}
           {attempts > 0 && unsent > 0 && <span class="quiet">{say("notices.kept")}</span>}
         </p>
       )}

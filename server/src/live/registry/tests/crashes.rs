@@ -16,8 +16,9 @@ async fn op5_what_was_tried_twice_and_came_to_no_end_waits_for_an_owner() {
     let house = House::new().await;
     let lease = with_growth(&house).await;
     for tried in 1..=2 {
-        let make: restoring::Make = |_, _, _, _, _, _| panic!("on purpose, for a test");
-        let opened = restoring::restored_by(make, &house.sessions.0.services, "oak", &lease).await;
+        let make: restoring::Make = |_, _, _, _, _, _, _| panic!("on purpose, for a test");
+        let (services, progress) = (&house.sessions.0.services, Progress::default());
+        let opened = restoring::restored_by(make, services, "oak", &lease, &progress).await;
         assert!(matches!(opened, Err(OpenError::Panicked(_))), "{tried}");
     }
     let mut visitor = house.visit().await;
