@@ -14,6 +14,8 @@ use crate::{bounded::LinkHours, text::Name};
 pub enum Role {
     /// Look, and take copies away.
     Viewer,
+    /// Say what they think of it.
+    Commenter,
     /// Draw and save.
     Editor,
     /// Delete.
@@ -24,12 +26,13 @@ pub enum Role {
 
 impl Role {
     /// All of them, those that may least first.
-    pub const ALL: [Self; 4] = [Self::Viewer, Self::Editor, Self::Owner, Self::Admin];
+    pub const ALL: [Self; 5] = [Self::Viewer, Self::Commenter, Self::Editor, Self::Owner, Self::Admin];
 
     /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Viewer => "viewer",
+            Self::Commenter => "commenter",
             Self::Editor => "editor",
             Self::Owner => "owner",
             Self::Admin => "admin",
@@ -174,6 +177,8 @@ pub enum LinkRole {
     /// As the role.
     Viewer,
     /// As the role.
+    Commenter,
+    /// As the role.
     Editor,
 }
 
@@ -181,6 +186,7 @@ impl From<LinkRole> for Role {
     fn from(role: LinkRole) -> Self {
         match role {
             LinkRole::Viewer => Self::Viewer,
+            LinkRole::Commenter => Self::Commenter,
             LinkRole::Editor => Self::Editor,
         }
     }

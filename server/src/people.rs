@@ -112,6 +112,7 @@ pub fn token(command: &cli::Token) -> Result<(), PeopleError> {
         cli::Token::Create(cli::NewToken { name, scope, lasts, database }) => {
             let role = match scope {
                 Scope::Read => Role::Viewer,
+                Scope::Comment => Role::Commenter,
                 Scope::Write => Role::Editor,
             };
             let made = at(&database.path, async |store| {

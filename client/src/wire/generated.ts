@@ -78,7 +78,7 @@ export const FrameKind = {
 } as const;
 
 /** Each may do what those before it may. */
-export const ROLES = ["viewer", "editor", "owner", "admin"] as const satisfies readonly Role[];
+export const ROLES = ["viewer", "commenter", "editor", "owner", "admin"] as const satisfies readonly Role[];
 
 /** The least role that may do something (AC5). */
 export const LEAST_ROLES = {
@@ -2458,7 +2458,7 @@ author: string,
  */
 trees: number, };
 
-export type Role = "viewer" | "editor" | "owner" | "admin";
+export type Role = "viewer" | "commenter" | "editor" | "owner" | "admin";
 
 export type ServerStatus = { 
 /**
@@ -2662,7 +2662,7 @@ hours?: number,
  */
 name?: string, };
 
-export type LinkRole = "viewer" | "editor";
+export type LinkRole = "viewer" | "commenter" | "editor";
 
 export type ChangeLink = { 
 /**

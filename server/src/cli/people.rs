@@ -151,6 +151,8 @@ pub struct NewToken {
 pub enum Scope {
     /// What viewers may.
     Read,
+    /// What commenters may.
+    Comment,
     /// What editors may.
     Write,
 }

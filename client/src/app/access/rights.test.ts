@@ -22,6 +22,7 @@ it.each([
   [{ role: "admin" }, [true, true, true, true, true]],
   [{ role: "owner" }, [true, true, true, true, true]],
   [{ role: "editor" }, [true, true, true, false, false]],
+  [{ role: "commenter" }, [false, false, false, false, false]],
   [{ role: "viewer" }, [false, false, false, false, false]],
   [{ role: "owner", tree: "ash" }, [true, false, false, false, false]],
   [{ role: "editor", tree: "ash" }, [true, false, false, false, false]],

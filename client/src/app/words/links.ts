@@ -11,7 +11,9 @@ export const LINKS = {
   ],
   "links.role": ["They may", "Sie dürfen"],
   "links.role.viewer": ["Look", "Ansehen"],
+  "links.role.commenter": ["Look and comment", "Ansehen und kommentieren"],
   "links.role.editor": ["Draw and save", "Zeichnen und speichern"],
+  "links.let.commenter": ["Let comment", "Kommentieren lassen"],
   "links.let.editor": ["Let draw", "Zeichnen lassen"],
   "links.let.viewer": ["Only let look", "Nur zusehen lassen"],
   "links.lasting": ["For", "Für"],
@@ -28,6 +30,10 @@ export const LINKS = {
     "For {name}, to look. The link is shown this once: have it scanned, or send it.",
     "Für {name}, zum Ansehen. Der Link ist nur dieses eine Mal zu sehen: Lass ihn scannen oder schick ihn.",
   ],
+  "links.fresh.commenter": [
+    "For {name}, to look and to comment. The link is shown this once: have it scanned, or send it.",
+    "Für {name}, zum Ansehen und Kommentieren. Der Link ist nur dieses eine Mal zu sehen: Lass ihn scannen oder schick ihn.",
+  ],
   "links.fresh.editor": [
     "For {name}, to draw. The link is shown this once: have it scanned, or send it.",
     "Für {name}, zum Zeichnen. Der Link ist nur dieses eine Mal zu sehen: Lass ihn scannen oder schick ihn.",
@@ -43,6 +49,7 @@ export const LINKS = {
   "links.none": ["Nobody has been invited to this tree alone.", "Niemand ist nur zu diesem Baum eingeladen."],
   "links.list": ["Who is invited to this tree", "Wer zu diesem Baum eingeladen ist"],
   "links.may.viewer": ["may look", "darf ansehen"],
+  "links.may.commenter": ["may look and comment", "darf ansehen und kommentieren"],
   "links.may.editor": ["may draw", "darf zeichnen"],
   "links.may.owner": ["may draw and delete", "darf zeichnen und löschen"],
   "links.may.admin": ["may do everything", "darf alles"],

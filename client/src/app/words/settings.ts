@@ -18,6 +18,7 @@ export const SETTINGS = {
     "Wer sich hier abmeldet, braucht für die Rückkehr eine neue Einladung.",
   ],
   "settings.role.viewer": ["may look", "darf ansehen"],
+  "settings.role.commenter": ["may look and comment", "darf ansehen und kommentieren"],
   "settings.role.editor": ["may draw and save", "darf zeichnen und speichern"],
   "settings.role.owner": ["may draw, save and delete", "darf zeichnen, speichern und löschen"],
   "settings.role.admin": ["administrator", "verwaltet den Server"],

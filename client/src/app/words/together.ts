@@ -11,6 +11,7 @@ export const TOGETHER = {
   "together.gone": ["Does not answer", "Antwortet nicht"],
   "together.follows": ["Follows {name}", "Folgt {name}"],
   "together.role.viewer": ["May look", "Darf zusehen"],
+  "together.role.commenter": ["May comment", "Darf kommentieren"],
   "together.role.editor": ["May draw", "Darf zeichnen"],
   "together.role.owner": ["Owner", "Besitzt den Baum"],
   "together.role.admin": ["Looks after the server", "Betreut den Server"],

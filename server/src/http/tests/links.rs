@@ -89,8 +89,10 @@ async fn ac12_who_was_invited_may_do_more_or_less_from_then_on() {
     let cookie = come(&server, made["url"].as_str().unwrap()).await.expect("the link lets in");
     let role = async || by(&server, &cookie, &Method::GET, "/api/v1/me").await.1["role"].clone();
     assert_eq!(role().await, "viewer", "as it was when they came");
-    assert_eq!(change("editor").await.0, 200);
-    assert_eq!(role().await, "editor");
+    for more in ["commenter", "editor"] {
+        assert_eq!(change(more).await.0, 200);
+        assert_eq!(role().await, more);
+    }
     assert_eq!(change("owner").await.1["field"], "role");
     assert_eq!(by(&server, &cookie, &Method::PATCH, &own).await.0, 403, "editors do not say who may what");
     let elsewhere = own.replace("/ash/", "/yew/");
@@ -100,10 +102,10 @@ async fn ac12_who_was_invited_may_do_more_or_less_from_then_on() {
 }
 
 #[tokio::test]
-async fn ac12_a_link_is_for_viewers_or_editors_from_an_hour_to_a_year() {
+async fn ac12_a_link_is_for_viewers_commenters_or_editors_from_an_hour_to_a_year() {
     let (server, _) = server().await;
     let add = async |body: &str| asked(&server, request(&Method::POST, LINKS), body).await;
-    for body in [r#"{"role":"viewer"}"#, r#"{"role":"viewer","hours":8760}"#] {
+    for body in [r#"{"role":"viewer"}"#, r#"{"role":"commenter","hours":8760}"#] {
         assert_eq!(add(body).await.0, 201, "{body}");
     }
     for (body, field) in [

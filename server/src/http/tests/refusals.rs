@@ -335,7 +335,7 @@ async fn what_cannot_be_read_is_told_the_range_that_holds() {
     let (trees, jobs) = ("POST /api/v1/trees", "POST /api/v1/grow");
     let seeds = "a list of 1 to 1000 different seeds, or a text as 1-50 or 7";
     let (links, link) = ("POST /api/v1/trees/{tree}/links", json!({ "role": "viewer" }));
-    let roles = "viewer, editor";
+    let roles = "viewer, commenter, editor";
     for (address, body, name, wrong, field, allowed) in [
         (trees, &tree, "name", None, "name", "1 to 80 characters"),
         (trees, &tree, "name", Some(json!(5)), "name", "1 to 80 characters"),

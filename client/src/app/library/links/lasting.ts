@@ -13,6 +13,9 @@ const HOURS: Readonly<Record<Exclude<Lasting, "open">, number>> = {
   year: BOUNDS.LinkHours.most,
 };
 
+/** What a link may allow, the least first. */
+export const LINK_ROLES = ["viewer", "commenter", "editor"] as const satisfies readonly LinkRole[];
+
 /** Who is to be let in, and for how long. */
 export interface Wish {
   readonly role: LinkRole;

@@ -1,6 +1,6 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
 import { MAX_NAME_CHARACTERS, type SavedTree } from "../../../../wire/generated";
-import { FIRST_WISH, LASTING, linkOf, type Wish } from "../../../library/links/lasting";
+import { FIRST_WISH, LASTING, LINK_ROLES, linkOf, type Wish } from "../../../library/links/lasting";
 import * as api from "../../../library/links/link-api";
 import { isOnlyHere } from "../../../library/links/only-here";
 import { type FreshLink, TreeLinks } from "../../../library/links/tree-links";
@@ -61,7 +61,7 @@ function LinkForm({ links }: { readonly links: TreeLinks }) {
       <Segments
         legend={say("links.role")}
         name="link-role"
-        values={["viewer", "editor"]}
+        values={LINK_ROLES}
         chosen={wish.role}
         text={(role) => say(`links.role.${role}` as Key)}
         onChoose={(role) => setWish({ ...wish, role: role as Wish["role"] })}

@@ -1,5 +1,6 @@
 import { useState } from "preact/hooks";
 import type { LinkRole, TreeLink } from "../../../../wire/generated";
+import { LINK_ROLES } from "../../../library/links/lasting";
 import { momentText } from "../../../words/date-text";
 import { type Key, say } from "../../../words/say";
 import { ConfirmRow } from "../confirm-row";
@@ -17,7 +18,7 @@ interface LinkRowProps {
  */
 export function LinkRow({ link: { name, role, since, until, used }, onChange, onRevoke }: LinkRowProps) {
   const [asks, setAsks] = useState(false);
-  const other = role === "viewer" ? "editor" : "viewer";
+  const others = LINK_ROLES.filter((other) => other !== role);
   return (
     <li class="link-row" data-used={used}>
       <div>
@@ -36,9 +37,11 @@ export function LinkRow({ link: { name, role, since, until, used }, onChange, on
         />
       ) : (
         <div class="link-acts">
-          <button type="button" class="small" onClick={() => void onChange(other)}>
-            {say(`links.let.${other}`)}
-          </button>
+          {others.map((other) => (
+            <button key={other} type="button" class="small" onClick={() => void onChange(other)}>
+              {say(`links.let.${other}`)}
+            </button>
+          ))}
           <button
             type="button"
             class="small"
