@@ -10,10 +10,11 @@ use ts_rs::TS;
 
 use crate::{
     bounded::{Age, BrushRadius, Depth, Diameter, List, Share, Steps, Touches},
+    design::{DesignEdit, DesignValue, MAX_DESIGN_EDITS},
     obstacle::{Obstacle, Pose, SimpleShape},
     place::{DrawingPlane, PlanePoint, Position, UnitRotation},
     problem::Problem,
-    programme::{ParameterName, Programme},
+    programme::{ParameterName, Programme, Slug},
     reading::{self, tagged_enum},
     version::{
         MAX_BEND_TOUCHES, MAX_OUTLINE_POINTS, MAX_PRUNED_ROWS, MAX_STROKE_SAMPLES, MIN_OUTLINE_POINTS,
@@ -294,6 +295,28 @@ tagged_enum! {
             /// Whether the branch stays where it was as well.
             keep: bool,
         },
+        /// Begin a design: wood from its outline inwards, which follows what is said of its branches (`DS1`).
+        NewDesign {
+            /// Where it stands; without one it takes the place of the design in force.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            position: Option<Position>,
+            /// The template that it begins with.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            template: Option<Slug>,
+            /// The graph that it begins with, as in files of designs; a plain one without any.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            graph: Option<DesignValue>,
+        },
+        /// Change the design in force (`DS2`): all of it or nothing.
+        EditDesign {
+            /// 1 to 64 edits, done one after another.
+            edits: List<DesignEdit, 1, MAX_DESIGN_EDITS>,
+        },
+        /// Let the design in force go: its wood stays, and is wood like any other (`DS3`).
+        ReleaseDesign {},
         /// Go to a step of the present line of time, back or forth (`TT2`).
         GoTo {
             /// 0 to the line's last step.

@@ -10,6 +10,7 @@ use crate::{
     access::Role,
     bounded::{BrushRadius, List, PredictedSteps},
     command::Command,
+    design::DesignInForce,
     envelope::FrameKind,
     obstacle::PlacedObstacle,
     place::Position,
@@ -384,6 +385,11 @@ pub enum ServerMessage {
     Widths {
         /// In order of their rows.
         widths: Vec<WidthConstraint>,
+    },
+    /// The design in force: after the welcome if there is one, and when it changes (`DS4`).
+    Design {
+        /// The design; none where there is none any more.
+        design: Option<Box<DesignInForce>>,
     },
     /// How the session was opened, after the welcome (`OP3`).
     Notice {

@@ -11,6 +11,7 @@ pub mod bend;
 pub mod bounded;
 pub mod command;
 pub mod control;
+pub mod design;
 pub mod envelope;
 pub mod frame;
 pub mod ghost;
@@ -47,6 +48,7 @@ pub use command::{Action, Command, StrokeSample};
 pub use control::{
     ClientMessage, Deed, DocumentState, Hint, HintReason, Notice, Pause, Resume, ServerMessage, Unreadable,
 };
+pub use design::{BranchPath, DesignEdit, DesignInForce, DesignSetting, DesignValue};
 pub use envelope::FrameKind;
 pub use espalier_reading::NotAllowed;
 pub use frame::{ChunkChange, Column, Frame, FrameError, Rows, Values};

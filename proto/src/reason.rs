@@ -130,6 +130,12 @@ reasons! {
         BeingBent,
         /// A branch cannot be set on itself.
         OwnBranch,
+        /// Later steps stand on the wood of the design, so it cannot change.
+        DesignSealed,
+        /// The design refuses this; the message says why.
+        DesignRefused,
+        /// Somebody is drawing.
+        BeingDrawn,
         /// The branch would leave the world.
         OutsideWorld,
         /// Nothing can grow into this outline.
@@ -186,6 +192,12 @@ reasons! {
         FutureGone,
         /// There is no such obstacle.
         ObstacleGone,
+        /// There is no design in force.
+        DesignGone,
+        /// The design has no such branch, or it sleeps.
+        DesignBranchGone,
+        /// There is no such template of designs.
+        NoTemplate,
         /// There is no such tree in the library.
         NoTree,
         /// There is no such collection in the library.

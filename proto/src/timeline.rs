@@ -36,6 +36,8 @@ pub enum OperationKind {
     TakenBack,
     /// Something that was taken back is in force again (`UD3`).
     BroughtBack,
+    /// A design begun, changed or let go.
+    Design,
 }
 
 /// One operation on a line of time.

@@ -8,8 +8,8 @@ use ts_rs::{Config, TS};
 
 use crate::{
     access::{self, Role},
-    bounded, command, control, envelope, frame, library, obstacle, permission, place, presence, problem,
-    programme, reason, schematic, species, status, thumbnail, timeline, version,
+    bounded, command, control, design, envelope, frame, library, obstacle, permission, place, presence,
+    problem, programme, reason, schematic, species, status, thumbnail, timeline, version,
 };
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
@@ -132,6 +132,9 @@ pub fn declarations() -> String {
         problem::ProblemCode::decl(&config),
         reason::Reason::decl(&config),
         problem::Problem::decl(&config),
+        design::DesignSetting::decl(&config),
+        design::DesignEdit::decl(&config),
+        design::DesignInForce::decl(&config),
         timeline::OperationKind::decl(&config),
         timeline::TimelineOperation::decl(&config),
         timeline::TimelineFuture::decl(&config),

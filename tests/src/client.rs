@@ -3,8 +3,9 @@
 use std::{collections::VecDeque, fmt::Debug, time::Duration};
 
 use espalier_proto::{
-    BendFrame, ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, Notice, Person, PlacedObstacle,
-    PresenceFrame, Problem, Programme, ServerMessage, Timeline, WidthConstraint, access::Role,
+    BendFrame, ClientMessage, DesignInForce, DocumentState, Frame, FrameKind, GhostFrame, Notice, Person,
+    PlacedObstacle, PresenceFrame, Problem, Programme, ServerMessage, Timeline, WidthConstraint,
+    access::Role,
 };
 use espalier_settings::{Appearance, ParameterValues};
 use futures_util::{SinkExt, StreamExt};
@@ -63,6 +64,8 @@ pub struct Client {
     pub timeline: Timeline,
     /// The newest width constraints.
     pub widths: Vec<WidthConstraint>,
+    /// The design in force.
+    pub design: Option<DesignInForce>,
     /// Frames of bends, in the order they came.
     pub bend_frames: Vec<BendFrame>,
     /// Ghosts of predictions, in the order they came.
@@ -200,6 +203,7 @@ impl Client {
             obstacles: Vec::new(),
             timeline: Timeline::default(),
             widths: Vec::new(),
+            design: None,
             bend_frames: Vec::new(),
             ghosts: Vec::new(),
             presence: Vec::new(),
@@ -400,10 +404,11 @@ impl Client {
                 assert_eq!(epoch, self.table.epoch, "RS1: only the same epoch can be resumed");
                 self.resumed = resumed;
                 self.parameters = *parameters;
-                // These follow if there are any (`PG5`, `OB3`, `WI2`).
+                // These follow if there are any (`PG5`, `OB3`, `WI2`, `DS4`).
                 self.programme = None;
                 self.obstacles.clear();
                 self.widths.clear();
+                self.design = None;
                 self.state = state;
                 self.done = 0;
                 self.take_acknowledgement(acknowledged);
@@ -425,6 +430,7 @@ impl Client {
             ServerMessage::Timeline(timeline) => self.timeline = *timeline,
             ServerMessage::TimelineChanged(change) => self.timeline.change(*change),
             ServerMessage::Widths { widths } => self.widths = widths,
+            ServerMessage::Design { design } => self.design = design.map(|design| *design),
             ServerMessage::Appearance { appearance } => {
                 self.appearance = *appearance;
                 self.appearances += 1;

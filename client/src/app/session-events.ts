@@ -7,6 +7,7 @@ import { handle, type MessageHandlers } from "./connection/page-message";
 import type { ServerTime } from "./connection/server-time";
 import type { SessionEvents } from "./connection/session-link";
 import type { LookDraft } from "./document/appearance/look-draft";
+import type { DesignSignal } from "./document/design/design-signal";
 import type { Draft } from "./document/draft";
 import type { GrowControl } from "./document/growth/grow-control";
 import type { ProgrammeControl } from "./document/growth/programme-control";
@@ -34,6 +35,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly growth: GrowControl;
   readonly outline: OutlineTrace;
   readonly widths: WidthList;
+  readonly design: DesignSignal;
   readonly bends: SharedBends;
   readonly unsaved: UnsavedTrees;
   readonly layout: Pick<Layout, "sheet">;
@@ -76,6 +78,7 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
     widths: ({ widths }) => {
       page.widths.all.value = widths;
     },
+    design: ({ design }) => page.design.receive(design),
     deed: ({ deed }) => page.undo.done(deed),
     hint: ({ hint }) => page.drawnInVain.show(hint),
     people: (people) => {
@@ -165,6 +168,7 @@ function forget(page: SessionTargets): void {
   page.bends.clear();
   page.together.forget();
   page.widths.all.value = [];
+  page.design.receive(null);
   page.obstacles.forget();
   page.time.clear();
   page.unsaved.clear();

@@ -7,6 +7,7 @@ import { rowStore } from "./connection/row-store";
 import { ServerTime } from "./connection/server-time";
 import { SessionLink } from "./connection/session-link";
 import { LookDraft } from "./document/appearance/look-draft";
+import { DesignSignal } from "./document/design/design-signal";
 import { Draft, type GrowthAhead } from "./document/draft";
 import { GrowControl } from "./document/growth/grow-control";
 import { growthAhead } from "./document/growth/growth-ahead";
@@ -111,6 +112,7 @@ export class Studio {
   readonly outline = new OutlineTrace();
   readonly drawnInVain = new DrawnInVain(browserClock);
   readonly widths = new WidthList();
+  readonly design = new DesignSignal();
   readonly bends = new SharedBends();
   /** Who else has the tree open. */
   readonly together = new Together();

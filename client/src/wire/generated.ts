@@ -1468,7 +1468,23 @@ rotation: [number, number, number, number],
 /**
  * Whether the branch stays where it was as well.
  */
-keep: boolean, } | { "kind": "go_to", 
+keep: boolean, } | { "kind": "new_design", 
+/**
+ * Where it stands; without one it takes the place of the design in force.
+ */
+position?: [number, number, number], 
+/**
+ * The template that it begins with.
+ */
+template?: string, 
+/**
+ * The graph that it begins with, as in files of designs; a plain one without any.
+ */
+graph?: unknown, } | { "kind": "edit_design", 
+/**
+ * 1 to 64 edits, done one after another.
+ */
+edits: Array<DesignEdit>, } | { "kind": "release_design", } | { "kind": "go_to", 
 /**
  * 0 to the line's last step.
  */
@@ -1541,7 +1557,7 @@ appearance: Appearance, };
 
 export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "stale" | "unavailable";
 
-export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-of-yours" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
+export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-of-yours" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "design-sealed" | "design-refused" | "being-drawn" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "design-gone" | "design-branch-gone" | "no-template" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
 
 export type Problem = { 
 /**
@@ -1569,7 +1585,150 @@ cause?: string,
  */
 message: string, };
 
-export type OperationKind = "stroke" | "growth" | "lasso" | "parameters" | "appearance" | "seed" | "obstacle" | "bend" | "width" | "prune" | "turn" | "graft" | "taken_back" | "brought_back";
+export type DesignSetting = { 
+/**
+ * A value of its own.
+ */
+own?: unknown, 
+/**
+ * What is added to the inherited value.
+ */
+add?: unknown, 
+/**
+ * What the inherited value is multiplied by.
+ */
+multiply?: unknown, 
+/**
+ * The number of a value that it shares.
+ */
+shared?: number, 
+/**
+ * It is inherited: `true`.
+ */
+inherited?: boolean, 
+/**
+ * Nobody inherits it: `true`.
+ */
+private?: boolean, 
+/**
+ * It is inherited from the next branch beneath on the same axis: `true`.
+ */
+below?: boolean, };
+
+export type DesignEdit = { "edit": "set", 
+/**
+ * A branch (`/3`), or all of an order (`level 1`).
+ */
+of: string, 
+/**
+ * The parameter.
+ */
+key: string, 
+/**
+ * What is said.
+ */
+value: DesignSetting, } | { "edit": "clear", 
+/**
+ * A branch, or all of an order.
+ */
+of: string, 
+/**
+ * The parameter.
+ */
+key: string, } | { "edit": "name", 
+/**
+ * The branch.
+ */
+node: string, 
+/**
+ * 1 to 64 characters; `null` for none.
+ */
+name: string | null, } | { "edit": "share", 
+/**
+ * A number that no shared value has.
+ */
+share: number, 
+/**
+ * The parameter.
+ */
+key: string, 
+/**
+ * The value.
+ */
+value: unknown, 
+/**
+ * Who shares it.
+ */
+members: Array<string>, } | { "edit": "set_shared", 
+/**
+ * Its number.
+ */
+share: number, 
+/**
+ * The value.
+ */
+value: unknown, } | { "edit": "anchor", 
+/**
+ * The lateral.
+ */
+node: string, 
+/**
+ * The share of the axis below it, 0 to 1; `null` lets it go.
+ */
+at: number | null, } | { "edit": "wake", 
+/**
+ * The branch.
+ */
+node: string, } | { "edit": "forget", 
+/**
+ * The branch.
+ */
+node: string, } | { "edit": "copy", 
+/**
+ * Which one.
+ */
+from: string, 
+/**
+ * To which one.
+ */
+to: string, } | { "edit": "seed", 
+/**
+ * The key.
+ */
+seed: number, };
+
+export type DesignInForce = { 
+/**
+ * Where its wood stands.
+ */
+at: [number, number, number], 
+/**
+ * All that was said, as in files of designs.
+ */
+graph: unknown, 
+/**
+ * Values that were said.
+ */
+values: number, 
+/**
+ * Branches that stand.
+ */
+branches: number, 
+/**
+ * The numbers of the laterals that stand on the plant's own axis and on its limbs, from base to tip, by the way to
+ * their bearer.
+ */
+laterals: { [key in string]: Array<number> }, 
+/**
+ * Branches that sleep.
+ */
+asleep: Array<string>, 
+/**
+ * Steps that stand on its wood; while there are any, the design cannot be changed.
+ */
+steps_on_top: number, };
+
+export type OperationKind = "stroke" | "growth" | "lasso" | "parameters" | "appearance" | "seed" | "obstacle" | "bend" | "width" | "prune" | "turn" | "graft" | "taken_back" | "brought_back" | "design";
 
 export type TimelineOperation = { 
 /**
@@ -2048,7 +2207,11 @@ obstacles: Array<PlacedObstacle>, } | { "type": "timeline" } & Timeline | { "typ
 /**
  * In order of their rows.
  */
-widths: Array<WidthConstraint>, } | { "type": "notice", 
+widths: Array<WidthConstraint>, } | { "type": "design", 
+/**
+ * The design; none where there is none any more.
+ */
+design: DesignInForce | null, } | { "type": "notice", 
 /**
  * What happened.
  */

@@ -37,7 +37,10 @@ impl Default for Design {
 
 impl Design {
     /// The design of a graph; slots that do not fit the laterals that there are now are laid out anew.
-    pub(crate) fn of(mut graph: Graph) -> Result<Self, Refusal> {
+    ///
+    /// # Errors
+    /// Where the plant would have too many branches.
+    pub fn of(mut graph: Graph) -> Result<Self, Refusal> {
         let root =
             resolve(&mut graph, &mut Patch::default()).map_err(|Overgrown| Refusal::TooManyBranches)?;
         Ok(Self { graph, root })

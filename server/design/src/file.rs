@@ -1,5 +1,6 @@
 //! Designs as JSON.
 
+mod edits;
 mod json;
 mod reading;
 mod values;

@@ -20,6 +20,7 @@ mod graph;
 pub mod hands;
 mod key;
 mod limb;
+mod merging;
 mod node;
 mod patch;
 mod places;

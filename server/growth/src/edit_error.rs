@@ -13,6 +13,9 @@ pub enum EditError {
     /// The scene may not hold so many metamers.
     #[error("the scene would hold more metamers than its budget")]
     OutOfBudget,
+    /// Nodes and axes of wood do not fit together.
+    #[error("the nodes and axes of this wood do not fit together")]
+    Broken,
     /// Columns do not fit the plants.
     #[error(transparent)]
     Columns(#[from] BadColumns),

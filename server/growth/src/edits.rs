@@ -127,7 +127,7 @@ impl<G: Generator> Simulation<G> {
         self.scene.plant.take_future(future)
     }
 
-    fn edit<T>(&mut self, edit: impl FnOnce(&mut Recording<'_>) -> T) -> T {
+    pub(crate) fn edit<T>(&mut self, edit: impl FnOnce(&mut Recording<'_>) -> T) -> T {
         let before = self.plant().step();
         let done = self.scene.record_edit(edit);
         self.follow_edit(before);

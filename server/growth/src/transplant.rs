@@ -1,12 +1,20 @@
 //! Wood from elsewhere becomes a plant that growth goes on with: rows, axes, given radii, and the buds that growth
 //! would have laid down.
 
-use espalier_plant::{BrokenPlant, Edit, Given, GivenRadii, MetamerId, Plant, PlantParts, Wood};
+use espalier_plant::{
+    AxisId, BrokenPlant, Edit, Given, GivenRadii, Internode, MetamerId, Plant, PlantParts, Wood,
+};
 use glam::Vec3;
 
 use crate::{
     direction::{across, transport, turn},
+    edit_error::EditError,
+    generator::Generator,
+    growth::Growth,
     parameters::Parameters,
+    scene::Recording,
+    simulation::Simulation,
+    world::is_in_world,
 };
 
 /// No row.
@@ -20,6 +28,11 @@ const LEAST_SINE: f32 = 0.05;
 /// # Errors
 /// Where nodes and axes do not fit together, or an internode has no length.
 pub fn transplant(wood: &Wood, parameters: &Parameters) -> Result<Plant, BrokenPlant> {
+    Plant::from_parts(rooted(wood, parameters)?)
+}
+
+/// The parts of a plant of this wood.
+fn rooted(wood: &Wood, parameters: &Parameters) -> Result<PlantParts, BrokenPlant> {
     check(wood)?;
     let borne = Borne::of(wood);
     let mut rooting =
@@ -30,7 +43,69 @@ pub fn transplant(wood: &Wood, parameters: &Parameters) -> Result<Plant, BrokenP
     }
     rooting.bury_buds();
     rooting.record_time();
-    Plant::from_parts(rooting.parts)
+    Ok(rooting.parts)
+}
+
+impl<G: Generator + AsRef<Growth>> Simulation<G> {
+    /// Plants wood beside the plants that there are, moved by so much, in a step of its own, in which nothing grows
+    /// older. Its rows stand in the order of its nodes.
+    ///
+    /// # Errors
+    /// Where it would stand outside the world or be more than the scene may hold, or does not fit together; then
+    /// nothing changes.
+    pub fn plant_wood(&mut self, wood: &Wood, by: Vec3) -> Result<(), EditError> {
+        let count = self.plant().metamer_count() + wood.nodes.len();
+        if count > self.scene().metamer_budget() as usize {
+            return Err(EditError::OutOfBudget);
+        }
+        if !wood.nodes.iter().all(|node| is_in_world(node.end + by)) {
+            return Err(EditError::OutOfWorld);
+        }
+        let mut parts =
+            rooted(wood, self.generator().as_ref().parameters()).map_err(|_| EditError::Broken)?;
+        parts.end.iter_mut().for_each(|end| *end += by);
+        let before = self.plant().step();
+        let planted = self.edit(|step| set(step, &parts));
+        if planted.is_err() {
+            self.go_to(before);
+            self.stash_future();
+        }
+        planted
+    }
+}
+
+/// Lets what parts say grow in the step that is recorded.
+fn set(step: &mut Recording<'_>, parts: &PlantParts) -> Result<(), EditError> {
+    let first = step.scene().plant().metamer_count();
+    let mut axes = vec![None; parts.bearer.len()];
+    // Axes stand in the order of their bearers.
+    let mut borne = 0;
+    for (row, &end) in parts.end.iter().enumerate() {
+        while parts.bearer.get(borne).is_some_and(|&bearer| bearer == NONE) {
+            borne += 1;
+        }
+        let from = borne;
+        while parts.bearer.get(borne) == Some(&(row as u32)) {
+            borne += 1;
+        }
+        let axis = parts.axis[row] as usize;
+        if parts.parent[row] == NONE {
+            axes[axis] = Some(step.sow(end));
+            continue;
+        }
+        let Some(axis) = axes[axis] else { continue };
+        let internode = Internode { end, normal: parts.normal[row], laterals: &parts.direction[from..borne] };
+        let Some(id) = step.extend(axis, &internode) else { continue };
+        let laterals: Vec<AxisId> = step.scene().plant().laterals(id).collect();
+        for (at, axis) in (from..borne).zip(laterals) {
+            axes[at] = Some(axis);
+        }
+    }
+    let given = parts.given_radii.iter();
+    let radii: Vec<_> =
+        given.map(|&(row, radius)| (MetamerId::new(first + row as usize), Some(radius))).collect();
+    step.give_radii(&radii)?;
+    Ok(())
 }
 
 /// Checks what else would lead out of bounds; the rest is checked with the parts.

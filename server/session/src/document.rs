@@ -4,6 +4,7 @@ mod bending;
 mod branches;
 mod bytes;
 mod deeds;
+mod designing;
 mod folding;
 mod futures;
 mod generators;
@@ -34,6 +35,7 @@ pub(crate) use self::bytes::{Container, Reader, SESSION, Writer};
 use self::{
     bending::OpenBends,
     bytes::Section,
+    designing::Designs,
     futures::Futures,
     growing::Pending,
     hints::Hints,
@@ -47,6 +49,7 @@ pub use self::{
 };
 pub(crate) use self::{
     deeds::Switched,
+    designing::{DesignMark, Designed},
     generators::{GeneratorState, Generators, Step},
     hints::DrawnInVain,
     obstacles::ObstaclesMark,
@@ -66,6 +69,7 @@ pub struct Document {
     bends: OpenBends,
     obstacles: Obstacles,
     appearance: Arc<Appearance>,
+    designs: Designs,
     pending: VecDeque<Pending>,
     hints: Hints,
     /// What came of the last deed that was taken back or brought back, until it is told.
@@ -121,6 +125,7 @@ impl Document {
             schedule: Arc::clone(&schedule),
             obstacles: Arc::clone(&obstacles.standing),
             appearance: Arc::clone(&appearance),
+            design: None,
         };
         Self {
             simulation: Simulation::new(seed, parameters)
@@ -131,6 +136,7 @@ impl Document {
             bends: OpenBends::default(),
             obstacles,
             appearance,
+            designs: Designs::default(),
             pending: VecDeque::new(),
             hints: Hints::default(),
             switched: None,
@@ -198,6 +204,11 @@ impl Document {
             Action::PruneDim { exposure } => self.prune_dim(cause, *exposure),
             Action::TurnBranch { row, rotation } => self.turn_branch(cause, *row, *rotation),
             Action::Graft { row, onto, rotation, keep } => self.graft(cause, *row, *onto, *rotation, *keep),
+            Action::NewDesign { position, template, graph } => {
+                self.begin_design(cause, *position, template.as_ref(), graph.as_ref())
+            }
+            Action::EditDesign { edits } => self.edit_design(cause, edits),
+            Action::ReleaseDesign {} => self.release_design(cause),
             Action::GoTo { step } => self.go_to(*step),
             Action::TakeFuture { future } => self.take_future(*future),
         }
@@ -274,7 +285,7 @@ impl Document {
     pub fn hash(&self) -> u64 {
         let mut hash = StableHash::default();
         hash.word(self.simulation.plant().hash());
-        hash.word(u64::from(self.simulation.plant().last_step()));
+        hash.word(u64::from(self.last_step()));
         for marker in self.simulation.markers() {
             hash.vector(marker.position);
             hash.word(u64::from(marker.born));
@@ -291,6 +302,9 @@ impl Document {
         self.strokes.hash(&mut hash);
         self.bends.hash(&mut hash);
         self.obstacles.hash(&mut hash);
+        if let Some(design) = self.design_in_force() {
+            design.hash(&mut hash);
+        }
         hash.word(u64::from(self.steps_begun));
         hash.finish()
     }
@@ -334,6 +348,9 @@ fn keeps_set(action: &Action) -> bool {
             | Action::MoveObstacle { .. }
             | Action::ReshapeObstacle { .. }
             | Action::RemoveObstacle { .. }
+            | Action::NewDesign { .. }
+            | Action::EditDesign { .. }
+            | Action::ReleaseDesign {}
             | Action::TakeBack {}
             | Action::BringBack {}
     )

@@ -17,8 +17,8 @@ use std::{
 };
 
 use espalier_proto::{
-    ClientMessage, FrameKind, Notice, PlacedObstacle, Problem, Programme, Reason, ServerMessage, Timeline,
-    Unreadable, WidthConstraint, reading,
+    ClientMessage, DesignInForce, FrameKind, Notice, PlacedObstacle, Problem, Programme, Reason,
+    ServerMessage, Timeline, Unreadable, WidthConstraint, reading,
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
 use espalier_settings::{Appearance, ParameterValues};
@@ -26,7 +26,7 @@ use espalier_settings::{Appearance, ParameterValues};
 use crate::{
     author::Authors,
     clients::{Client, Clients},
-    document::{Document, Figures, ObstaclesMark},
+    document::{DesignMark, Document, Figures, ObstaclesMark},
     io::{ClientId, Input, Output, ReadId},
     journal::Journal,
     obstacle::Mesh,
@@ -72,6 +72,8 @@ pub struct Session {
     /// As clients have it.
     told_timeline: Timeline,
     widths: Vec<WidthConstraint>,
+    design: Option<DesignInForce>,
+    design_mark: DesignMark,
     /// Bends as they are sent to clients, by their numbers.
     bends: BTreeMap<u32, BendUpdate>,
     /// Predictions that are being made.
@@ -193,6 +195,8 @@ impl Session {
             told_timeline: timeline.clone(),
             timeline,
             widths: work.document.widths(),
+            design: work.document.design_told(),
+            design_mark: work.document.design_mark(),
             bends: bends.into_iter().map(|update| (update.bend, update)).collect(),
             predictions: 0,
             home: Some(work),

@@ -129,6 +129,15 @@ export const REFUSALS = {
     "The trunk cannot be cut off: nothing branches off below.",
     "Der Stamm lässt sich nicht abschneiden: Darunter zweigt nichts ab.",
   ],
+  "problems.design-sealed": [
+    "Something has grown on the designed tree, so its design rests. Undo what grew; or let the design go, and it is wood like any other; or begin another design.",
+    "Auf dem entworfenen Baum ist etwas gewachsen, darum ruht der Entwurf. Nimm zurück, was gewachsen ist; oder lass den Entwurf los, dann ist alles gewöhnliches Holz; oder beginne einen anderen Entwurf.",
+  ],
+  "problems.design-refused": ["The design does not take this.", "Der Entwurf lässt das nicht zu."],
+  "problems.being-drawn": [
+    "Someone is drawing; wait until the brush is lifted.",
+    "Jemand zeichnet gerade; warte, bis der Pinsel abgehoben ist.",
+  ],
   "problems.being-bent": [
     "Someone is bending that branch; wait until it is let go.",
     "Jemand biegt diesen Ast gerade; warte, bis er losgelassen wird.",
@@ -221,6 +230,12 @@ export const REFUSALS = {
     "No obstacle stands there; perhaps someone has just taken it away.",
     "Dort steht kein Hindernis; vielleicht hat es gerade jemand entfernt.",
   ],
+  "problems.design-gone": ["There is no design here any more.", "Hier gibt es keinen Entwurf mehr."],
+  "problems.design-branch-gone": [
+    "The design has no place for this branch now.",
+    "Der Entwurf hat für diesen Ast gerade keinen Platz.",
+  ],
+  "problems.no-template": ["There is no such template.", "Diese Vorlage gibt es nicht."],
   "problems.no-tree": ["This tree is no longer in the library.", "Dieser Baum ist nicht mehr in der Bibliothek."],
   "problems.no-collection": [
     "This collection is no longer in the library.",

@@ -111,6 +111,11 @@ impl<'a> Object<'a> {
         self.fields.get(name).map(|value| Json { value, path: joined(&self.path, name) })
     }
 
+    /// A field that may be missing, or null.
+    pub(super) fn given(&self, name: &str) -> Option<Json<'a>> {
+        self.field(name).filter(|json| !json.value.is_null())
+    }
+
     /// A field that must be there.
     pub(super) fn needed(&self, name: &str, allowed: &str) -> Result<Json<'a>, Refusal> {
         let missing = || Refusal::missing(&joined(&self.path, name), Some(allowed.to_owned()));

@@ -125,11 +125,11 @@ fn shares(json: &Json<'_>) -> Result<BTreeMap<ShareId, Share>, Refused> {
     Ok(shares)
 }
 
-fn names() -> String {
+pub(super) fn names() -> String {
     ROWS.map(|row| row.name).join(", ")
 }
 
-fn key(json: &Json<'_>) -> Result<Key, Refused> {
+pub(super) fn key(json: &Json<'_>) -> Result<Key, Refused> {
     let name = json.text()?;
     Key::named(name).ok_or_else(|| json.refused(Kind::Malformed, format!("is `{name}`"), names()))
 }
@@ -175,6 +175,21 @@ fn setting(
     key: Key,
     shares: &BTreeMap<ShareId, Share>,
 ) -> Result<Setting, Refused> {
+    let (setting, at) = setting_of(json, key)?;
+    if let Source::Shared(id) = setting.source {
+        let order = if let Owner::Node(node) = owner { node.order() } else { 0 };
+        let fits = shares.get(&id).is_some_and(|share| share.key == key && share.level.order() == order);
+        if !fits {
+            let allowed = format!("a number of `shares` with key {key} and level {order}");
+            return Err(at.refused(Kind::Malformed, format!("is {}", id.0), allowed));
+        }
+    }
+    check_setting(owner, key, &setting).map_err(|refusal| refused(&at, &refusal))?;
+    Ok(setting)
+}
+
+/// What is said of a parameter, and where its value stands; whether it is allowed there is not looked at.
+pub(super) fn setting_of<'a>(json: &Json<'a>, key: Key) -> Result<(Setting, Json<'a>), Refused> {
     const SOURCES: [&str; 5] = ["own", "shared", "add", "multiply", "inherited"];
     let object = json.object(&["own", "shared", "add", "multiply", "inherited", "private", "below"])?;
     let mut sources = SOURCES.into_iter().filter_map(|name| Some((name, object.field(name)?)));
@@ -188,16 +203,7 @@ fn setting(
         "own" => Source::Explicit(read(&at, kind)?),
         "add" => Source::Relative(Op::Add, read(&at, kind)?),
         "multiply" => Source::Relative(Op::Multiply, read(&at, kind)?),
-        "shared" => {
-            let id = ShareId(at.whole(u32::MAX)?);
-            let order = if let Owner::Node(node) = owner { node.order() } else { 0 };
-            let fits = shares.get(&id).is_some_and(|share| share.key == key && share.level.order() == order);
-            if !fits {
-                let allowed = format!("a number of `shares` with key {key} and level {order}");
-                return Err(at.refused(Kind::Malformed, format!("is {}", id.0), allowed));
-            }
-            Source::Shared(id)
-        }
+        "shared" => Source::Shared(ShareId(at.whole(u32::MAX)?)),
         _ => {
             at.mark()?;
             Source::Inherited
@@ -212,8 +218,7 @@ fn setting(
         json.mark()?;
         setting.from = From::Below;
     }
-    check_setting(owner, key, &setting).map_err(|refusal| refused(&at, &refusal))?;
-    Ok(setting)
+    Ok((setting, at))
 }
 
 fn laterals(json: &Json<'_>) -> Result<BTreeMap<NodeId, Vec<Slot>>, Refused> {
@@ -261,7 +266,7 @@ fn laterals(json: &Json<'_>) -> Result<BTreeMap<NodeId, Vec<Slot>>, Refused> {
     Ok(all)
 }
 
-fn within(json: &Json<'_>, least: f32, most: f32) -> Result<f32, Refused> {
+pub(super) fn within(json: &Json<'_>, least: f32, most: f32) -> Result<f32, Refused> {
     let number = json.number()?;
     if (least..=most).contains(&number) {
         Ok(number)

@@ -1,6 +1,7 @@
 //! Designs from outside: what edits do to values, and what wood follows.
 #![allow(clippy::disallowed_methods, reason = "expected figures are compared within a tolerance")]
 
+mod documented;
 mod edits;
 mod files;
 mod generation;

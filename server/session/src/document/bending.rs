@@ -165,6 +165,10 @@ impl Document {
         }
         bend.solver.relax();
         let motions = bend.solver.motions();
+        let rows: Vec<u32> = bend.path.iter().map(|id| id.raw()).collect();
+        if let Some(designed) = self.designed(&rows) {
+            return self.bend_designed(Cause { gesture: bend.gesture, ..cause }, &designed, &motions);
+        }
         let places = self.plant().above(bend.path[1]).len();
         self.require_places(places)?;
         let now = self.plant().step();

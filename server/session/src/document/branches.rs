@@ -22,6 +22,9 @@ impl Document {
         let branch = self.wood("row", row)?;
         let base = self.base_of(branch, Reason::TrunkTurned, "turned")?;
         self.require_no_bend_of(branch)?;
+        if let Some(designed) = self.designed(&[row]) {
+            return self.turn_designed(cause, designed[0], rotation);
+        }
         let places = self.plant().above(branch).len();
         self.require_places(places)?;
         let now = self.plant().step();
@@ -142,7 +145,7 @@ pub(super) fn said(field: &str) -> impl Fn(EditError) -> Problem {
         let (reason, allowed) = match error {
             EditError::OutOfWorld => (Reason::OutsideWorld, "places inside the world"),
             EditError::OutOfBudget => (Reason::TreeFull, "wood that the budget of the document holds"),
-            EditError::Columns(_) => (Reason::Failed, "wood that fits the plants"),
+            EditError::Columns(_) | EditError::Broken => (Reason::Failed, "wood that fits the plants"),
         };
         Problem::new(reason, error.to_string()).at(field, allowed)
     }

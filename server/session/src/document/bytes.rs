@@ -2,6 +2,7 @@
 //! own. `docs/document.md` has the layout, and says how a section or a version is added.
 
 mod container;
+mod designs;
 mod fields;
 mod format_4;
 mod gestures;
@@ -32,6 +33,7 @@ use self::{
 };
 use super::{
     Document, Generators,
+    designing::Designs,
     futures::{Futures, all_states},
     hints::Hints,
     obstacles::Obstacles,
@@ -83,6 +85,11 @@ impl Document {
 
     fn to_container(&self, futures: &Futures) -> Container {
         debug_assert!(self.pending.is_empty(), "a document is written between two actions");
+        if !self.is_line_complete() {
+            let mut complete = self.clone();
+            complete.complete_line();
+            return complete.to_container(futures);
+        }
         let mut sections = Vec::new();
         let mut add = |kind: &Kind, write: &dyn Fn(&mut Writer)| {
             let mut out = Writer::default();
@@ -120,6 +127,9 @@ impl Document {
         add(&sections::LOOKS, &|out| pool.write_looks(out, &self.appearance));
         add(&sections::OBSTACLES, &|out| pool.write_obstacles(out, &self.obstacles));
         add(&sections::HISTORY, &|out| times::write_history(out, &self.history, &pool));
+        if designs::are_there(&self.history, futures) {
+            add(&sections::DESIGNS, &|out| designs::write(out, &self.history, futures));
+        }
         if *futures != Futures::default() {
             add(&sections::FUTURES, &|out| times::write_futures(out, futures, &pool));
         }
@@ -172,6 +182,7 @@ impl Document {
             None => Arc::new(GrowthSchedule::plain(state.parameters.clone())),
         };
         programmes.tell_states(&mut history, &mut futures)?;
+        designs::read(container, &mut history, &mut futures)?;
         #[cfg(test)]
         super::tests::forks::read(container, &mut history, &mut futures)?;
         times::check_futures(&futures, &history, &plant)?;
@@ -179,7 +190,7 @@ impl Document {
         gestures::check(&strokes, &bends, &plant)?;
         let generators = history.state_at(plant.step());
         let simulation = Simulation::from_state(plant, state);
-        Ok(Self {
+        let mut document = Self {
             simulation: simulation.grown_by(|growth| Generators::new(growth, schedule, generators)),
             history,
             futures,
@@ -187,13 +198,16 @@ impl Document {
             bends,
             obstacles,
             appearance: pool.look(look)?,
+            designs: Designs::default(),
             pending: VecDeque::new(),
             hints: Hints::default(),
             switched: None,
             steps_begun,
             stop_at: None,
             unknown: container.unknown(),
-        })
+        };
+        document.keep_to_design();
+        Ok(document)
     }
 }
 

@@ -38,7 +38,8 @@ impl Operation {
 
     /// Whether a hand drew the wood that was born in it, rather than that it grew by itself.
     pub(super) fn is_drawn(&self) -> bool {
-        self.is_chosen || matches!(self.kind, Kind::Stroke | Kind::Lasso | Kind::Seed | Kind::Graft)
+        self.is_chosen
+            || matches!(self.kind, Kind::Stroke | Kind::Lasso | Kind::Seed | Kind::Graft | Kind::Design)
     }
 }
 
@@ -174,6 +175,7 @@ impl Document {
         self.history.concern(deed);
         let claims = self.history.claims(self.plant().step());
         let settled = self.history.folded(&self.setting()).and_then(|setting| {
+            self.require_design_open_for(&setting)?;
             let settled = self.simulation.settle(&claims).map_err(said("kind"))?;
             Ok((setting, settled))
         });

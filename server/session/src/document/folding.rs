@@ -9,6 +9,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::{
+    designing::fold_design,
     history::{History, Setting},
     obstacles::Standings,
 };
@@ -27,6 +28,7 @@ impl History {
                     schedule: fold_schedule(folded.schedule, &before.schedule, &after.schedule)?,
                     obstacles: fold_obstacles(folded.obstacles, &before.obstacles, &after.obstacles),
                     appearance: fold_looks(folded.appearance, &before.appearance, &after.appearance),
+                    design: fold_design(folded.design, before.design.as_ref(), after.design.as_ref()),
                 };
             }
             before = after;
@@ -39,6 +41,9 @@ impl History {
         }
         if folded.appearance == present.appearance {
             folded.appearance = Arc::clone(&present.appearance);
+        }
+        if folded.design == present.design {
+            folded.design.clone_from(&present.design);
         }
         Ok(folded)
     }

@@ -170,6 +170,7 @@ impl Document {
     pub(super) fn unrecord(&mut self) {
         let Some(before) = self.history.before.take() else {
             self.history.pop();
+            self.keep_to_design();
             return;
         };
         let left_last = self.futures.all.last().map(|future| future.line);
@@ -182,6 +183,7 @@ impl Document {
         }
         self.history.done = before.done;
         self.history.latest = before.latest;
+        self.keep_to_design();
     }
 
     /// Takes back that the last operation was recorded if it has come to nothing.
@@ -194,6 +196,7 @@ impl Document {
     /// Puts what lies ahead aside, and what was left of the present operation with it; the line that is a future
     /// now, if anything lay ahead.
     fn leave_future(&mut self) -> Option<u32> {
+        self.complete_line();
         let now = self.plant().step();
         let history = &mut self.history;
         let in_part = history.is_in_part(now);
@@ -216,6 +219,8 @@ impl Document {
         self.futures.all.push(Future { line, on: None, fork, operations, states, rows });
         self.futures.newest += 1;
         self.futures.present = self.futures.newest;
+        self.forget_wood_ahead();
+        self.keep_to_design();
         Some(line)
     }
 
@@ -230,6 +235,8 @@ impl Document {
         self.history.operations.extend(operations);
         self.futures.take_over(line);
         self.futures.present = line;
+        self.forget_wood_ahead();
+        self.show_last_design_here();
         // It was cut off right here.
         let _fits = self.simulation.take_future(rows);
     }
@@ -243,7 +250,7 @@ impl Document {
         for line in way {
             self.cross_over(line)?;
         }
-        let end = self.plant().last_step();
+        let end = self.last_step();
         self.travel(end);
         self.history.done = self.history.operations.len();
         self.keep_to_line();
@@ -255,6 +262,7 @@ impl Document {
         let Some(at) = self.futures.position(line) else { return Ok(()) };
         let fork = self.futures.all[at].fork;
         self.travel(fork.step);
+        self.complete_line();
         let Future { operations, states, rows, .. } = self.futures.all.remove(at);
         let left = self.history.operations.split_off(fork.shared.min(self.history.operations.len()));
         let left_states = self.history.cut_states(fork, if left.is_empty() { &operations } else { &left });
@@ -273,6 +281,8 @@ impl Document {
             });
         }
         self.history.done = self.history.operations.len();
+        self.forget_wood_ahead();
+        self.show_last_design_of(&operations);
         if let Err(error) = self.simulation.take_future(rows) {
             if is_left {
                 self.return_to_future();

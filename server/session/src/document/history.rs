@@ -7,6 +7,7 @@ use espalier_settings::Appearance;
 use glam::Quat;
 
 use super::{
+    designing::Designed,
     futures::Fork,
     generators::GeneratorState,
     obstacles::{Standings, stand_alike},
@@ -48,10 +49,12 @@ pub(super) enum Kind {
     TakenBack = 12,
     /// A deed that was taken back is in force again (`UD3`).
     BroughtBack = 13,
+    /// A design begun, changed or let go.
+    Design = 14,
 }
 
 impl Kind {
-    const ALL: [Self; 14] = [
+    const ALL: [Self; 15] = [
         Self::Stroke,
         Self::Growth,
         Self::Parameters,
@@ -66,11 +69,13 @@ impl Kind {
         Self::Appearance,
         Self::TakenBack,
         Self::BroughtBack,
+        Self::Design,
     ];
 
     /// Whether such an operation holds a set of parameters, looks or obstacles that no other holds.
     fn has_set(self) -> bool {
-        matches!(self, Self::Parameters | Self::Appearance | Self::Obstacle) || self.is_switch()
+        matches!(self, Self::Parameters | Self::Appearance | Self::Obstacle | Self::Design)
+            || self.is_switch()
     }
 
     /// Whether such an operation says of another one whether it is in force.
@@ -89,6 +94,7 @@ pub(super) struct Setting {
     pub schedule: Arc<GrowthSchedule>,
     pub obstacles: Standings,
     pub appearance: Arc<Appearance>,
+    pub design: Option<Arc<Designed>>,
 }
 
 /// One operation.
@@ -312,11 +318,12 @@ impl History {
     /// Whether the last operation has left the setting as it was before.
     pub fn changes_nothing(&self) -> bool {
         let Some(last) = self.operations.last() else { return false };
-        let Setting { schedule, obstacles, appearance } = &last.after;
+        let Setting { schedule, obstacles, appearance, design } = &last.after;
         let former = self.former();
         Arc::ptr_eq(obstacles, &former.obstacles)
             && *schedule == former.schedule
             && *appearance == former.appearance
+            && *design == former.design
     }
 
     /// Obstacles that stand as they did before the operation in progress are the very same again.
@@ -328,7 +335,7 @@ impl History {
     }
 
     /// The setting before the last operation.
-    fn former(&self) -> &Setting {
+    pub fn former(&self) -> &Setting {
         let earlier = self.operations.split_last().and_then(|(_, earlier)| earlier.last());
         earlier.map_or(&self.initial, |operation| &operation.after)
     }

@@ -40,7 +40,7 @@ impl Document {
         Timeline {
             line: self.futures.present,
             step: self.plant().step(),
-            last_step: self.plant().last_step(),
+            last_step: self.last_step(),
             done: self.history.done as u32,
             operations,
             futures,
@@ -117,6 +117,7 @@ impl From<Kind> for OperationKind {
             Kind::Appearance => Self::Appearance,
             Kind::TakenBack => Self::TakenBack,
             Kind::BroughtBack => Self::BroughtBack,
+            Kind::Design => Self::Design,
         }
     }
 }

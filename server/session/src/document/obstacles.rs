@@ -161,6 +161,7 @@ impl Document {
             self.simulation.set_obstacles(Obstacles::solids(&setting.obstacles));
         }
         self.appearance = Arc::clone(&setting.appearance);
+        self.show_design(setting.design.as_ref());
     }
 
     pub(super) fn setting(&self) -> Setting {
@@ -168,6 +169,7 @@ impl Document {
             schedule: Arc::clone(self.schedule()),
             obstacles: Arc::clone(&self.obstacles.standing),
             appearance: Arc::clone(&self.appearance),
+            design: self.history.setting().design.clone(),
         }
     }
 

@@ -12,6 +12,10 @@ use crate::cause::Cause;
 impl Document {
     pub(super) fn prune(&mut self, cause: Cause<'_>, rows: &[u32]) -> Result<(), Problem> {
         let cuts = cuts(self.plant(), rows)?;
+        let lowest: Vec<u32> = cuts.iter().map(|cut| cut.raw()).collect();
+        if let Some(designed) = self.designed(&lowest).filter(|designed| !designed.is_empty()) {
+            return self.cut_designed(cause, &designed);
+        }
         self.cut(cause, &cuts);
         Ok(())
     }

@@ -3,6 +3,7 @@
 mod arranging;
 mod damage;
 mod deeds;
+mod designing;
 pub(super) mod forks;
 mod generating;
 mod histories;

@@ -42,7 +42,7 @@ impl Document {
 
     /// To a step of the line, with the parameters, looks and obstacles it had there (`TT2`).
     pub(super) fn go_to(&mut self, step: u32) -> Result<(), Problem> {
-        let last = self.plant().last_step();
+        let last = self.last_step();
         if step > last {
             return Err(Problem::out_of_range("step", step, format!("0 to {last}")));
         }
@@ -73,6 +73,9 @@ impl Document {
         self.bends.close_all();
         self.history.latest = None;
         self.history.before = None;
+        if step != self.plant().step() {
+            self.complete_line();
+        }
         self.simulation.go_to(step);
         self.keep_state();
     }

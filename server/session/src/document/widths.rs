@@ -21,6 +21,9 @@ impl Document {
     ) -> Result<(), Problem> {
         let diameter = diameter.map(Diameter::get);
         let metamer = self.wood("row", row)?;
+        if let Some(designed) = self.designed(&[row]) {
+            return self.widen_designed(cause, designed[0], diameter);
+        }
         if self.width(metamer) == diameter {
             return Ok(());
         }

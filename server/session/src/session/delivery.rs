@@ -48,14 +48,14 @@ impl Session {
             self.upkeep.snapshot_made(through, bytes);
         }
         self.queue.came_back(&work.orders);
-        self.take_figures(&work);
+        self.take_figures(&mut work);
         self.came_home(work.hold);
         self.home = Some(work);
         // Steps that were expected and not taken count as well: a refused command leaves no other trace.
         self.upkeep.state_changed |= self.state() != self.upkeep.sent;
     }
 
-    fn take_figures(&mut self, work: &Work) {
+    fn take_figures(&mut self, work: &mut Work) {
         (self.figures, self.leaves) = (work.document.figures(), work.table.leaves());
         let parameters = work.document.parameters();
         if parameters != self.parameters {
@@ -80,6 +80,12 @@ impl Session {
         self.upkeep.timeline_changed |= timeline != self.timeline;
         self.upkeep.widths_changed |= widths != self.widths;
         (self.timeline, self.widths) = (timeline, widths);
+        let mark = work.document.design_mark();
+        if mark != self.design_mark {
+            self.design_mark = mark;
+            self.design = work.document.design_told();
+            self.upkeep.design_changed = true;
+        }
     }
 
     /// Sends the delta to all in step; a client whose window is closed falls out of step instead (`FL2`).
@@ -150,6 +156,11 @@ impl Session {
     /// All obstacles as they are sent to clients (`OB3`).
     pub(super) fn obstacles_message(&self) -> ServerMessage {
         ServerMessage::Obstacles { obstacles: self.scenery.obstacles.clone() }
+    }
+
+    /// The design in force as it is sent to clients (`DS4`).
+    pub(super) fn design_message(&self) -> ServerMessage {
+        ServerMessage::Design { design: self.design.clone().map(Box::new) }
     }
 
     /// The document's figures as they are sent to clients.

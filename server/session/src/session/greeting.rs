@@ -111,6 +111,9 @@ impl Session {
         if !self.widths.is_empty() {
             self.send(client, &ServerMessage::Widths { widths: self.widths.clone() });
         }
+        if self.design.is_some() {
+            self.send(client, &self.design_message());
+        }
         // As all others have it: what has changed since comes to everybody.
         self.send(client, &ServerMessage::Timeline(Box::new(self.told_timeline.clone())));
         // Who resumes has been notified before, for the epoch is the same (`OP3`).

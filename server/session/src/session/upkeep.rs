@@ -47,6 +47,9 @@ pub(super) struct Upkeep {
     /// Whether width constraints do.
     pub(super) widths_changed: bool,
     widths_due: u64,
+    /// Whether the design does.
+    pub(super) design_changed: bool,
+    design_due: u64,
     pub(super) last_command_at: u64,
     /// The last entry in a snapshot that is kept.
     snapshotted: u64,
@@ -75,6 +78,8 @@ impl Upkeep {
             timeline_due: 0,
             widths_changed: false,
             widths_due: 0,
+            design_changed: false,
+            design_due: 0,
             last_command_at: 0,
             snapshotted,
             snapshot_asked: false,
@@ -209,6 +214,11 @@ impl Session {
             self.upkeep.widths_due = self.now + STATE_MS;
             self.broadcast(&ServerMessage::Widths { widths: self.widths.clone() });
         }
+        if self.upkeep.design_changed && self.now >= self.upkeep.design_due {
+            self.upkeep.design_changed = false;
+            self.upkeep.design_due = self.now + STATE_MS;
+            self.broadcast(&self.design_message());
+        }
         if self.upkeep.timeline_changed && self.now >= self.upkeep.timeline_due {
             self.upkeep.timeline_changed = false;
             let change = self.told_timeline.change_to(&self.timeline);
@@ -224,7 +234,7 @@ impl Session {
     /// Tells those of whose commands nothing is left to do, once they have been told what came of them (`CM11`).
     fn tell_who_is_done(&mut self) {
         let upkeep = &self.upkeep;
-        if upkeep.state_changed || upkeep.widths_changed || upkeep.timeline_changed {
+        if upkeep.state_changed || upkeep.widths_changed || upkeep.design_changed || upkeep.timeline_changed {
             return;
         }
         let done = self.done.min(self.journal.durable());
@@ -291,6 +301,7 @@ impl Session {
         let state = upkeep.state_changed.then_some(upkeep.state_due);
         let timeline = upkeep.timeline_changed.then_some(upkeep.timeline_due);
         let widths = upkeep.widths_changed.then_some(upkeep.widths_due);
+        let design = upkeep.design_changed.then_some(upkeep.design_due);
         // What waits in the journal cannot be kept yet.
         let applied = self.home.as_ref().map_or(0, |work| work.applied);
         let unkept = applied > upkeep.snapshotted && !upkeep.snapshot_asked;
@@ -299,8 +310,10 @@ impl Session {
         let absence = upkeep.absences.front().map(|(due, _)| *due);
         let memory = self.pausing.due.filter(|_| self.home.is_some());
         let room = self.room_due();
-        let earliest =
-            [state, timeline, widths, pause, hello, absence, memory, room].into_iter().flatten().min();
+        let earliest = [state, timeline, widths, design, pause, hello, absence, memory, room]
+            .into_iter()
+            .flatten()
+            .min();
         if earliest != upkeep.wake_at {
             self.upkeep.wake_at = earliest;
             self.outputs.extend(earliest.map(Output::WakeAt));

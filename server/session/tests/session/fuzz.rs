@@ -94,6 +94,13 @@ fn shaping() -> impl Strategy<Value = Value> {
         2 => (prop::collection::vec(row(), 1..3), gesture())
             .prop_map(|(rows, gesture)| json!({ "kind": "prune", "rows": rows, "gesture": gesture })),
         1 => (0.0f32..1.0).prop_map(|exposure| json!({ "kind": "prune_dim", "exposure": exposure })),
+        2 => (-8.0f32..8.0).prop_map(|x| json!({ "kind": "new_design", "position": [x, 0.0, 3.0], "graph": {
+            "version": 1,
+            "nodes": { "/": { "values": { "height": { "own": 9.0 }, "orders": { "own": 1.0 } } } },
+        } })),
+        3 => (0u32..9, -90.0f32..90.0).prop_map(|(limb, roll)| json!({ "kind": "edit_design", "edits": [
+            { "edit": "set", "of": format!("/{limb}"), "key": "roll", "value": { "own": roll } },
+        ] })),
         2 => (row(), rotation, gesture())
             .prop_map(|(row, rotation, gesture)| json!({ "kind": "turn_branch", "row": row, "rotation": rotation, "gesture": gesture })),
         2 => (row(), row(), again, any::<bool>())

@@ -7,6 +7,7 @@ mod commands;
 mod covering;
 mod cutting;
 mod deeds;
+mod designing;
 mod durability;
 mod filling;
 mod finishing;

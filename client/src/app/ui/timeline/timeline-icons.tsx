@@ -20,6 +20,14 @@ const LookIcon = () => (
   </Icon>
 );
 
+/** An outline with what it holds. */
+const DesignIcon = () => (
+  <Icon>
+    <path d="M12 3.5c4.5 3 6.5 6 6.5 9.2 0 2.6-2.6 4.3-6.5 4.3s-6.5-1.7-6.5-4.3c0-3.2 2-6.2 6.5-9.2Z" />
+    <path d="M12 20.5v-11M12 14l3-2.5M12 12.5l-2.5-2" />
+  </Icon>
+);
+
 interface Sort {
   readonly name: Key;
   readonly Icon: ComponentType;
@@ -39,6 +47,7 @@ const SORTS: Record<OperationKind, Sort> = {
   turn: { name: "operations.kind.turn", Icon: TurnIcon },
   graft: { name: "operations.kind.graft", Icon: GraftIcon },
   taken_back: { name: "operations.kind.taken_back", Icon: UndoIcon },
+  design: { name: "operations.kind.design", Icon: DesignIcon },
   brought_back: { name: "operations.kind.brought_back", Icon: RedoIcon },
 };
 

@@ -5,7 +5,7 @@ use espalier_proto::version::{MAX_BEND_TOUCHES, MAX_OBSTACLES};
 
 use crate::{
     author::MAX_AUTHORS,
-    document::{bending, futures, history::MAX_SETS, obstacles, strokes, widths},
+    document::{bending, designing, futures, history::MAX_SETS, obstacles, strokes, widths},
 };
 
 /// The largest metamer budget that a session can begin with (`LM4`).
@@ -67,6 +67,7 @@ pub(super) const LOOKS: u64 = PARAMETERS;
 pub(super) const OBSTACLES: u64 =
     FEW + obstacles::MAX_HELD_TRIANGLES as u64 * TRIANGLE + MAX_SETS as u64 * OBSTACLES_OF_SET;
 pub(super) const HISTORY: u64 = FEW + OPERATIONS * OPERATION;
+pub(super) const DESIGNS: u64 = FEW + 2 * designing::MAX_HELD_BYTES as u64 + OPERATIONS * 8;
 /// Beside rows as of the plant a future has lateral axes, branching orders, and what dies in it.
 pub(super) const FUTURES: u64 = HISTORY
     + TIME

@@ -87,6 +87,8 @@ pub(super) const LOOKS: Kind = first(*b"LOOK", "looks", lengths::LOOKS);
 pub(super) const OBSTACLES: Kind = first(*b"OBST", "obstacles", lengths::OBSTACLES);
 /// The operations of the present line.
 pub(super) const HISTORY: Kind = Kind { version: 2, ..first(*b"HIST", "history", lengths::HISTORY) };
+/// Designs, and which operation leaves which in force; none if it is not there.
+pub(super) const DESIGNS: Kind = first(*b"DSGN", "designs", lengths::DESIGNS);
 /// All other lines; none if it is not there.
 pub(super) const FUTURES: Kind = Kind { version: 2, ..first(*b"FUTU", "futures", lengths::FUTURES) };
 /// Strokes and bends in progress; none if it is not there.
@@ -112,6 +114,7 @@ pub(super) const RELEASED: &[&Kind] = &[
     &LOOKS,
     &OBSTACLES,
     &HISTORY,
+    &DESIGNS,
     &FUTURES,
     &GESTURES,
     &WRITER,

@@ -114,6 +114,8 @@ impl Pool {
             schedule: self.schedule(reader.u32()?)?,
             obstacles: self.standing(reader.u32()?)?,
             appearance: self.look(reader.u32()?)?,
+            // Designs stand in a section of their own.
+            design: None,
         })
     }
 

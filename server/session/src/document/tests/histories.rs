@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use super::{
     arranging::{place_in, pose, slab, sphere, swell},
-    programmes, *,
+    designing, programmes, *,
 };
 
 /// Something that happens. Rows are any numbers, from which a living metamer is found.
@@ -61,6 +61,12 @@ pub(super) enum Event {
     /// One of a few programmes, or none.
     Programme(u32, bool, Option<u32>),
     Follow(Option<u32>),
+    /// A small design at a place.
+    Design(f32),
+    /// Something is said of one of its branches.
+    Say(u32, f32, Option<u32>),
+    /// The design is let go.
+    Release,
 }
 
 pub(super) fn events() -> impl Strategy<Value = Vec<Event>> {
@@ -105,6 +111,9 @@ pub(super) fn events() -> impl Strategy<Value = Vec<Event>> {
         2 => (1u32..4, 0u32..2).prop_map(|(steps, gesture)| Event::GrowOn(steps, gesture)),
         4 => (0u32..4, any::<bool>(), gesture()).prop_map(|(which, keep, g)| Event::Programme(which, keep, g)),
         1 => gesture().prop_map(Event::Follow),
+        2 => (-9f32..9.0).prop_map(Event::Design),
+        8 => (0u32..6, 0f32..1.0, gesture()).prop_map(|(what, value, g)| Event::Say(what, value, g)),
+        1 => Just(Event::Release),
     ];
     prop::collection::vec(event, 1..40)
 }
@@ -218,7 +227,10 @@ pub(super) fn happen(document: &mut Document, number: usize, event: &Event) {
         Event::Follow(gesture) => {
             in_gesture(*gesture, Action::FollowProgramme { parameters: List::default() })
         }
-        Event::GoTo(step) => plain(Action::GoTo { step: step % (document.plant().last_step() + 2) }),
+        Event::Design(x) => designing::begin(*x),
+        Event::Say(what, value, gesture) => designing::say(*what, *value, *gesture),
+        Event::Release => plain(Action::ReleaseDesign {}),
+        Event::GoTo(step) => plain(Action::GoTo { step: step % (document.last_step() + 2) }),
         Event::Take(any) => {
             let futures = document.timeline().futures;
             let future = futures.get(*any as usize % futures.len().max(1)).map_or(*any, |it| it.future);
