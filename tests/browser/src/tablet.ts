@@ -30,7 +30,7 @@ export type Tool = keyof typeof TOOLS;
 /** The longest growth of a test ends sooner, in milliseconds, also on a machine that has much else to do. */
 const PATIENCE = 150_000;
 /** Panels that narrow glass may have no button for but in its menu. */
-const LAST_PANELS: ReadonlySet<string> = new Set(["Background", "Wind", "Scene"]);
+const LAST_PANELS: ReadonlySet<string> = new Set(["Background", "Wind", "Structure", "Scene"]);
 /** `ALBUM=1` takes pictures as well of which no test asks anything, for people to look at. */
 const ALBUM = process.env.ALBUM === "1";
 /** The page's picture. */

@@ -46,7 +46,16 @@ describe("help", () => {
     const lost = controls.filter(({ subject }) => subject === undefined).map(({ id }) => id);
     expect(lost).toEqual([]);
     const parts = new Set(controls.flatMap(({ subject }) => (subject && "panel" in subject ? [subject.panel] : [])));
-    expect([...parts].sort()).toEqual(["architecture", "background", "branches", "brush", "leaves", "scene", "wind"]);
+    expect([...parts].sort()).toEqual([
+      "architecture",
+      "background",
+      "branches",
+      "brush",
+      "leaves",
+      "scene",
+      "structure",
+      "wind",
+    ]);
   });
 
   it("everything is found by what people call it", () => {

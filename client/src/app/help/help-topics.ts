@@ -82,6 +82,7 @@ const PANELS = [
   ["branches", { panel: "branches" }],
   ["background", { panel: "background" }],
   ["wind", { panel: "wind" }],
+  ["structure", { panel: "structure" }],
   ["scene", { panel: "scene" }],
   ["import", { panel: "scene" }],
 ] as const;
@@ -284,6 +285,8 @@ function subjectOf(label: Key, tools: ToolHelp): Subject | undefined {
       return { panel: "background", control };
     case "wind":
       return { panel: "wind", control };
+    case "structure":
+      return { panel: "structure" };
     case "brush":
       return { panel: "brush", control };
     case "scene":

@@ -18,7 +18,16 @@ export const SHEET_NAMES = [
 export type SheetName = (typeof SHEET_NAMES)[number];
 
 /** The panels, as they stand in the tool bar. */
-export const PANEL_NAMES = ["architecture", "brush", "leaves", "branches", "background", "wind", "scene"] as const;
+export const PANEL_NAMES = [
+  "architecture",
+  "brush",
+  "leaves",
+  "branches",
+  "background",
+  "wind",
+  "structure",
+  "scene",
+] as const;
 export type PanelName = (typeof PANEL_NAMES)[number];
 
 /** What the library shows: its trees, those to begin new ones with, or those that can still be taken back. */

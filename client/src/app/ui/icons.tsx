@@ -17,6 +17,14 @@ export function Icon({ children }: { children: ComponentChildren }) {
   );
 }
 
+/** A tree within its outline. */
+export const StructureIcon = () => (
+  <Icon>
+    <path d="M12 3c5 3.2 7 6.3 7 9.5 0 2.7-2.8 4.5-7 4.5s-7-1.8-7-4.5C5 9.3 7 6.2 12 3Z" />
+    <path d="M12 21V9M12 14.5l3.2-2.7M12 12.5 9.3 10" />
+  </Icon>
+);
+
 export const WindIcon = () => (
   <Icon>
     <path d="M3 9h11a3 3 0 1 0-3-3M3 13h15a3 3 0 1 1-3 3M3 17h6" />

@@ -23,6 +23,7 @@ export const PANELS: Readonly<Record<PanelName, Part<StudioView>>> = {
   branches: new Part(async () => (await import("./panels/branches-panel")).BranchesPanel),
   background: new Part(async () => (await import("./panels/background-panel")).BackgroundPanel),
   wind: new Part(async () => (await import("./panels/wind-panel")).WindPanel),
+  structure: new Part(async () => (await import("./panels/structure-panel")).StructurePanel),
   scene: new Part(async () => (await import("./panels/scene-panel")).ScenePanel),
 };
 

@@ -311,6 +311,15 @@ export const HELP = {
     "sky ground studio backdrop environment wallpaper backdrop clouds",
     "Himmel Boden Studio Umgebung Hintergrundbild Wolken",
   ],
+  "help.topic.structure": ["Structure", "Aufbau"],
+  "help.topic.structure.text": [
+    "Design a tree from its outline inwards, as a bonsai",
+    "Einen Baum vom Umriss her entwerfen, wie einen Bonsai",
+  ],
+  "help.topic.structure.words": [
+    "bonsai design silhouette outline hull inherit chokkan",
+    "bonsai entwurf umriss silhouette erben chokkan form",
+  ],
   "help.topic.wind.words": [
     "sway gust storm breeze air move animation swing compass",
     "schwanken Böe Sturm Brise Luft bewegen Animation schwingen Windrose",

@@ -19,6 +19,7 @@ import { SCENE } from "./scene";
 import { SERVER } from "./server";
 import { SETTINGS } from "./settings";
 import { SHEETS } from "./sheets";
+import { STRUCTURE } from "./structure";
 import { SUN } from "./sun";
 import { TIMELINE } from "./timeline";
 import { TOGETHER } from "./together";
@@ -57,5 +58,6 @@ export const LATER = {
   ...TRANSFERS,
   ...VARIATIONS,
   ...TIMELINE,
+  ...STRUCTURE,
   ...WIND,
 } as const satisfies Record<string, readonly [string, string]>;

@@ -6,5 +6,6 @@ export const PANELS = {
   "panels.branches": ["Branches", "Äste"],
   "panels.background": ["Background", "Hintergrund"],
   "panels.wind": ["Wind", "Wind"],
+  "panels.structure": ["Structure", "Aufbau"],
   "panels.scene": ["Scene", "Szene"],
 } as const;

@@ -21,6 +21,7 @@ import {
   SceneIcon,
   SettingsIcon,
   ShareIcon,
+  StructureIcon,
   WindIcon,
 } from "../icons";
 import { useDismissal } from "../use-dismissal";
@@ -34,6 +35,7 @@ const PANEL_ICONS: Record<PanelName, ComponentType> = {
   branches: BarkIcon,
   background: BackgroundIcon,
   wind: WindIcon,
+  structure: StructureIcon,
   scene: SceneIcon,
 };
 

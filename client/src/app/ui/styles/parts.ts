@@ -19,4 +19,5 @@ import "./help.css";
 import "./recent.css";
 import "./vain.css";
 import "./together.css";
+import "./structure.css";
 import "./wind.css";

@@ -1,0 +1,234 @@
+import { computed, signal } from "@preact/signals";
+import type { Command, DesignEdit, DesignSetting } from "../../../wire/generated";
+import type { DESIGN_TEMPLATES } from "./design-keys";
+import { bearerOf, type DesignKey, DesignModel, type KeyName, ROOT, type Status } from "./design-model";
+import type { DesignSignal } from "./design-signal";
+
+export type TemplateName = (typeof DESIGN_TEMPLATES)[number];
+
+/** How often a value that moves is sent, in milliseconds. */
+const SEND_EVERY = 100;
+/** How high a tree that falls below its own base stands. */
+const STAND = 50;
+
+export interface DesignEditingOptions {
+  readonly design: DesignSignal;
+  /** Sends a command and gives its number; 0 where no session is open. */
+  readonly submit: (command: Command) => number;
+  /** A number that no other gesture of this client has, if it is sent at once. */
+  readonly newGesture: () => number;
+  readonly now: () => number;
+}
+
+/** What a person on this page does to the design in force. */
+export class DesignEditing {
+  readonly model = computed(() => {
+    const told = this.#options.design.inForce.value;
+    return told ? new DesignModel(told) : null;
+  });
+  /** The branch whose values are shown. */
+  readonly chosen = signal(ROOT);
+  /** The parameter whose way is shown. */
+  readonly key = signal<KeyName | null>(null);
+  /** Branches that show what they bear. */
+  readonly unfolded = signal<ReadonlySet<string>>(new Set([ROOT]));
+  /** The branch whose values are to be given to another. */
+  readonly copied = signal<string | null>(null);
+
+  #options: DesignEditingOptions;
+  #gesture: number | undefined;
+  #sentAt = Number.NEGATIVE_INFINITY;
+
+  constructor(options: DesignEditingOptions) {
+    this.#options = options;
+  }
+
+  /** Begins with a template, or with a plain tree; one that is open gives its place to it. */
+  begin(template: TemplateName | null): void {
+    const open = this.#options.design.inForce.peek()?.steps_on_top === 0;
+    const [command, stand] = [
+      { kind: "new_design", ...(template ? { template } : {}) } as const,
+      template === "kengai",
+    ];
+    if (open && !stand) {
+      this.#options.submit(command);
+    } else {
+      if (stand) {
+        this.#options.submit(STAND_OF_KENGAI);
+      }
+      this.#options.submit({ ...command, position: [0, stand ? STAND + 0.5 : 0, 0] });
+    }
+    this.chosen.value = ROOT;
+  }
+
+  /** Begins with a graph from a file. */
+  open(graph: unknown): void {
+    const open = this.#options.design.inForce.peek()?.steps_on_top === 0;
+    this.#options.submit({ kind: "new_design", graph, ...(open ? {} : { position: [0, 0, 0] }) });
+    this.chosen.value = ROOT;
+  }
+
+  release(): void {
+    this.#options.submit({ kind: "release_design" });
+  }
+
+  choose(path: string): void {
+    this.chosen.value = path;
+  }
+
+  fold(path: string, open: boolean): void {
+    const unfolded = new Set(this.unfolded.peek());
+    if (open) {
+      unfolded.add(path);
+    } else {
+      unfolded.delete(path);
+    }
+    this.unfolded.value = unfolded;
+  }
+
+  /** A value while it moves: all of one movement is one deed. */
+  drag(key: DesignKey, value: unknown): void {
+    if (this.#options.now() - this.#sentAt < SEND_EVERY) {
+      return;
+    }
+    this.#gesture ??= this.#options.newGesture();
+    this.#sentAt = this.#options.now();
+    this.#edit([this.#set(key, value)], this.#gesture);
+  }
+
+  /** A value that was let go, typed or picked. */
+  commit(key: DesignKey, value: unknown): void {
+    this.#edit([this.#set(key, value)], this.#gesture);
+    this.#gesture = undefined;
+  }
+
+  /** Says a value in another way; what the branch has by it stays as near as can be. */
+  say(key: DesignKey, status: Status): void {
+    const [path, model] = [this.chosen.peek(), this.model.peek()];
+    if (!model) {
+      return;
+    }
+    const { value, isPrivate } = model.resolve(path, key);
+    const rest = isPrivate ? { private: true } : {};
+    if (status === "inherited") {
+      this.#edit([{ edit: "clear", of: path, key: key.name }]);
+    } else if (status === "own") {
+      this.#edit([{ edit: "set", of: path, key: key.name, value: { own: value, ...rest } }]);
+    } else if (status === "offset" || status === "factor") {
+      const neutral = status === "offset" ? 0 : 1;
+      const none =
+        key.kind === "function"
+          ? [
+              [0, neutral],
+              [1, neutral],
+            ]
+          : neutral;
+      const setting = status === "offset" ? { add: none } : { multiply: none };
+      this.#edit([{ edit: "set", of: path, key: key.name, value: { ...setting, ...rest } }]);
+    } else {
+      this.#share(key, value);
+    }
+  }
+
+  /** Keeps a value from the branches above, or gives it to them. */
+  hide(key: DesignKey, isPrivate: boolean): void {
+    const [path, model] = [this.chosen.peek(), this.model.peek()];
+    const said = model?.said(path, key.name);
+    const setting = { ...(said && said.by === path ? said.setting : { inherited: true }) };
+    delete setting.private;
+    const value: DesignSetting = isPrivate ? { ...setting, private: true } : setting;
+    const says = value.inherited !== true || isPrivate;
+    this.#edit([says ? { edit: "set", of: path, key: key.name, value } : { edit: "clear", of: path, key: key.name }]);
+  }
+
+  /** Gives a value to the bearer, so that all it bears inherit it. */
+  promote(key: DesignKey): void {
+    const [path, model] = [this.chosen.peek(), this.model.peek()];
+    const bearer = bearerOf(path);
+    if (model && bearer !== null) {
+      const { value } = model.resolve(path, key);
+      this.#edit([
+        { edit: "set", of: bearer, key: key.name, value: { own: value } },
+        { edit: "clear", of: path, key: key.name },
+      ]);
+    }
+  }
+
+  copy(): void {
+    this.copied.value = this.chosen.peek();
+  }
+
+  paste(): void {
+    const from = this.copied.peek();
+    if (from !== null) {
+      this.#edit([{ edit: "copy", from, to: this.chosen.peek() }]);
+    }
+  }
+
+  forget(path: string): void {
+    this.#edit([{ edit: "forget", node: path }]);
+  }
+
+  wake(path: string): void {
+    this.#edit([{ edit: "wake", node: path }]);
+  }
+
+  rename(name: string): void {
+    this.#edit([{ edit: "name", node: this.chosen.peek(), name: name.trim() || null }]);
+  }
+
+  /** A branch shares its value with all that stand on the same axis. */
+  #share(key: DesignKey, value: unknown): void {
+    const [path, model] = [this.chosen.peek(), this.model.peek()];
+    const bearer = bearerOf(path);
+    if (!model || bearer === null) {
+      return;
+    }
+    const taken = Object.keys(model.graph.shares ?? {}).map(Number);
+    const siblings = model.laterals(bearer);
+    this.#edit([
+      {
+        edit: "share",
+        share: Math.max(0, ...taken) + 1,
+        key: key.name,
+        value,
+        members: siblings.includes(path) ? [...siblings] : [path],
+      },
+    ]);
+  }
+
+  /** The edit that makes a value of the chosen branch this: relative values stay relative, shared ones shared. */
+  #set(key: DesignKey, value: unknown): DesignEdit {
+    const [path, model] = [this.chosen.peek(), this.model.peek()];
+    const said = model?.said(path, key.name);
+    const setting = said?.setting;
+    const rest = setting?.private ? { private: true } : {};
+    if (setting?.shared !== undefined) {
+      return { edit: "set_shared", share: setting.shared, value };
+    }
+    if (setting?.add !== undefined) {
+      return { edit: "set", of: path, key: key.name, value: { add: value, ...rest } };
+    }
+    if (setting?.multiply !== undefined) {
+      return { edit: "set", of: path, key: key.name, value: { multiply: value, ...rest } };
+    }
+    return { edit: "set", of: path, key: key.name, value: { own: value, ...rest } };
+  }
+
+  #edit(edits: readonly DesignEdit[], gesture?: number): void {
+    this.#options.submit({
+      kind: "edit_design",
+      edits: [...edits],
+      ...(gesture === undefined ? {} : { gesture }),
+    });
+  }
+}
+
+/** What a tree stands on that falls below its own base. */
+const STAND_OF_KENGAI: Command = {
+  kind: "place_obstacle",
+  obstacle: {
+    shape: { kind: "box", size: [12, STAND, 12] },
+    pose: { position: [0, STAND / 2, 0], rotation: [0, 0, 0, 1] },
+  },
+};

@@ -1,0 +1,154 @@
+import { describe, expect, it } from "vitest";
+import type { Command, DesignInForce } from "../../../wire/generated";
+import { DesignEditing } from "./design-editing";
+import { DESIGN_KEYS } from "./design-keys";
+import { bearerOf, DesignModel, type KeyName, wayTo } from "./design-model";
+import { DesignSignal } from "./design-signal";
+
+function told(graph: unknown, stepsOnTop = 0): DesignInForce {
+  const laterals = { "/": [0, 1, 2], "/1": [0, 1] };
+  return { at: [0, 0, 0], graph, values: 0, branches: 6, laterals, asleep: [], steps_on_top: stepsOnTop };
+}
+
+function keyOf(name: KeyName) {
+  const found = DESIGN_KEYS.find((key) => key.name === name);
+  if (!found) {
+    throw new Error(`no ${name}`);
+  }
+  return found;
+}
+
+const GRAPH = {
+  nodes: {
+    "/": {
+      values: {
+        roll: { own: 10 },
+        density: {
+          own: [
+            [0, 4],
+            [1, 8],
+          ],
+        },
+      },
+    },
+    "/1": { name: "left", values: { roll: { own: 30, private: true }, reach: { shared: 2 } } },
+    "/1/0": {
+      values: {
+        roll: { add: 5 },
+        density: {
+          multiply: [
+            [0, 0.5],
+            [1, 0.5],
+          ],
+        },
+      },
+    },
+    "/2": { values: { roll: { inherited: true, below: true } } },
+  },
+  levels: { "2": { values: { girth: { own: 0.3 } } } },
+  shares: { "2": { key: "reach", value: 1.5 } },
+};
+
+describe("a design on the page", () => {
+  const model = new DesignModel(told(GRAPH));
+  const value = (path: string, key: KeyName) => model.resolve(path, keyOf(key));
+
+  it("takes values from the first public branch below", () => {
+    expect(value("/0", "roll")).toMatchObject({ value: 10, status: "inherited", origin: "/" });
+    expect(value("/1", "roll")).toMatchObject({ value: 30, status: "own", isPrivate: true, origin: "/1" });
+    // What limb 1 keeps to itself its branches do not have.
+    expect(value("/1/0", "roll")).toMatchObject({ value: 15, inherited: 10, status: "offset" });
+    expect(value("/1/1", "roll")).toMatchObject({ value: 10, origin: "/" });
+  });
+
+  it("knows shared values, levels, functions and defaults", () => {
+    expect(value("/1", "reach")).toMatchObject({ value: 1.5, status: "shared" });
+    expect(value("/1/0", "reach")).toMatchObject({ value: 1.5, status: "inherited", origin: "/1" });
+    expect(value("/1/1", "girth")).toMatchObject({ value: 0.3, origin: "level 2" });
+    expect(value("/1/0", "density").value).toEqual([
+      [0, 2],
+      [1, 4],
+    ]);
+    expect(value("/0", "orders")).toMatchObject({ value: 3, origin: null });
+  });
+
+  it("takes a value from beneath on the same axis where that is said", () => {
+    // Limb 1 keeps its own, so it is that of limb 0, which inherits from the plant.
+    expect(value("/2", "roll")).toMatchObject({ value: 10, status: "inherited" });
+  });
+
+  it("knows the way to a branch", () => {
+    expect(wayTo("/1/0")).toEqual(["/", "/1", "/1/0"]);
+    expect(bearerOf("/")).toBe(null);
+  });
+});
+
+describe("editing a design", () => {
+  function editing(graph: unknown = GRAPH, stepsOnTop = 0) {
+    const sent: Command[] = [];
+    const design = new DesignSignal();
+    design.receive(told(graph, stepsOnTop));
+    let now = 0;
+    const of = new DesignEditing({
+      design,
+      submit: (command) => sent.push(command),
+      newGesture: () => 7,
+      now: () => {
+        now += 60;
+        return now;
+      },
+    });
+    return { of, sent };
+  }
+
+  it("sends all of one movement as one gesture, not too often", () => {
+    const { of, sent } = editing();
+    of.choose("/1");
+    for (const roll of [1, 2, 3, 4]) {
+      of.drag(keyOf("roll"), roll);
+    }
+    of.commit(keyOf("roll"), 5);
+    of.commit(keyOf("roll"), 6);
+    expect(sent.length).toBeLessThan(6);
+    expect(sent.slice(0, -1).every((command) => command.gesture === 7)).toBe(true);
+    expect(sent.at(-1)).toEqual({
+      kind: "edit_design",
+      edits: [{ edit: "set", of: "/1", key: "roll", value: { own: 6, private: true } }],
+    });
+  });
+
+  it("keeps relative values relative and shared ones shared", () => {
+    const { of, sent } = editing();
+    of.choose("/1/0");
+    of.commit(keyOf("roll"), 8);
+    of.choose("/1");
+    of.commit(keyOf("reach"), 1.2);
+    expect(sent.map((command) => (command.kind === "edit_design" ? command.edits[0] : null))).toEqual([
+      { edit: "set", of: "/1/0", key: "roll", value: { add: 8 } },
+      { edit: "set_shared", share: 2, value: 1.2 },
+    ]);
+  });
+
+  it("gives a value to the bearer, and shares one among siblings", () => {
+    const { of, sent } = editing();
+    of.choose("/1");
+    of.promote(keyOf("roll"));
+    of.say(keyOf("girth"), "shared");
+    expect(sent.map((command) => (command.kind === "edit_design" ? command.edits : null))).toEqual([
+      [
+        { edit: "set", of: "/", key: "roll", value: { own: 30 } },
+        { edit: "clear", of: "/1", key: "roll" },
+      ],
+      [{ edit: "share", share: 3, key: "girth", value: 0.55, members: ["/0", "/1", "/2"] }],
+    ]);
+  });
+
+  it("puts a template in the place of a design that is open, and beside one that rests", () => {
+    const open = editing();
+    open.of.begin("chokkan");
+    expect(open.sent).toEqual([{ kind: "new_design", template: "chokkan" }]);
+    const sealed = editing(GRAPH, 3);
+    sealed.of.begin("chokkan");
+    expect(sealed.sent).toEqual([{ kind: "new_design", template: "chokkan", position: [0, 0, 0] }]);
+  });
+});

@@ -1,0 +1,20 @@
+import type { Studio } from "../../studio";
+import { DesignEditing } from "./design-editing";
+
+const EDITINGS = new WeakMap<Studio, DesignEditing>();
+
+/** The editing of designs on a page, from the first time that somebody asks for it on. */
+export function designOf(studio: Studio): DesignEditing {
+  const known = EDITINGS.get(studio);
+  if (known) {
+    return known;
+  }
+  const editing = new DesignEditing({
+    design: studio.design,
+    submit: (command) => studio.submit(command),
+    newGesture: () => studio.link.next,
+    now: () => performance.now(),
+  });
+  EDITINGS.set(studio, editing);
+  return editing;
+}

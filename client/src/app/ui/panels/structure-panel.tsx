@@ -1,0 +1,85 @@
+import { DESIGN_TEMPLATES } from "../../document/design/design-keys";
+import { ROOT } from "../../document/design/design-model";
+import { designOf } from "../../document/design/design-of";
+import type { Studio } from "../../studio";
+import { say } from "../../words/say";
+import { Section } from "../controls/section";
+import { BranchList } from "./structure/branch-list";
+import { BranchValues } from "./structure/branch-values";
+import { downloadGraph, openGraph } from "./structure/graph-file";
+
+/** A tree that is designed from its outline inwards: its branches, and what is said of them. */
+export function StructurePanel({ studio }: { studio: Studio }) {
+  const editing = designOf(studio);
+  const model = editing.model.value;
+  const onTop = model?.told.steps_on_top ?? 0;
+  return (
+    <>
+      <Section name="structure.begin" title={say("structure.begin")} open={!model}>
+        <p class="quiet">{say("structure.begin.help")}</p>
+        <div class="structure-templates">
+          {DESIGN_TEMPLATES.map((name) => (
+            <button
+              type="button"
+              key={name}
+              title={say(`structure.template.${name}.help`)}
+              onClick={() => editing.begin(name)}
+            >
+              <b>{name}</b>
+              <span>{say(`structure.template.${name}`)}</span>
+            </button>
+          ))}
+          <button type="button" onClick={() => editing.begin(null)}>
+            <b>{say("structure.plain")}</b>
+            <span>{say("structure.plain.help")}</span>
+          </button>
+        </div>
+        <div class="structure-row">
+          <label class="structure-file">
+            {say("structure.open")}
+            <input
+              type="file"
+              accept=".json,application/json"
+              onChange={(event) => openGraph(event.currentTarget, editing, (text) => studio.toasts.show(text))}
+            />
+          </label>
+          <button type="button" disabled={!model} onClick={() => model && downloadGraph(model)}>
+            {say("structure.download")}
+          </button>
+        </div>
+      </Section>
+      {model && onTop > 0 && (
+        <div class="structure-sealed" role="status">
+          <p>{say("structure.sealed", { steps: onTop })}</p>
+          <div class="structure-row">
+            <button type="button" onClick={() => studio.submit({ kind: "ungrow", steps: Math.min(onTop, 1000) })}>
+              {say("structure.sealed.back")}
+            </button>
+            <button type="button" onClick={() => editing.release()}>
+              {say("structure.release")}
+            </button>
+            <button type="button" onClick={() => editing.open(model.graph)}>
+              {say("structure.sealed.again")}
+            </button>
+          </div>
+        </div>
+      )}
+      {model && (
+        <>
+          <Section name="structure.branches" title={say("structure.branches")} open>
+            <p class="quiet">{say("structure.counts", { values: model.told.values, branches: model.told.branches })}</p>
+            <BranchList editing={editing} model={model} />
+          </Section>
+          <Section name="structure.values" title={say("structure.values")} open>
+            <BranchValues editing={editing} model={model} key={editing.chosen.value} />
+          </Section>
+          {onTop === 0 && editing.chosen.value === ROOT && (
+            <button type="button" class="structure-release" onClick={() => editing.release()}>
+              {say("structure.release")}
+            </button>
+          )}
+        </>
+      )}
+    </>
+  );
+}
