@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Bytes of JSON for each bone: its node, and what says of both clips where its keys are.
-pub(super) const CAPACITY_OF_BONE: usize = 2600;
+pub(super) const CAPACITY_OF_BONE: usize = 1400;
 
 /// The bones of the plant whose parts are being written.
 pub(super) struct Skeleton<'a> {
