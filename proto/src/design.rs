@@ -91,7 +91,7 @@ written_as! {
 }
 schemas! {
     BranchPath = |_| json_schema!({ "type": "string", "pattern": "^/([0-9]{1,4}(/[0-9]{1,4}){0,3})?$" });
-    DesignValue = |_| json_schema!({ "description": "JSON by the kind of the parameter" });
+    DesignValue = |_| json_schema!({ "type": ["boolean", "number", "string", "array", "object"] });
 }
 
 impl TS for DesignValue {
