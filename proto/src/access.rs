@@ -39,6 +39,14 @@ impl Role {
         }
     }
 
+    /// What somebody of this role may do with a tree that is locked (`AC16`): who may draw otherwise comments.
+    pub const fn under_lock(self) -> Self {
+        match self {
+            Self::Editor => Self::Commenter,
+            other => other,
+        }
+    }
+
     /// The role of this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|role| role.name() == name)
@@ -208,6 +216,16 @@ pub struct TreeLink {
     pub until: String,
     /// Whether somebody has come by it.
     pub used: bool,
+}
+
+/// `GET`, `PUT`, `DELETE /api/v1/trees/{tree}/lock`: whether owners alone change a tree (`AC16`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct TreeLock {
+    /// Who has locked it, if anybody has.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub by: Option<String>,
 }
 
 /// A link as it is shown once.

@@ -10,6 +10,7 @@ use crate::{
     access::Role,
     bounded::{BrushRadius, List, PredictedSteps},
     command::Command,
+    comment::Pin,
     design::DesignInForce,
     envelope::FrameKind,
     obstacle::PlacedObstacle,
@@ -421,6 +422,16 @@ pub enum ServerMessage {
     Role {
         /// As the role.
         role: Role,
+    },
+    /// Where the comments of the tree are pinned now: after the welcome if there are any, and those that change (`CT2`).
+    Pins {
+        /// In order of their threads.
+        pins: Vec<Pin>,
+    },
+    /// What people say of the tree has changed: whoever shows it asks for it again (`CT3`).
+    ThreadsChanged {
+        /// The threads.
+        threads: Vec<u32>,
     },
     /// The answer to a ping.
     Pong {

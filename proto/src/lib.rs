@@ -10,6 +10,7 @@ pub mod access;
 pub mod bend;
 pub mod bounded;
 pub mod command;
+pub mod comment;
 pub mod control;
 pub mod design;
 pub mod envelope;

@@ -1,6 +1,6 @@
 //! What can be asked for, and the least role that may have it.
 
-use crate::access::Role::{self, Admin, Editor, Owner, Viewer};
+use crate::access::Role::{self, Admin, Commenter, Editor, Owner, Viewer};
 
 /// Who of those that are in for one tree alone may ask for something of the server as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,6 +72,10 @@ table! {
     SeeTree: Viewer, Library;
     /// Changes what is said of a tree, or saves a version of it.
     ChangeTree: Editor, Library;
+    /// Reads what people say of a tree.
+    ReadComments: Viewer, Library;
+    /// Says something of a tree, and what is said of it is done.
+    Comment: Commenter, Library;
     /// Deletes a tree, or takes that back.
     DeleteTree: Owner, Library;
     /// Makes, lists and revokes links that let people in for a tree.

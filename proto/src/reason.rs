@@ -162,6 +162,10 @@ reasons! {
         NoProgramme,
         /// A future is damaged.
         FutureDamaged,
+        /// The owner of a tree has locked it.
+        TreeLocked,
+        /// A comment is too old to be changed.
+        CommentStays,
         /// A collection cannot lie in itself.
         CollectionInItself,
         /// Another request had this key.

@@ -14,7 +14,7 @@ use crate::{
     problem::Problem,
     reading::told,
     schema::{list, schemas, text},
-    version::{MAX_NAME_CHARACTERS, MAX_NOTE_CHARACTERS, MAX_TAGS},
+    version::{MAX_COMMENT_CHARACTERS, MAX_NAME_CHARACTERS, MAX_NOTE_CHARACTERS, MAX_TAGS},
 };
 
 /// Letters and symbols that show nothing: the fillers of Hangul and the empty braille pattern.
@@ -91,6 +91,8 @@ texts! {
     Name: 1, MAX_NAME_CHARACTERS, between(1, MAX_NAME_CHARACTERS), read_name;
     /// What is said of something: up to 2000 characters on any number of lines, or nothing (`LB5`).
     Note: 0, MAX_NOTE_CHARACTERS, between(0, MAX_NOTE_CHARACTERS), read_note;
+    /// What somebody says: 1 to 4000 characters on any number of lines, of which some can be seen (`CT1`).
+    Saying: 1, MAX_COMMENT_CHARACTERS, between(1, MAX_COMMENT_CHARACTERS), read_saying;
     /// A tag: a [`Name`] without a comma.
     Tag: 1, MAX_NAME_CHARACTERS, format!("{} without a comma", between(1, MAX_NAME_CHARACTERS)), read_tag;
     /// What a request calls something that may be there.
@@ -184,9 +186,19 @@ fn read_tag(text: &str) -> Result<String, NotAllowed> {
     Ok(tag)
 }
 
+fn read_saying(text: &str) -> Result<String, NotAllowed> {
+    let saying = read_lines(text, 1, MAX_COMMENT_CHARACTERS)?;
+    if saying.chars().any(is_seen) { Ok(saying) } else { Err(unseen("characters one can see")) }
+}
+
 fn read_note(text: &str) -> Result<String, NotAllowed> {
+    read_lines(text, 0, MAX_NOTE_CHARACTERS)
+}
+
+/// A text of several lines.
+fn read_lines(text: &str, least: usize, most: usize) -> Result<String, NotAllowed> {
     let note = text.trim();
-    check_length(note, 0, MAX_NOTE_CHARACTERS)?;
+    check_length(note, least, most)?;
     if note.chars().any(|letter| misleads(letter) && !matches!(letter, '\n' | '\r' | '\t')) {
         return Err(unseen("characters one can see, and new lines"));
     }

@@ -8,8 +8,8 @@ use ts_rs::{Config, TS};
 
 use crate::{
     access::{self, Role},
-    bounded, command, control, design, envelope, frame, library, obstacle, permission, place, presence,
-    problem, programme, reason, schematic, species, status, thumbnail, timeline, version,
+    bounded, command, comment, control, design, envelope, frame, library, obstacle, permission, place,
+    presence, problem, programme, reason, schematic, species, status, thumbnail, timeline, version,
 };
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
@@ -42,6 +42,10 @@ pub fn declarations() -> String {
     constant("MAX_AGE", version::MAX_AGE.to_string());
     constant("MAX_FUTURES", version::MAX_FUTURES.to_string());
     constant("MAX_SKETCH_PLACES", version::MAX_SKETCH_PLACES.to_string());
+    constant("MAX_COMMENT_CHARACTERS", version::MAX_COMMENT_CHARACTERS.to_string());
+    constant("MAX_MENTIONS", version::MAX_MENTIONS.to_string());
+    constant("MAX_COMMENT_LINES", version::MAX_COMMENT_LINES.to_string());
+    constant("MAX_LINE_PLACES", version::MAX_LINE_PLACES.to_string());
     constant("MAX_OBSTACLES", version::MAX_OBSTACLES.to_string());
     constant("MAX_MESH_VERTICES", version::MAX_MESH_VERTICES.to_string());
     constant("MAX_MESH_TRIANGLES", version::MAX_MESH_TRIANGLES.to_string());
@@ -187,11 +191,26 @@ pub fn declarations() -> String {
         access::AuditEvent::decl(&config),
         access::Me::decl(&config),
         access::Way::decl(&config),
+        comment::PinPlace::decl(&config),
+        comment::ThreadPlace::decl(&config),
+        comment::Bookmark::decl(&config),
+        comment::NewComment::decl(&config),
+        comment::NewPin::decl(&config),
+        comment::NewThread::decl(&config),
+        comment::ChangeThread::decl(&config),
+        comment::ChangeComment::decl(&config),
+        comment::Seen::decl(&config),
+        comment::Resolved::decl(&config),
+        comment::Comment::decl(&config),
+        comment::Thread::decl(&config),
+        comment::PinState::decl(&config),
+        comment::Pin::decl(&config),
         access::NewLink::decl(&config),
         access::LinkRole::decl(&config),
         access::ChangeLink::decl(&config),
         access::TreeLink::decl(&config),
         access::MadeLink::decl(&config),
+        access::TreeLock::decl(&config),
     ] {
         out.push_str(&format!("\nexport {declaration}\n"));
     }

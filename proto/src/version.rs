@@ -86,6 +86,18 @@ pub const MAX_WOOD_BYTES: usize = 64 * 1024 * 1024;
 /// The most tags of a tree (`LB7`).
 pub const MAX_TAGS: usize = 32;
 
+/// The most characters of a comment (`LM22`).
+pub const MAX_COMMENT_CHARACTERS: usize = 4_000;
+
+/// The most people that a comment names (`LM22`).
+pub const MAX_MENTIONS: usize = 16;
+
+/// The most lines of a sketch over a view (`LM22`).
+pub const MAX_COMMENT_LINES: usize = 32;
+
+/// The most places of one of them (`LM22`).
+pub const MAX_LINE_PLACES: usize = 256;
+
 /// Why the server closes a socket. Standard codes below 4000 keep their meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u16)]

@@ -1,6 +1,7 @@
 //! `espalier library`: the library of saved trees, without a page.
 
 use std::{
+    collections::BTreeMap,
     fs,
     io::{self, Cursor, Write},
     path::PathBuf,
@@ -14,17 +15,20 @@ use serde::Serialize;
 use crate::{
     cli::{
         self, Database,
-        library::{ExportTree, Find, Get, LibraryCommand, List, Listing, Of, Put, RestoreVersion, Versions},
+        library::{
+            ExportTree, Find, Get, LibraryCommand, List, Listing, Of, Put, RestoreVersion, Review, Versions,
+        },
     },
     document::{self, FORMATS, Format, Stored},
     export_options::{ExportOptions, NotOfFormat, Size},
     import, name,
     output::{OutputError, Target},
     progress::Bar,
+    review,
     similar::asked_for,
     store::{
-        Contents, Library, LibraryFile, Missing, NewTree, NewVersion, OpenError, Picture, Saved, SqliteStore,
-        Store, StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery,
+        Comments, Contents, Library, LibraryFile, Missing, NewTree, NewVersion, OpenError, Picture, Saved,
+        SqliteStore, Store, StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery,
     },
     time::now,
 };
@@ -83,6 +87,14 @@ pub enum LibraryError {
         /// Why not.
         cause: io::Error,
     },
+    /// A file cannot be written.
+    #[error("The file {} cannot be written: {cause}.", path.display())]
+    Written {
+        /// Which file.
+        path: PathBuf,
+        /// Why not.
+        cause: io::Error,
+    },
     /// A file cannot become a tree.
     #[error("The file {} cannot become a tree: {cause}.", path.display())]
     Import {
@@ -122,6 +134,7 @@ pub fn run(command: &LibraryCommand) -> Result<(), LibraryError> {
             LibraryCommand::Export(options) => export(options).await,
             LibraryCommand::Versions(options) => versions(options).await,
             LibraryCommand::Restore(options) => restore(options).await,
+            LibraryCommand::Review(options) => review(options).await,
         }
     };
     tokio::runtime::Builder::new_current_thread().enable_all().build()?.block_on(work)
@@ -232,6 +245,29 @@ async fn export(options: &ExportTree) -> Result<(), LibraryError> {
     let document = document_of(&options.of).await?;
     let mut stored = Stored::read(&document.bytes)?;
     Ok(target.write(|out| stored.write(target.row.format, &options.options, out))?)
+}
+
+async fn review(Review { tree, file, language, database }: &Review) -> Result<(), LibraryError> {
+    let library = LibraryFile::open(&database.path).await?;
+    let tree = found(&library, tree).await?;
+    let document = library.document(&tree.id, tree.head.number).await?;
+    let store = SqliteStore::open_beside(&database.path).await?;
+    let written = async {
+        let pins = store.pins(&tree.id).await?;
+        let states = match document.filter(|_| !pins.is_empty()) {
+            Some(document) => review::states(&Document::from_bytes(&document.bytes)?, &pins),
+            None => BTreeMap::new(),
+        };
+        Ok::<_, LibraryError>(review::summary(&store, &tree, &states, &now(), *language).await?)
+    };
+    let html = written.await;
+    store.close().await;
+    let html = html?;
+    if file.as_os_str() == "-" {
+        say(html.trim_end());
+        return Ok(());
+    }
+    fs::write(file, html).map_err(|cause| LibraryError::Written { path: file.clone(), cause })
 }
 
 async fn put(options: &Put) -> Result<(), LibraryError> {

@@ -29,6 +29,7 @@ mod pool;
 mod portrait;
 mod progress;
 mod recipe;
+mod review;
 mod serve;
 mod similar;
 mod spool;

@@ -124,6 +124,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         tries: Arc::default(),
         tries_for: Arc::default(),
         sessions_begun: Arc::default(),
+        comments_written: Arc::default(),
         logins: Arc::default(),
         passwords: Arc::default(),
         opening: Arc::default(),

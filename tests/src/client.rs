@@ -437,7 +437,11 @@ impl Client {
             }
             ServerMessage::Notice { notice } => self.notices.push(notice),
             // Said to a person, who is not here.
-            ServerMessage::Hint { .. } | ServerMessage::Deed { .. } | ServerMessage::Gathered { .. } => {}
+            ServerMessage::Hint { .. }
+            | ServerMessage::Deed { .. }
+            | ServerMessage::Gathered { .. }
+            | ServerMessage::Pins { .. }
+            | ServerMessage::ThreadsChanged { .. } => {}
             ServerMessage::People { people, .. } => self.people = people,
             ServerMessage::Role { role } => self.role = Some(role),
             ServerMessage::Pong { nonce, .. } => self.pongs.push(nonce),

@@ -3,6 +3,7 @@ import type { TreeTable } from "../scene/table/tree-table";
 import type { DocumentState, Parameters } from "../wire/generated";
 import { FrameKind } from "../wire/generated";
 import type { Rights } from "./access/rights";
+import type { Comments } from "./comments/comments";
 import { handle, type MessageHandlers } from "./connection/page-message";
 import type { ServerTime } from "./connection/server-time";
 import type { SessionEvents } from "./connection/session-link";
@@ -48,6 +49,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly drawnInVain: Pick<DrawnInVain, "show" | "clear">;
   readonly together: Together;
   readonly serverTime: Pick<ServerTime, "heard">;
+  readonly comments: Pick<Comments, "place" | "change" | "clear">;
   readonly undo: Pick<OwnUndo, "done" | "refused" | "forget">;
   readonly rights: Pick<Rights, "grant" | "mayChange">;
 }
@@ -85,6 +87,8 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
       page.together.people.value = people;
     },
     pong: ({ nonce, at }) => page.serverTime.heard(nonce, at),
+    pins: ({ pins }) => page.comments.place(pins),
+    threads_changed: ({ threads }) => page.comments.change(threads),
     gathered: (call) => page.together.listener?.gathered(call),
     role: ({ role }) => {
       page.rights.grant(role);
@@ -167,6 +171,7 @@ function forget(page: SessionTargets): void {
   page.outline.clear();
   page.bends.clear();
   page.together.forget();
+  page.comments.clear();
   page.widths.all.value = [];
   page.design.receive(null);
   page.obstacles.forget();

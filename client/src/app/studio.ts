@@ -3,6 +3,7 @@ import type { DrawMode } from "../scene/mode/draw-mode";
 import { TreeTable } from "../scene/table/tree-table";
 import { type Command, DEFAULT_PARAMETERS, type DocumentState, type Parameters } from "../wire/generated";
 import { Rights } from "./access/rights";
+import { Comments } from "./comments/comments";
 import { rowStore } from "./connection/row-store";
 import { ServerTime } from "./connection/server-time";
 import { SessionLink } from "./connection/session-link";
@@ -116,6 +117,8 @@ export class Studio {
   readonly bends = new SharedBends();
   /** Who else has the tree open. */
   readonly together = new Together();
+  /** What people say of the tree. */
+  readonly comments = new Comments();
   readonly undo = new OwnUndo(this);
   readonly obstacles = new ObstacleList({
     submit: (command) => this.submit(command),

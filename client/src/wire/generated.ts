@@ -23,6 +23,10 @@ export const MAX_STAGES = 128;
 export const MAX_AGE = 10000;
 export const MAX_FUTURES = 64;
 export const MAX_SKETCH_PLACES = 48;
+export const MAX_COMMENT_CHARACTERS = 4000;
+export const MAX_MENTIONS = 16;
+export const MAX_COMMENT_LINES = 32;
+export const MAX_LINE_PLACES = 256;
 export const MAX_OBSTACLES = 64;
 export const MAX_MESH_VERTICES = 65536;
 export const MAX_MESH_TRIANGLES = 131072;
@@ -99,6 +103,8 @@ export const LEAST_ROLES = {
   OpenTree: "viewer",
   SeeTree: "viewer",
   ChangeTree: "editor",
+  ReadComments: "viewer",
+  Comment: "commenter",
   DeleteTree: "owner",
   ShareTree: "owner",
   ChangeCollections: "editor",
@@ -1557,7 +1563,7 @@ appearance: Appearance, };
 
 export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "stale" | "unavailable";
 
-export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-of-yours" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "design-sealed" | "design-refused" | "being-drawn" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "design-gone" | "design-branch-gone" | "no-template" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
+export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-of-yours" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "design-sealed" | "design-refused" | "being-drawn" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "tree-locked" | "comment-stays" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "design-gone" | "design-branch-gone" | "no-template" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
 
 export type Problem = { 
 /**
@@ -2243,7 +2249,15 @@ camera: Camera, } | { "type": "role",
 /**
  * As the role.
  */
-role: Role, } | { "type": "pong", 
+role: Role, } | { "type": "pins", 
+/**
+ * In order of their threads.
+ */
+pins: Array<Pin>, } | { "type": "threads_changed", 
+/**
+ * The threads.
+ */
+threads: Array<number>, } | { "type": "pong", 
 /**
  * The ping's.
  */
@@ -2810,6 +2824,218 @@ tree?: string, };
 
 export type Way = "machine" | "device" | "login" | "token";
 
+export type PinPlace = { 
+/**
+ * The metamer's row.
+ */
+row: number, 
+/**
+ * How far along the metamer, from where it begins (0) to where it ends (1).
+ */
+along: number, 
+/**
+ * From there, in internode lengths along the axes h, u and w of `LF1`.
+ */
+offset: [number, number, number], 
+/**
+ * Where that is now.
+ */
+place: [number, number, number], };
+
+export type ThreadPlace = { 
+/**
+ * How far along its metamer.
+ */
+along: number, 
+/**
+ * From there, along the axes h, u and w of `LF1`.
+ */
+offset: [number, number, number], 
+/**
+ * Where that was.
+ */
+place: [number, number, number], };
+
+export type Bookmark = { 
+/**
+ * From where.
+ */
+camera: Camera, 
+/**
+ * The step of the timeline,
+ */
+step: number, 
+/**
+ * and its line.
+ */
+line: number, 
+/**
+ * How the tree was drawn.
+ */
+mode: string, };
+
+export type NewComment = { 
+/**
+ * In words.
+ */
+text: string, 
+/**
+ * What whoever says it wants to be called, if they have no name here.
+ */
+author?: string, 
+/**
+ * Whom it is for: names as people have them here.
+ */
+mentions?: Array<string>, 
+/**
+ * What they see.
+ */
+bookmark?: Bookmark, 
+/**
+ * What they have drawn over that.
+ */
+sketch?: Array<Array<[number, number]>>, 
+/**
+ * A picture of it, as a data URL like a thumbnail.
+ */
+picture?: string, };
+
+export type NewPin = { 
+/**
+ * The session of the tree whose rows are meant.
+ */
+session: string, 
+/**
+ * The place.
+ */
+at: PinPlace, };
+
+export type NewThread = { 
+/**
+ * Where it is pinned; about the tree as a whole if nowhere.
+ */
+pin?: NewPin, 
+/**
+ * What is said first.
+ */
+comment: NewComment, };
+
+export type ChangeThread = { 
+/**
+ * Whether what it is about is done.
+ */
+resolved: boolean, };
+
+export type ChangeComment = { 
+/**
+ * Its words from now on.
+ */
+text: string, };
+
+export type Seen = { 
+/**
+ * The newest comment that whoever asks has seen.
+ */
+comment: number, };
+
+export type Resolved = { 
+/**
+ * Who says so.
+ */
+by: string, 
+/**
+ * When, in UTC.
+ */
+at: string, };
+
+export type Comment = { 
+/**
+ * Its number in the thread.
+ */
+comment: number, 
+/**
+ * Who said it.
+ */
+author: string, 
+/**
+ * Whether that is whoever asks.
+ */
+own: boolean, 
+/**
+ * When, in UTC.
+ */
+written_at: string, 
+/**
+ * When it was changed, if it was.
+ */
+edited_at?: string, 
+/**
+ * In words.
+ */
+text: string, 
+/**
+ * Whom it is for.
+ */
+mentions: Array<string>, 
+/**
+ * What they saw.
+ */
+bookmark?: Bookmark, 
+/**
+ * What they drew over it.
+ */
+sketch?: Array<Array<[number, number]>>, 
+/**
+ * Whether it has a picture.
+ */
+picture: boolean, };
+
+export type Thread = { 
+/**
+ * Its number on the tree.
+ */
+thread: number, 
+/**
+ * Where it was pinned, if it is about a place.
+ */
+at?: ThreadPlace, 
+/**
+ * Who has said that it is done, if anybody has.
+ */
+resolved?: Resolved, 
+/**
+ * The newest comment that whoever asks has seen; 0 for none.
+ */
+seen: number, 
+/**
+ * Those that are there, in order.
+ */
+comments: Array<Comment>, };
+
+export type PinState = "standing" | "not_yet" | "detached" | "regrown" | "elsewhere";
+
+export type Pin = { 
+/**
+ * The thread.
+ */
+thread: number, 
+/**
+ * How it is.
+ */
+state: PinState, 
+/**
+ * Its metamer's row; where that does not live, the nearest living one below.
+ */
+row?: number, 
+/**
+ * The step to go to for seeing it, where that is another one,
+ */
+step?: number, 
+/**
+ * and the line of time.
+ */
+line?: number, };
+
 export type NewLink = { 
 /**
  * What they may do.
@@ -2868,3 +3094,9 @@ id: string,
  * What to open on the device that is to be let in.
  */
 url: string, };
+
+export type TreeLock = { 
+/**
+ * Who has locked it, if anybody has.
+ */
+by?: string, };

@@ -13,6 +13,7 @@ mod hints;
 mod history;
 mod notifications;
 mod obstacles;
+mod pins;
 mod programmes;
 mod pruning;
 mod settings;
@@ -45,6 +46,7 @@ use self::{
 };
 pub use self::{
     bytes::{DocumentError, MAX_METAMER_BUDGET, plain},
+    pins::{Anchor, Search, Whereabouts},
     transplanting::TransplantError,
 };
 pub(crate) use self::{

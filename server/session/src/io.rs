@@ -3,8 +3,11 @@
 use std::sync::Arc;
 
 use espalier_proto::{Command, PlacedObstacle, Problem, access::Role, version::CloseCode};
+use glam::Vec3;
 
-use crate::{entrant::Entrant, prediction::PredictionRun, principal::Principal, work::Work};
+use crate::{
+    document::Anchor, entrant::Entrant, prediction::PredictionRun, principal::Principal, work::Work,
+};
 
 /// Names one connection; the shell numbers them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,6 +20,21 @@ pub struct ReadId(pub u64);
 /// Names one command from outside; the shell numbers them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ActId(pub u64);
+
+/// Names one question for a place on the wood; the shell numbers them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AnchorId(pub u64);
+
+/// Where a thread of comments is pinned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// The thread.
+    pub thread: u32,
+    /// How the place is found again.
+    pub anchor: Anchor,
+    /// Where it was.
+    pub at: Vec3,
+}
 
 /// Something happened.
 #[derive(Debug)]
@@ -62,6 +80,15 @@ pub enum Input {
     Stopping,
     /// An owner wants that to be done which the server did not outlive (`OP5`).
     GoOn,
+    /// Somebody wants to pin a comment to a row.
+    Anchor(AnchorId, u32),
+    /// What people say of the tree has changed.
+    Commented {
+        /// All that is pinned somewhere.
+        places: Vec<Place>,
+        /// The threads that have changed.
+        threads: Vec<u32>,
+    },
 }
 
 /// Something to do.
@@ -108,6 +135,8 @@ pub enum Output {
         /// What came of it.
         outcome: Result<Option<PlacedObstacle>, Problem>,
     },
+    /// The place of a row for an `Anchor`; nothing where no living metamer has it.
+    Anchored(AnchorId, Option<Anchor>),
     /// Answer with `Woken` at this time, in milliseconds of the clock handed to `handle`.
     /// A later `WakeAt` takes the place of an earlier one.
     WakeAt(u64),

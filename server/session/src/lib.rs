@@ -32,10 +32,12 @@ mod window;
 mod work;
 
 pub use command_script::{ScriptError, read_commands};
-pub use document::{Document, DocumentError, Figures, MAX_METAMER_BUDGET, TransplantError, plain};
+pub use document::{
+    Anchor, Document, DocumentError, Figures, MAX_METAMER_BUDGET, Search, TransplantError, Whereabouts, plain,
+};
 pub use entrant::Entrant;
 pub use form::read_command;
-pub use io::{ActId, ClientId, Input, JournalEntry, Output, ReadDocument, ReadId};
+pub use io::{ActId, AnchorId, ClientId, Input, JournalEntry, Output, Place, ReadDocument, ReadId};
 pub use prediction::PredictionRun;
 pub use principal::Principal;
 pub use rights::{Access, forbidden};

@@ -6,6 +6,7 @@ mod commands;
 mod delivery;
 mod greeting;
 mod pausing;
+mod pins;
 mod predicting;
 mod presence;
 mod restoring;
@@ -18,7 +19,9 @@ use std::{
 
 use espalier_proto::{
     ClientMessage, DesignInForce, FrameKind, Notice, PlacedObstacle, Problem, Programme, Reason,
-    ServerMessage, Timeline, Unreadable, WidthConstraint, reading,
+    ServerMessage, Timeline, Unreadable, WidthConstraint,
+    comment::Pin,
+    reading,
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
 use espalier_settings::{Appearance, ParameterValues};
@@ -40,7 +43,8 @@ use crate::{
 
 pub use self::restoring::Tail;
 use self::{
-    acts::Act, commands::Queue, pausing::Pausing, presence::Room, restoring::Restored, upkeep::Upkeep,
+    acts::Act, commands::Queue, pausing::Pausing, pins::Pins, presence::Room, restoring::Restored,
+    upkeep::Upkeep,
 };
 
 /// One shared document with its clients. Feed it with [`Session::handle`], then drain [`Session::poll_output`].
@@ -82,6 +86,8 @@ pub struct Session {
     pausing: Pausing,
     /// Who is here.
     room: Room,
+    /// Where comments are pinned.
+    pins: Pins,
     /// What everybody here is notified of.
     notices: Vec<Notice>,
     failed: bool,
@@ -203,6 +209,7 @@ impl Session {
             upkeep: Upkeep::new(snapshotted),
             pausing,
             room,
+            pins: Pins::default(),
             notices: Vec::new(),
             failed: false,
             outputs: VecDeque::new(),
@@ -244,11 +251,17 @@ impl Session {
             Input::SnapshotFailed => self.upkeep.snapshot_failed(self.now),
             Input::Stopping => self.stop(),
             Input::GoOn => self.go_on(),
+            Input::Anchor(id, row) => self.ask_anchor(id, row),
+            Input::Commented { places, threads } => {
+                self.pin(places);
+                self.threads_changed(threads);
+            }
         }
         if !self.failed {
             self.answer_acts();
             self.look_for_room();
             self.keep_up();
+            self.find_pins();
             self.dispatch();
             self.ask_to_be_woken();
         }
@@ -291,6 +304,11 @@ impl Session {
     /// The mesh of an obstacle in the scene, as of the last slice of work (`OB5`).
     pub fn mesh(&self, obstacle: u32) -> Option<Arc<Mesh>> {
         self.scenery.meshes.get(&obstacle).cloned()
+    }
+
+    /// Where the comments of its tree are pinned, as clients were told last.
+    pub fn pins(&self) -> impl Iterator<Item = Pin> {
+        self.pins.told()
     }
 
     /// Who has said hello and is still here, once for each client.

@@ -8,11 +8,14 @@ use super::{
     Database, ImportFile, parse_import,
     results::{Export, parse_export, parse_format},
 };
-use crate::{document::FormatRow, export_options::ExportOptions, import_options::ImportOptions, store::Sort};
+use crate::{
+    document::FormatRow, export_options::ExportOptions, import_options::ImportOptions, review::Language,
+    store::Sort,
+};
 
 pub(super) const NOTES: &str = "\
 TREE is the identifier of a tree, as `ls` prints it, or its name where no other tree has it.
-ls, find, get, export and versions read beside a server that uses the database. put and restore need it for themselves:
+ls, find, get, export, versions and review read beside a server that uses the database. put and restore need it for themselves:
 stop the server, or use its page or API.";
 
 /// What to do with the library.
@@ -32,6 +35,8 @@ pub enum LibraryCommand {
     Versions(Versions),
     /// Make what a version holds the newest version.
     Restore(RestoreVersion),
+    /// Write what people have said of a tree to an HTML file, to read, send and print.
+    Review(Review),
 }
 
 /// Options of `ls`.
@@ -119,6 +124,20 @@ pub struct Get {
     pub of: Of,
     /// The file, or `-` for standard output.
     pub file: PathBuf,
+}
+
+/// Options of `review`.
+#[derive(Debug, Args)]
+pub struct Review {
+    /// The tree.
+    pub tree: String,
+    /// The file, or `-` for standard output.
+    pub file: PathBuf,
+    /// In which language.
+    #[arg(long, value_enum, default_value_t = Language::En)]
+    pub language: Language,
+    #[command(flatten)]
+    pub database: Database,
 }
 
 /// Options of `put`.

@@ -6,8 +6,9 @@ use axum::routing::{MethodRouter, delete, get, patch, post, put};
 use espalier_proto::{
     access::{
         Admitted, AuditEvent, ChangeLink, Entrance, ListedUser, LogIn, MadeLink, Me, NewLink, Redeem,
-        TreeLink,
+        TreeLink, TreeLock,
     },
+    comment::{ChangeComment, ChangeThread, NewComment, NewThread, Seen, Thread},
     library::{
         ChangeCollection, ChangeTree, ChangeVersion, CopyTree, ExportFormat, ExportProgress, NewCollection,
         NewSession, RestoreVersion, SaveTree, SaveVersion, SavedTree, SessionCreated, TreeAuthor,
@@ -24,9 +25,9 @@ use espalier_settings::ParameterValues;
 use tower::limit::GlobalConcurrencyLimitLayer;
 
 use super::{
-    Shared, audit, collections, description, description::About, entry, exports, failure::Path,
-    guard::TIME_LIMIT, imports, jobs, keys::Shown, links, obstacles, origin::METRICS, schematic, sessions,
-    species, status, trees, uploads::uploads, versions,
+    Shared, audit, collections, comments, description, description::About, entry, exports, failure::Path,
+    guard::TIME_LIMIT, imports, jobs, keys::Shown, links, locks, obstacles, origin::METRICS, reviews,
+    schematic, sessions, species, status, trees, uploads::uploads, versions,
 };
 use crate::{
     access::Action,
@@ -41,6 +42,10 @@ const MAX_SMALL_BODY: usize = 4 * 1024;
 const MAX_SAID_BODY: usize = 32 * 1024;
 /// A thumbnail as base64, with room for the rest of the request.
 const MAX_TREE_BODY: usize = MAX_THUMBNAIL_BYTES.div_ceil(3) * 4 + 8 * 1024;
+/// A comment with a picture and a sketch, with room for the rest of the request.
+const MAX_COMMENT_BODY: usize = MAX_TREE_BODY + 32 * 1024;
+/// Summaries made at once: each may hold 40 MB of pictures.
+const MAX_REVIEWS: usize = 1;
 /// Obstacles read at once: each holds millions of triangles.
 const MAX_UPLOADS: usize = 1;
 /// How long a request may take that brings an obstacle: so that it may be large, and the network slow.
@@ -223,6 +228,19 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/trees/{tree}/links", Action::ShareTree, post(links::add), About::new("Make a link that lets one device in for this tree; it is shown this once.").takes::<NewLink>().gives::<MadeLink>(201)).noted("link").once(),
         route("PATCH /api/v1/trees/{tree}/links/{link}", Action::ShareTree, patch(links::change), About::new("Let whoever was invited do more or less; it holds at once, also where they are connected (AU3).").takes::<ChangeLink>().gives::<TreeLink>(200)).noted("link-role"),
         route("DELETE /api/v1/trees/{tree}/links/{link}", Action::ShareTree, delete(links::revoke), About::new("Revoke a link; who came by it is let in no longer.").gives_nothing()).noted("unlink"),
+        route("GET /api/v1/trees/{tree}/lock", Action::SeeTree, get(locks::find), About::new("Whether owners alone change a tree (AC16).").gives::<TreeLock>(200)),
+        route("PUT /api/v1/trees/{tree}/lock", Action::ShareTree, put(locks::lock), About::new("Owners alone change the tree from now on, also where others are connected (AC16).").gives::<TreeLock>(200)).noted("lock"),
+        route("DELETE /api/v1/trees/{tree}/lock", Action::ShareTree, delete(locks::unlock), About::new("Who may draw may draw again (AC16).").gives::<TreeLock>(200)).noted("unlock"),
+        route("GET /api/v1/trees/{tree}/threads", Action::ReadComments, get(comments::list), About::new("What people say of a tree, newest thread first, page by page (CT1).").asks::<comments::Page>().gives::<Vec<Thread>>(200)),
+        route("POST /api/v1/trees/{tree}/threads", Action::Comment, post(comments::begin), About::new("Begin a thread, pinned to a place or about the tree as a whole (CT1).").takes::<NewThread>().gives::<Thread>(201)).up_to(MAX_COMMENT_BODY),
+        route("GET /api/v1/trees/{tree}/threads/{thread}", Action::ReadComments, get(comments::find), About::new("One thread.").gives::<Thread>(200)),
+        route("PATCH /api/v1/trees/{tree}/threads/{thread}", Action::Comment, patch(comments::change), About::new("What it is about is done, or not any more (CT4).").takes::<ChangeThread>().gives::<Thread>(200)),
+        route("PUT /api/v1/trees/{tree}/threads/{thread}/seen", Action::ReadComments, put(comments::see), About::new("Whoever asks has seen the thread up to a comment (CT4).").takes::<Seen>().gives_nothing()),
+        route("POST /api/v1/trees/{tree}/threads/{thread}/comments", Action::Comment, post(comments::reply), About::new("Answer in a thread (CT1).").takes::<NewComment>().gives::<Thread>(201)).up_to(MAX_COMMENT_BODY),
+        route("PATCH /api/v1/trees/{tree}/threads/{thread}/comments/{comment}", Action::Comment, patch(comments::edit), About::new("Change the words of one's own comment, for 15 minutes (CT5).").takes::<ChangeComment>().gives::<Thread>(200)).up_to(MAX_SAID_BODY),
+        route("DELETE /api/v1/trees/{tree}/threads/{thread}/comments/{comment}", Action::Comment, delete(comments::delete), About::new("Delete one's own comment; owners delete any (CT5).").gives_nothing()).noted("delete-comment"),
+        route("GET /api/v1/trees/{tree}/threads/{thread}/comments/{comment}/picture", Action::ReadComments, get(comments::picture), About::new("What was seen.").gives_file("image/*")),
+        route("GET /api/v1/trees/{tree}/review.html", Action::ReadComments, get(reviews::page).layer(at_once(MAX_REVIEWS)), About::new("What people say of a tree as one page to read and print (CT6).").asks::<reviews::Asked>().gives_file("text/html")).noted("review"),
         route("PUT /api/v1/trees/{tree}/favourite", Action::SeeTree, put(collections::like), About::new("It is a favourite of whoever asks.").gives_nothing()),
         route("DELETE /api/v1/trees/{tree}/favourite", Action::SeeTree, delete(collections::unlike), About::new("It is none.").gives_nothing()),
         route("GET /api/v1/tags", Action::SeeLibrary, get(collections::tags), About::new("All tags.").gives::<Vec<TreeTag>>(200)),

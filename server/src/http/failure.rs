@@ -95,7 +95,7 @@ impl Failure {
 impl From<Problem> for Failure {
     fn from(problem: Problem) -> Self {
         let status = match (problem.reason, problem.code) {
-            (Reason::Forbidden | Reason::OtherSite, _) => StatusCode::FORBIDDEN,
+            (Reason::Forbidden | Reason::OtherSite | Reason::TreeLocked, _) => StatusCode::FORBIDDEN,
             (Reason::WrongMethod, _) => StatusCode::METHOD_NOT_ALLOWED,
             (Reason::TooOften, _) => StatusCode::TOO_MANY_REQUESTS,
             (Reason::NotLetIn | Reason::WrongPassword, _) => StatusCode::UNAUTHORIZED,
@@ -136,6 +136,11 @@ impl From<StoreError> for Failure {
                 let sentence = "Somebody else has changed the tree meanwhile; look at it and try again.";
                 let problem = Problem::new(Reason::Stale, sentence);
                 return problem.at(header::IF_MATCH.as_str(), "the ETag of the tree as it is now").into();
+            }
+            StoreError::Full => {
+                return Problem::new(Reason::TooMany, "There is no room for more of this.")
+                    .at(BODY, "fewer of them")
+                    .into();
             }
             StoreError::Cycle => {
                 let problem = Problem::new(Reason::CollectionInItself, "A collection cannot lie in itself.");

@@ -21,7 +21,7 @@ use super::{
 };
 use crate::{
     access::{Action, Caller, Object, Peer},
-    store::Library,
+    store::{Library, Locks},
 };
 
 /// The key of the client that asks, as in its hello.
@@ -53,7 +53,8 @@ const HEADERS: [(HeaderName, HeaderValue); 5] = [
 
 pub(super) async fn headers(mut response: Response) -> Response {
     for (name, value) in HEADERS {
-        response.headers_mut().insert(name, value);
+        // What is stricter was said by whoever answers.
+        response.headers_mut().entry(name).or_insert(value);
     }
     // Answers of the API change all the time; whoever knows better has said so.
     response.headers_mut().entry(header::CACHE_CONTROL).or_insert(HeaderValue::from_static("no-store"));
@@ -161,7 +162,24 @@ impl Shared {
                 tree.as_ref().map_or(Object::Loose, |tree| Object::Tree(&tree.id))
             }
         };
-        if caller.may(action, object) { Ok(()) } else { Err(espalier_session::forbidden().into()) }
+        if !caller.may(action, object) {
+            return Err(espalier_session::forbidden().into());
+        }
+        // Who may do less is refused already, and owners are not locked out.
+        if caller.role().under_lock() >= action.least() {
+            return Ok(());
+        }
+        let lock = match named {
+            Named::Server => None,
+            Named::Tree(id) => self.store.lock_of(id).await?,
+            Named::Session(name) => self.store.lock_of_session(name).await?,
+        };
+        match lock {
+            None => Ok(()),
+            Some(by) => Err(Problem::new(Reason::TreeLocked, format!("{by} has locked the tree."))
+                .at("tree", "a tree that is not locked")
+                .into()),
+        }
     }
 }
 

@@ -5,6 +5,7 @@ mod addresses;
 mod audit;
 mod client;
 mod collections;
+mod comments;
 mod description;
 mod entry;
 mod exports;
@@ -15,10 +16,12 @@ mod jobs;
 mod keys;
 mod limit;
 mod links;
+mod locks;
 mod obstacles;
 mod origin;
 mod proxies;
 mod ranges;
+mod reviews;
 mod revision;
 mod schematic;
 mod sessions;
@@ -40,9 +43,11 @@ use espalier_proto::Reason;
 use tokio::sync::Mutex;
 use tower::ServiceBuilder;
 
+pub(crate) use self::comments::Said as SaidComment;
 pub use self::{
     access_log::Requests,
     audit::described,
+    comments::CommentsWritten,
     entry::Logins,
     exports::Progresses,
     keys::{KEPT, UnderWay},
@@ -100,6 +105,8 @@ pub struct Shared {
     pub tries_for: Arc<Tries<SecretHash>>,
     /// How many sessions were begun, by whom.
     pub sessions_begun: Arc<SessionsBegun>,
+    /// How many comments were written, by whom.
+    pub comments_written: Arc<CommentsWritten>,
     /// How often people have logged in.
     pub logins: Arc<Logins>,
     /// Checks passwords.

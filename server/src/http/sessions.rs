@@ -36,7 +36,7 @@ use crate::{
     memory::{self, Full, Growing, Need, Use},
     name,
     pool::Class,
-    store::{self, Library, Store, StoreError, StoredTree, TreeDocument},
+    store::{self, Library, Locks, Store, StoreError, StoredTree, TreeDocument},
 };
 
 /// Sessions that somebody from elsewhere begins in two minutes.
@@ -253,7 +253,8 @@ async fn connect(mut socket: WebSocket, shared: &Shared, name: &str, caller: Cal
     let (code, sentence) = match live::open(&mut socket, &shared.sessions, name).await {
         Ok(Some(session)) => {
             let entrant = caller.entrant();
-            return live::serve(socket, session, entrant, |grants| let_out(shared, caller, grants)).await;
+            return live::serve(socket, session, entrant, |grants| let_out(shared, name, caller, grants))
+                .await;
         }
         Ok(None) => (CloseCode::UnknownSession, "There is no such session."),
         Err(OpenError::Memory(full)) => {
@@ -277,19 +278,25 @@ async fn connect(mut socket: WebSocket, shared: &Shared, name: &str, caller: Cal
 
 /// Waits until somebody is let in no longer, and says so (`AC4`); tells meanwhile what they may do when that changes
 /// (`AU3`).
-async fn let_out(shared: &Shared, mut caller: Caller, grants: Grants) -> String {
+async fn let_out(shared: &Shared, session: &str, caller: Caller, grants: Grants) -> String {
     if !caller.is_revocable() {
         return pending().await;
     }
     let mut ticks = interval(LOOKING);
+    // As they came in.
+    let mut role = caller.role();
     loop {
         match caller.now(&*shared.store).await {
-            Ok(Some(now)) if now != caller => {
-                grants.grant(now.role()).await;
-                caller = now;
+            Ok(Some(caller)) => {
+                // A database that cannot be read locks nobody out.
+                let lock = shared.store.lock_of_session(session).await.unwrap_or_default();
+                let now = if lock.is_some() { caller.role().under_lock() } else { caller.role() };
+                if now != role {
+                    grants.grant(now).await;
+                    role = now;
+                }
             }
-            // A database that cannot be read lets nobody out.
-            Ok(Some(_)) | Err(_) => {}
+            Err(_) => {}
             Ok(None) => return access::not_let_in().in_close(),
         }
         ticks.tick().await;

@@ -1,4 +1,5 @@
 mod audit;
+mod comments;
 mod files;
 mod jobs;
 mod keys;
@@ -70,6 +71,7 @@ async fn shared() -> Shared {
         tries: Arc::default(),
         tries_for: Arc::default(),
         sessions_begun: Arc::default(),
+        comments_written: Arc::default(),
         logins: Arc::default(),
         passwords: Arc::default(),
         opening: Arc::default(),
@@ -140,6 +142,8 @@ fn filled(path: &str) -> String {
         .replace("{version}", "1")
         .replace("{job}", JOB)
         .replace("{link}", "a-link")
+        .replace("{thread}", "1")
+        .replace("{comment}", "1")
         .replace("{seed}", "1")
 }
 

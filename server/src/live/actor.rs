@@ -8,7 +8,9 @@ use std::{
 };
 
 use espalier_proto::{Pause, version::CloseCode};
-use espalier_session::{ActId, ClientId, Input, JournalEntry, Output, PredictionRun, Session, Work};
+use espalier_session::{
+    ActId, Anchor, AnchorId, ClientId, Input, JournalEntry, Output, PredictionRun, Session, Work,
+};
 use tokio::{
     sync::{mpsc, oneshot},
     time::{Instant, sleep_until, timeout},
@@ -19,6 +21,7 @@ use super::{
     handle::{Outcome, Request, SessionFigures, SessionHandle},
     leaving::{End, Standing},
     outbox::{Outbox, Outgoing},
+    pins::pins_of_session,
     readers::Readers,
     restoring::Opened,
     turn::turn_of,
@@ -83,6 +86,8 @@ pub(super) struct Actor {
     readers: Readers,
     acts: BTreeMap<u64, oneshot::Sender<Outcome>>,
     next_act: u64,
+    anchors: BTreeMap<u64, oneshot::Sender<Option<Anchor>>>,
+    next_anchor: u64,
     wake_at: Option<Instant>,
     /// When somebody was here last.
     empty_since: Instant,
@@ -120,6 +125,8 @@ impl Actor {
             readers,
             acts: BTreeMap::new(),
             next_act: 1,
+            anchors: BTreeMap::new(),
+            next_anchor: 1,
             wake_at: None,
             empty_since: Instant::now(),
             patience: UNVISITED,
@@ -171,6 +178,7 @@ impl Actor {
 
     async fn live(&mut self) -> Result<End, Failed> {
         self.drain()?;
+        self.read_pins().await?;
         loop {
             let wake_at = self.wake_at;
             let was_empty = self.clients.is_empty();
@@ -205,11 +213,23 @@ impl Actor {
         }
     }
 
+    /// What people have said of the tree before the session was opened.
+    async fn read_pins(&mut self) -> Result<(), Failed> {
+        match pins_of_session(&self.name, &*self.services.store).await {
+            Ok(places) if places.is_empty() => Ok(()),
+            Ok(places) => self.handle(Input::Commented { places, threads: Vec::new() }),
+            Err(error) => {
+                tracing::warn!(session = self.name, %error, "comments are shown without their places");
+                Ok(())
+            }
+        }
+    }
+
     fn standing(&self) -> Standing {
         Standing {
             is_empty: self.clients.is_empty(),
             is_still: self.under_way == 0,
-            owes_answers: !self.readers.is_empty() || !self.acts.is_empty(),
+            owes_answers: !self.readers.is_empty() || !self.acts.is_empty() || !self.anchors.is_empty(),
             is_settled: self.session.is_settled(),
             is_kept: self.session.is_idle(),
             paused: self.session.paused(),
@@ -260,7 +280,18 @@ impl Actor {
                 self.acts.insert(act, answer);
                 Input::Act(ActId(act), principal, command)
             }
+            Request::Anchor(row, answer) => {
+                let anchor = self.next_anchor;
+                self.next_anchor += 1;
+                self.anchors.insert(anchor, answer);
+                Input::Anchor(AnchorId(anchor), row)
+            }
+            Request::Commented(places, threads) => Input::Commented { places, threads },
             // Whoever asked may have gone meanwhile.
+            Request::Pins(answer) => {
+                let _ = answer.send(self.session.pins().collect());
+                return None;
+            }
             Request::Parameters(answer) => {
                 let _ = answer.send(self.session.parameters().clone());
                 return None;
@@ -365,6 +396,11 @@ impl Actor {
             Output::Acted { act, outcome } => {
                 if let Some(answer) = self.acts.remove(&act.0) {
                     let _ = answer.send(outcome);
+                }
+            }
+            Output::Anchored(id, anchor) => {
+                if let Some(answer) = self.anchors.remove(&id.0) {
+                    let _ = answer.send(anchor);
                 }
             }
             Output::WakeAt(at) => self.wake_at = Some(self.services.started + Duration::from_millis(at)),

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use espalier_proto::{Command, Mesh, Pause, PlacedObstacle, Problem, access::Role};
-use espalier_session::{ClientId, Entrant, Principal, ReadDocument};
+use espalier_proto::{Command, Mesh, Pause, PlacedObstacle, Problem, access::Role, comment::Pin};
+use espalier_session::{Anchor, ClientId, Entrant, Place, Principal, ReadDocument};
 use espalier_settings::ParameterValues;
 use tokio::sync::{mpsc, oneshot};
 use tokio_util::sync::CancellationToken;
@@ -31,6 +31,12 @@ pub(super) enum Request {
     Parameters(oneshot::Sender<ParameterValues>),
     Mesh(u32, oneshot::Sender<Option<Arc<Mesh>>>),
     People(oneshot::Sender<Vec<Principal>>),
+    /// The place of a row.
+    Anchor(u32, oneshot::Sender<Option<Anchor>>),
+    /// What people say of the tree has changed: all that is pinned, and the threads.
+    Commented(Vec<Place>, Vec<u32>),
+    /// Where comments are pinned now.
+    Pins(oneshot::Sender<Vec<Pin>>),
     /// What rests because the server did not outlive it is to go on; whether anything does.
     GoOn(oneshot::Sender<bool>),
     Look(oneshot::Sender<SessionFigures>),
@@ -101,6 +107,25 @@ impl SessionHandle {
         let (answer, answered) = oneshot::channel();
         self.send(Request::Act(principal, Box::new(command), answer)).await?;
         answered.await.map_err(|_| Ended)
+    }
+
+    /// The place of a row, if a living metamer has it.
+    pub async fn anchor(&self, row: u32) -> Result<Option<Anchor>, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Anchor(row, answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// Where comments are pinned, as clients were told last.
+    pub(super) async fn pins(&self) -> Result<Vec<Pin>, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Pins(answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// Tells that what people say of the tree has changed.
+    pub(super) async fn comment(&self, places: Vec<Place>, threads: Vec<u32>) -> Result<(), Ended> {
+        self.send(Request::Commented(places, threads)).await
     }
 
     /// Who is here, once for each of their clients.

@@ -5,6 +5,7 @@ mod handle;
 mod leaving;
 mod loading;
 mod outbox;
+mod pins;
 mod readers;
 mod registry;
 mod restoring;
@@ -13,6 +14,7 @@ mod turn;
 
 pub use handle::{Ended, SessionFigures, SessionHandle};
 pub use loading::open;
+pub use pins::{StoredPin, pins_of};
 pub use readers::Unread;
 pub use registry::{Looked, Sessions};
 pub use restoring::OpenError;

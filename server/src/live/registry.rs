@@ -7,7 +7,8 @@ use std::{
     time::Duration,
 };
 
-use espalier_session::{Principal, Session};
+use espalier_proto::comment::Pin;
+use espalier_session::{Place as Pinned, Principal, Session};
 use futures_util::future::join_all;
 use tokio::{
     sync::OnceCell,
@@ -145,6 +146,22 @@ impl Sessions {
             Some(session) => session.people().await.unwrap_or_default(),
             None => Vec::new(),
         }
+    }
+
+    /// Tells a session, where it is in memory, that what people say of its tree has changed.
+    pub async fn comment(&self, name: &str, places: Vec<Pinned>, threads: Vec<u32>) {
+        let slot = self.0.slots().get(name).cloned();
+        if let Some(session) = slot.as_ref().and_then(|slot| slot.get()) {
+            // One that has ended reads all of it when it is opened again.
+            let _ = session.comment(places, threads).await;
+        }
+    }
+
+    /// Where the comments of a session's tree are pinned now; nothing where it is not in memory.
+    pub async fn pins(&self, name: &str) -> Option<Vec<Pin>> {
+        let slot = self.0.slots().get(name).cloned();
+        let session = slot.as_ref().and_then(|slot| slot.get())?;
+        session.pins().await.ok()
     }
 
     /// All sessions in memory with their figures, in the order of their names.

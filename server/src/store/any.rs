@@ -8,10 +8,11 @@ use espalier_session::JournalEntry;
 #[cfg(test)]
 use super::MemoryStore;
 use super::{
-    Answer, AnswerKey, Answering, Answers, Audit, Collection, CollectionChange, Commits, Damage, Event,
-    Finding, Group, Groups, Lease, Library, MostAnswers, NewSession, NewSnapshot, NewTree, NewVersion, Noted,
-    Pass, PassKind, Passes, Picture, SessionTree, SqliteStore, Store, StoreError, StoredSession, StoredTree,
-    StoredVersion, TreeChange, TreeDocument, TreeQuery, User, UserChange, Users,
+    Answer, AnswerKey, Answering, Answers, Audit, Collection, CollectionChange, CommentChange, Comments,
+    Commits, Damage, Event, Finding, Group, Groups, Lease, Library, Locks, MostAnswers, NewComment,
+    NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes, Picture, SessionTree,
+    SqliteStore, Store, StoreError, StoredSession, StoredThread, StoredTree, StoredVersion, TreeChange,
+    TreeDocument, TreeQuery, User, UserChange, Users,
 };
 use crate::access::SecretHash;
 
@@ -241,6 +242,99 @@ impl Passes for AnyStore {
 
     async fn purge_passes(&self, now: &str) -> Result<(), StoreError> {
         delegate!(self.purge_passes(now))
+    }
+}
+
+impl Comments for AnyStore {
+    async fn add_thread(
+        &self,
+        tree: &str,
+        pin: Option<String>,
+        first: NewComment,
+    ) -> Result<u32, StoreError> {
+        delegate!(self.add_thread(tree, pin, first))
+    }
+
+    async fn add_comment(
+        &self,
+        tree: &str,
+        thread: u32,
+        comment: NewComment,
+    ) -> Result<Option<u32>, StoreError> {
+        delegate!(self.add_comment(tree, thread, comment))
+    }
+
+    async fn change_comment(
+        &self,
+        tree: &str,
+        thread: u32,
+        comment: u32,
+        change: CommentChange,
+    ) -> Result<bool, StoreError> {
+        delegate!(self.change_comment(tree, thread, comment, change))
+    }
+
+    async fn resolve_thread(
+        &self,
+        tree: &str,
+        thread: u32,
+        resolved: Option<(String, String)>,
+    ) -> Result<bool, StoreError> {
+        delegate!(self.resolve_thread(tree, thread, resolved))
+    }
+
+    async fn threads(
+        &self,
+        tree: &str,
+        limit: u32,
+        before: Option<u32>,
+    ) -> Result<Vec<StoredThread>, StoreError> {
+        delegate!(self.threads(tree, limit, before))
+    }
+
+    async fn thread(&self, tree: &str, thread: u32) -> Result<Option<StoredThread>, StoreError> {
+        delegate!(self.thread(tree, thread))
+    }
+
+    async fn pins(&self, tree: &str) -> Result<Vec<(u32, String)>, StoreError> {
+        delegate!(self.pins(tree))
+    }
+
+    async fn comment_picture(
+        &self,
+        tree: &str,
+        thread: u32,
+        comment: u32,
+    ) -> Result<Option<Picture>, StoreError> {
+        delegate!(self.comment_picture(tree, thread, comment))
+    }
+
+    async fn see_thread(
+        &self,
+        tree: &str,
+        person: &str,
+        thread: u32,
+        comment: u32,
+    ) -> Result<bool, StoreError> {
+        delegate!(self.see_thread(tree, person, thread, comment))
+    }
+
+    async fn seen_threads(&self, tree: &str, person: &str) -> Result<Vec<(u32, u32)>, StoreError> {
+        delegate!(self.seen_threads(tree, person))
+    }
+}
+
+impl Locks for AnyStore {
+    async fn lock_tree(&self, tree: &str, by: Option<String>) -> Result<bool, StoreError> {
+        delegate!(self.lock_tree(tree, by))
+    }
+
+    async fn lock_of(&self, tree: &str) -> Result<Option<String>, StoreError> {
+        delegate!(self.lock_of(tree))
+    }
+
+    async fn lock_of_session(&self, session: &str) -> Result<Option<String>, StoreError> {
+        delegate!(self.lock_of_session(session))
     }
 }
 

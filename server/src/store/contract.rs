@@ -2,9 +2,11 @@
 
 mod answers;
 mod audit;
+mod comments;
 mod finding;
 mod groups;
 mod library;
+mod locks;
 mod passes;
 mod users;
 
@@ -17,6 +19,10 @@ use self::answers::{
     an_answer_is_kept_for_one_request, answers_of_all_callers_are_bounded, answers_of_one_caller_are_bounded,
 };
 use self::audit::{events_are_listed_newest_first, events_that_come_again_are_counted};
+use self::comments::{
+    comments_are_bounded, comments_change_and_go, comments_go_with_their_tree,
+    threads_are_listed_newest_first, what_is_seen_of_threads_only_grows,
+};
 use self::finding::{
     collections_lie_in_each_other, every_order_goes_page_by_page, filters_hold_at_once,
     searching_is_looking_into_every_text, tags_and_favourites_find_trees,
@@ -29,18 +35,21 @@ use self::library::{
     trees_are_listed_newest_first, trees_come_back_whole, versions_are_restored_and_copied,
     what_is_deleted_comes_back_whole, what_was_deleted_long_ago_goes,
 };
+use self::locks::a_tree_is_locked_with_its_sessions;
 use self::passes::{
     a_pass_for_a_tree_goes_with_it, a_pass_may_allow_something_else, one_of_those_who_take_a_pass_has_it,
     passes_are_listed_by_kind, passes_let_in_until_they_expire,
 };
 use self::users::{a_login_has_the_role_of_its_user, a_name_is_one_person};
 use super::{
-    Answers, Audit, Damage, Finding, Groups, Lease, Library, NewSession, NewSnapshot, Passes, Store,
-    StoreError, StoredSession, Users,
+    Answers, Audit, Comments, Damage, Finding, Groups, Lease, Library, Locks, NewSession, NewSnapshot,
+    Passes, Store, StoreError, StoredSession, Users,
 };
 
 /// A store whose rows a test can damage.
-pub trait Breakable: Store + Library + Finding + Passes + Users + Groups + Audit + Answers {
+pub trait Breakable:
+    Store + Library + Finding + Passes + Users + Groups + Audit + Answers + Comments + Locks
+{
     /// Changes a command in the row of the journal that begins with an entry.
     async fn break_journal(&self, session: &str, first: u64);
     /// Deletes the row of the journal that begins with an entry.
@@ -121,6 +130,12 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         an_answer_is_kept_for_one_request,
         answers_of_one_caller_are_bounded,
         answers_of_all_callers_are_bounded,
+        threads_are_listed_newest_first,
+        comments_change_and_go,
+        what_is_seen_of_threads_only_grows,
+        comments_are_bounded,
+        comments_go_with_their_tree,
+        a_tree_is_locked_with_its_sessions,
         a_closed_store_takes_nothing,
     );
 }

@@ -2,9 +2,11 @@
 
 mod answers;
 mod audit;
+mod comments;
 mod finding;
 mod groups;
 mod library;
+mod locks;
 mod passes;
 mod users;
 
@@ -46,6 +48,10 @@ struct Kept {
     /// By their numbers.
     events: BTreeMap<u64, Noted>,
     last_event: u64,
+    /// Who has locked which tree.
+    locks: BTreeMap<String, String>,
+    /// By their trees and numbers.
+    threads: BTreeMap<String, BTreeMap<u32, comments::Thread>>,
     /// By their folded names.
     users: BTreeMap<String, User>,
     /// By their folded names.

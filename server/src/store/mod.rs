@@ -1,11 +1,12 @@
 //! What is kept: sessions with their journals and snapshots, and the library of trees.
 //!
-//! [`Store`], [`Library`], [`Finding`], [`Passes`], [`Users`], [`Groups`], [`Audit`] and [`Answers`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
+//! [`Store`], [`Library`], [`Finding`], [`Passes`], [`Users`], [`Groups`], [`Audit`], [`Answers`], [`Comments`] and [`Locks`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
 //! does, the model in `memory.rs` the second. The rest of the server knows [`AnyStore`] alone.
 
 mod answers;
 mod any;
 mod audit;
+mod comments;
 #[cfg(test)]
 mod contract;
 mod finding;
@@ -13,6 +14,7 @@ mod folding;
 mod groups;
 mod lease;
 mod library;
+mod locks;
 #[cfg(test)]
 mod memory;
 mod passes;
@@ -29,6 +31,10 @@ pub use self::{
     answers::{Answer, AnswerKey, Answering, Answers, MostAnswers},
     any::AnyStore,
     audit::{Audit, DONE, EXPORT, Event, MOST_EVENTS, Noted},
+    comments::{
+        CommentChange, Comments, MOST_COMMENTS, MOST_PICTURES, MOST_THREADS, NewComment, StoredComment,
+        StoredThread,
+    },
     finding::{Collection, CollectionChange, Finding, Sort, TreePlace, TreeQuery},
     folding::folded,
     groups::{Group, Groups},
@@ -37,6 +43,7 @@ pub use self::{
         Contents, Deletion, Library, NewTree, NewVersion, Picture, Saved, SessionTree, StoredTree,
         StoredVersion, TreeChange, TreeDocument,
     },
+    locks::Locks,
     passes::{Pass, PassKind, Passes},
     sqlite::{CareError, LibraryFile, OpenError, Report, SqliteStore, backup, check, restore},
     users::{User, UserChange, Users},
@@ -149,6 +156,9 @@ pub enum StoreError {
     /// A collection was to lie in itself.
     #[error("a collection cannot lie in itself")]
     Cycle,
+    /// There is no room for more of this.
+    #[error("there is no room for more of this")]
+    Full,
     /// Somebody goes by the name already.
     #[error("somebody goes by that name already")]
     Taken,
@@ -202,6 +212,7 @@ impl StoreError {
             Self::NotFound(_) => "it is not there",
             Self::Stale => "it has changed meanwhile",
             Self::Cycle => "a collection cannot lie in itself",
+            Self::Full => "there is no room for more of this",
             Self::Taken => "somebody goes by that name already",
             Self::Gone(_) => "its database file has been moved, deleted or replaced",
             Self::Closed => "it is stopping",

@@ -22,6 +22,11 @@ export class Rights {
     this.me = kept<Me | null>(store, "me", null, isMe);
   }
 
+  /** Whether they may say what they think of trees. */
+  get mayComment(): boolean {
+    return may(this.me.value?.role ?? "owner", "Comment");
+  }
+
   /** Whether they may begin trees, and add to the library. */
   get mayBegin(): boolean {
     return this.mayChange.value && this.onlyTree.value === null;

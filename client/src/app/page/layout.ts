@@ -28,7 +28,8 @@ export const PANEL_NAMES = [
   "structure",
   "scene",
 ] as const;
-export type PanelName = (typeof PANEL_NAMES)[number];
+/** Panels of the tool bar, and the one of comments, which everybody has. */
+export type PanelName = (typeof PANEL_NAMES)[number] | "comments";
 
 /** What the library shows: its trees, those to begin new ones with, or those that can still be taken back. */
 export const SECTION_NAMES = ["trees", "templates", "deleted"] as const;

@@ -20,6 +20,7 @@ import type { Part } from "./part";
 import { PartView } from "./part-view";
 import {
   CHIPS,
+  COMMENTS,
   DRAW_MODE_LEGEND,
   FILE_DROP,
   loadPartsWhenIdle,
@@ -47,7 +48,8 @@ export function App({ studio }: { studio: Studio }) {
   const shown = sheet === null ? null : SHEETS[sheet];
   const bare = studio.layout.bare.value;
   const FileDrop = usePart(studio, FILE_DROP, studio.rights.mayBegin);
-  const panel = bare || !studio.rights.mayChange.value ? null : studio.layout.panel.value;
+  const pulled = studio.layout.panel.value;
+  const panel = bare || (pulled !== "comments" && !studio.rights.mayChange.value) ? null : pulled;
   return (
     <div
       class="app"
@@ -98,6 +100,7 @@ function Workspace({ studio }: { studio: Studio }) {
   }, [studio]);
   const tool = useToolViews(studio);
   const company = usePart(studio, TOGETHER, (studio.document.value?.people ?? 1) > 1);
+  const CommentPins = usePart(studio, COMMENTS, hasComments(studio));
   const prediction = usePart(studio, PREDICTION, studio.branches.prediction.rows.value !== null);
   const repeats = descriptorOf(studio.tools.chosen.value).isSymmetric === true && isRepeating(studio);
   const SymmetryMark = usePart(studio, SYMMETRY, repeats);
@@ -118,6 +121,7 @@ function Workspace({ studio }: { studio: Studio }) {
       {tool?.views.Marks && <tool.views.Marks tool={tool.made} page={studio} />}
       {prediction && <prediction.PredictionMarks studio={studio} />}
       <HoldRing studio={studio} />
+      {CommentPins && hasComments(studio) && <CommentPins studio={studio} />}
       {company && <company.Company studio={studio} />}
       {VainMark && <VainMark studio={studio} />}
       {studio.layout.bare.value ? <ShowAll studio={studio} /> : <Bars studio={studio} />}
@@ -125,6 +129,16 @@ function Workspace({ studio }: { studio: Studio }) {
       {prediction && <prediction.PredictionBar studio={studio} />}
       <HindranceCard studio={studio} />
     </main>
+  );
+}
+
+/** Whether anything is said of the tree, as far as it is known, or somebody looks whether it is. */
+function hasComments({ comments, layout }: Studio): boolean {
+  return (
+    comments.pins.value.size > 0 ||
+    comments.stale.value.size > 0 ||
+    layout.panel.value === "comments" ||
+    comments.conversation.value !== null
   );
 }
 

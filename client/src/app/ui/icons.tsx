@@ -224,6 +224,14 @@ export const BrushIcon = () => (
   </Icon>
 );
 
+/** A speech bubble. */
+export const CommentIcon = () => (
+  <Icon>
+    <path d="M5.500 4.500h13a2 2 0 0 1 2 2v8a2 2 0 0 1-2 2H11l-4.500 4v-4h-1a2 2 0 0 1-2-2v-8a2 2 0 0 1 2-2Z" />
+    <path d="M8 9h8M8 12.500h5" />
+  </Icon>
+);
+
 export const LeafIcon = () => (
   <Icon>
     <path d="M6.500 17.500c-3-7 2-13 13.500-13.500.5 11.500-6 16.500-13.500 13.500Z" />

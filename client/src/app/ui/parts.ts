@@ -25,6 +25,7 @@ export const PANELS: Readonly<Record<PanelName, Part<StudioView>>> = {
   wind: new Part(async () => (await import("./panels/wind-panel")).WindPanel),
   structure: new Part(async () => (await import("./panels/structure-panel")).StructurePanel),
   scene: new Part(async () => (await import("./panels/scene-panel")).ScenePanel),
+  comments: new Part(async () => (await import("./panels/comments-panel")).CommentsPanel),
 };
 
 export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
@@ -140,6 +141,9 @@ export const FILE_DROP = new Part(async () => (await import("./notices/file-drop
 /** Others who have the tree open, once there are any. */
 export const TOGETHER = new Part(() => import("./together/company"));
 
+/** What people say of the tree, at its places. */
+export const COMMENTS = new Part(async () => (await import("./comments/comment-pins")).CommentPins);
+
 export const RECENT = new Part(async () => (await import("./notices/recent-trees")).RecentTrees);
 
 /** All of them, those first that are needed first. */
@@ -156,6 +160,7 @@ const ALL: readonly Part<unknown>[] = [
   VAIN,
   SUN,
   TOGETHER,
+  COMMENTS,
   RECENT,
   ...Object.values(SHEETS).map(({ part }) => part),
 ];

@@ -5,8 +5,8 @@ import { useEffect } from "preact/hooks";
 const size = signal({ width: globalThis.innerWidth ?? 1024, height: globalThis.innerHeight ?? 768 });
 
 /** The sizes below which the bars fold, in pixels: as they are, and with the names of their buttons. */
-const BARE = { toolBar: 780, width: 640, height: 560 };
-const NAMED = { toolBar: 1040, width: 640, height: 780 };
+const BARE = { toolBar: 850, width: 640, height: 560 };
+const NAMED = { toolBar: 1112, width: 640, height: 780 };
 
 /** Whether the tool bar has no room for all its buttons. */
 export function isToolBarFolded(names: boolean): boolean {

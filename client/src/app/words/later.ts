@@ -4,6 +4,7 @@ import { BRANCHES } from "./branches";
 import { BRUSH } from "./brush";
 import { CHIPS } from "./chips";
 import { COLOURS } from "./colours";
+import { COMMENTS } from "./comments";
 import { CONTROLS } from "./controls";
 import { DRAWMODE } from "./drawmode";
 import { ENTRY } from "./entry";
@@ -31,6 +32,7 @@ import { WIND } from "./wind";
 /** The texts of the parts that are loaded when they are first needed; a page loads them in one language. */
 export const LATER = {
   ...COLOURS,
+  ...COMMENTS,
   ...DRAWMODE,
   ...ARCHITECTURE,
   ...BRUSH,

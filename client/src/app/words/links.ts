@@ -1,5 +1,11 @@
 /** Letting others in for one tree. */
 export const LINKS = {
+  "links.lock": ["Lock the tree", "Baum sperren"],
+  "links.unlock": ["Unlock the tree", "Baum entsperren"],
+  "links.locked": [
+    "Locked by {name}: others may look and comment, and only owners draw.",
+    "Gesperrt von {name}: Andere dürfen ansehen und kommentieren, nur wer den Baum besitzt, zeichnet.",
+  ],
   "links.head": ["Invite to this tree", "Zu diesem Baum einladen"],
   "links.advice": [
     "A link lets one device in, once, and only to this tree.",

@@ -7,5 +7,6 @@ export const PANELS = {
   "panels.background": ["Background", "Hintergrund"],
   "panels.wind": ["Wind", "Wind"],
   "panels.structure": ["Structure", "Aufbau"],
+  "panels.comments": ["Comments", "Kommentare"],
   "panels.scene": ["Scene", "Szene"],
 } as const;

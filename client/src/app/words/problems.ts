@@ -192,6 +192,14 @@ export const REFUSALS = {
     "This future is damaged and cannot be taken up.",
     "Diese Zukunft ist beschädigt und lässt sich nicht aufnehmen.",
   ],
+  "problems.tree-locked": [
+    "The owner has locked this tree: it can be looked at and commented on.",
+    "Dieser Baum ist gesperrt, wer ihn besitzt, hat das so gewollt: Du kannst ihn ansehen und kommentieren.",
+  ],
+  "problems.comment-stays": [
+    "A comment can be changed for 15 minutes only. Delete it, or write another one.",
+    "Ein Kommentar lässt sich nur 15 Minuten lang ändern. Lösch ihn oder schreib einen neuen.",
+  ],
   "problems.collection-in-itself": [
     "A collection cannot lie in itself.",
     "Eine Sammlung kann nicht in sich selbst liegen.",

@@ -74,6 +74,21 @@ impl Futures {
         self.all.iter().position(|future| future.line == line)
     }
 
+    /// The last step that a line shares with the present one, beyond which it goes another way; nothing of a line that is
+    /// not there. The present line shares all its steps.
+    pub fn shared_with(&self, line: u32) -> Option<u32> {
+        if line == self.present {
+            return Some(u32::MAX);
+        }
+        let mut future = &self.all[self.position(line)?];
+        let mut step = future.fork.step;
+        while let Some(on) = future.on {
+            future = &self.all[self.position(on)?];
+            step = step.min(future.fork.step);
+        }
+        Some(step)
+    }
+
     /// The futures to be taken one after the other to come to a line, that itself last.
     fn way_to(&self, line: u32) -> Option<Vec<u32>> {
         let mut way = vec![line];

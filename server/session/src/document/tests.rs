@@ -8,6 +8,7 @@ pub(super) mod forks;
 mod generating;
 mod histories;
 mod looks;
+mod pins;
 mod programmes;
 mod shaping;
 mod strokes;

@@ -49,6 +49,7 @@ impl Session {
         }
         self.queue.came_back(&work.orders);
         self.take_figures(&mut work);
+        self.unsettle_pins();
         self.came_home(work.hold);
         self.home = Some(work);
         // Steps that were expected and not taken count as well: a refused command leaves no other trace.

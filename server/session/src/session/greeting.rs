@@ -116,6 +116,7 @@ impl Session {
         }
         // As all others have it: what has changed since comes to everybody.
         self.send(client, &ServerMessage::Timeline(Box::new(self.told_timeline.clone())));
+        self.show_pins(client);
         // Who resumes has been notified before, for the epoch is the same (`OP3`).
         let notices = if resumed { Vec::new() } else { self.notices.clone() };
         let is_notified = !notices.is_empty();

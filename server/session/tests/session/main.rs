@@ -4,6 +4,7 @@
 
 mod bending;
 mod commands;
+mod comments;
 mod covering;
 mod cutting;
 mod deeds;

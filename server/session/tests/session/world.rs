@@ -9,8 +9,8 @@ use espalier_proto::{
     version::{CloseCode, PROTOCOL_VERSION},
 };
 use espalier_session::{
-    Access, ActId, ClientId, Document, Entrant, Input, JournalEntry, Output, PredictionRun, Principal,
-    ReadDocument, ReadId, Session, Tail, Urgency, Work,
+    Access, ActId, Anchor, ClientId, Document, Entrant, Input, JournalEntry, Output, PredictionRun,
+    Principal, ReadDocument, ReadId, Session, Tail, Urgency, Work,
 };
 use serde_json::{Value, json};
 
@@ -64,6 +64,7 @@ pub struct World {
     /// How often somebody has had the notices.
     pub notified: usize,
     answers: Vec<Input>,
+    pub anchors: Vec<Option<Anchor>>,
     pub documents: Vec<(ReadId, ReadDocument)>,
     pub acts: Vec<(ActId, Result<Option<PlacedObstacle>, Problem>)>,
     pub writing: Option<(u64, Vec<JournalEntry>)>,
@@ -102,6 +103,7 @@ impl World {
             is_full: false,
             notified: 0,
             answers: Vec::new(),
+            anchors: Vec::new(),
             documents: Vec::new(),
             acts: Vec::new(),
             writing: None,
@@ -223,6 +225,7 @@ impl World {
                     self.answers.push(Input::SnapshotKept(through));
                 }
             }
+            Output::Anchored(_, anchor) => self.anchors.push(anchor),
             Output::Notified => self.notified += 1,
             Output::Acted { act, outcome } => self.acts.push((act, outcome)),
             Output::Document { read, document } => self.documents.push((read, document)),

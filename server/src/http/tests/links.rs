@@ -139,3 +139,30 @@ async fn ik3_a_link_is_shown_once_also_to_whoever_has_its_key() {
     let links = asked(&server, request(&Method::GET, LINKS), "").await.1;
     assert_eq!(links.as_array().unwrap().len(), 1);
 }
+
+#[tokio::test]
+async fn ac16_a_locked_tree_is_changed_by_owners_alone() {
+    let (server, store) = server().await;
+    let [owner, editor] = [token(&store, Role::Owner, None).await, token(&store, Role::Editor, None).await];
+    let lock = "/api/v1/trees/ash/lock";
+    let of = |who: &str, method: &Method, path: &str| request_of(who, method, path);
+    assert_eq!(asked(&server, of(&editor, &Method::PUT, lock), "").await.0, 403, "editors lock nothing");
+    assert_eq!(asked(&server, of(&editor, &Method::GET, lock), "").await, (200, json!({})));
+    assert_eq!(asked(&server, of(&owner, &Method::PUT, lock), "").await, (200, json!({ "by": "script" })));
+    let body = r#"{"name":"Ash"}"#;
+    let change = async |who: &str, tree: &str| {
+        asked(&server, of(who, &Method::PATCH, &format!("/api/v1/trees/{tree}")), body).await
+    };
+    let (status, problem) = change(&editor, "ash").await;
+    assert_eq!((status, &problem["reason"]), (403, &json!("tree-locked")));
+    assert_eq!(change(&editor, "yew").await.0, 200, "another tree");
+    assert_eq!(change(&owner, "ash").await.0, 200);
+    let comment = r#"{"comment":{"text":"why?"}}"#;
+    let threads = "/api/v1/trees/ash/threads";
+    assert_eq!(asked(&server, of(&editor, &Method::POST, threads), comment).await.0, 201, "they comment");
+    let upload = of(&editor, &Method::POST, "/api/v1/sessions/ashen/obstacles");
+    assert_eq!(asked(&server, upload, "").await.1["reason"], "tree-locked", "nor its session");
+    assert_eq!(asked(&server, of(&owner, &Method::DELETE, lock), "").await, (200, json!({})));
+    assert_eq!(change(&editor, "ash").await.0, 200);
+    assert_eq!(asked(&server, of(&owner, &Method::PUT, "/api/v1/trees/elm/lock"), "").await.0, 404);
+}

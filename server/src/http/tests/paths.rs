@@ -7,9 +7,10 @@ use axum::http::HeaderMap;
 use serde_json::{Value, json};
 
 use super::{refusals::bodies, *};
+use crate::store::{Comments, NewComment};
 
 /// Parts of paths that are whole numbers.
-const NUMBERS: [&str; 3] = ["version", "obstacle", "seed"];
+const NUMBERS: [&str; 5] = ["version", "obstacle", "seed", "thread", "comment"];
 
 struct Answer {
     status: StatusCode,
@@ -47,6 +48,13 @@ fn addresses() -> Vec<String> {
 /// What can be filled into a path.
 fn parts(path: &str) -> Vec<&str> {
     path.split(['{', '}']).skip(1).step_by(2).collect()
+}
+
+/// What somebody has said.
+fn comment() -> NewComment {
+    let said = json!({ "text": "Thinner" }).to_string();
+    let (person, author) = ("machine".into(), "Ann".into());
+    NewComment { person, author, written_at: "2026".into(), said, picture: None }
 }
 
 /// The path with this instead of one of its parts.
@@ -144,7 +152,8 @@ async fn what_is_not_there_is_named_by_the_part_of_the_path() {
         let (method, path) = (method_of(&address), path_of(&address));
         for part in parts(path) {
             // Each on a server of its own, for some of them change what is there.
-            let (server, _) = server().await;
+            let (server, store) = server().await;
+            store.add_thread("ash", None, comment()).await.unwrap();
             let unknown = if NUMBERS.contains(&part) { "77" } else { "no-such-thing-there" };
             let query = if path.ends_with("/versions/import") { "?format=csv" } else { "" };
             let asked = filled_with(path, part, unknown) + query;

@@ -59,15 +59,43 @@ pub(super) fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
         ),
         ("PATCH /api/v1/trees/{tree}/versions/{version}", names(&["note"]), json!({ "note": "Old" })),
         ("POST /api/v1/trees/{tree}/versions/{version}/restore", vec![], said),
+        (
+            "POST /api/v1/trees/{tree}/threads",
+            names(&["comment"]),
+            json!({
+                "pin": { "session": "ashen", "at": { "row": 1, "along": 0, "offset": [0, 0, 0], "place": [0, 1, 0] } },
+                "comment": { "text": "Thinner" },
+            }),
+        ),
+        ("PATCH /api/v1/trees/{tree}/threads/{thread}", names(&["resolved"]), json!({ "resolved": true })),
+        ("PUT /api/v1/trees/{tree}/threads/{thread}/seen", names(&["comment"]), json!({ "comment": 1 })),
+        (
+            "POST /api/v1/trees/{tree}/threads/{thread}/comments",
+            names(&["text"]),
+            json!({
+                "text": "Thicker", "author": "Ada", "mentions": ["Bo"], "sketch": [[[0.5, 0.5]]],
+                "bookmark": {
+                    "camera": { "target": [0, 5, 0], "yaw": 0, "pitch": 0, "distance": 30 },
+                    "step": 4, "line": 0, "mode": "lit",
+                },
+                "picture": "data:image/png;base64,iVBORw0KGgo=",
+            }),
+        ),
+        (
+            "PATCH /api/v1/trees/{tree}/threads/{thread}/comments/{comment}",
+            names(&["text"]),
+            json!({ "text": "As it is" }),
+        ),
     ]
 }
 
 /// Addresses that take a file, or nothing.
-const WITHOUT: [&str; 4] = [
+const WITHOUT: [&str; 5] = [
     "POST /api/v1/logout",
     "POST /api/v1/sessions/{session}/resume",
     "POST /api/v1/trees/{tree}/undelete",
     "PUT /api/v1/trees/{tree}/favourite",
+    "PUT /api/v1/trees/{tree}/lock",
 ];
 
 /// Queries with one field that is wrong, and its name.
@@ -105,6 +133,9 @@ fn queries() -> Vec<(String, Cow<'static, str>, &'static str)> {
         ("GET /api/v1/audit", "before=-1", "before"),
         ("GET /api/v1/jobs", "limit=201", "limit"),
         ("GET /api/v1/jobs", "before=-1", "before"),
+        ("GET /api/v1/trees/{tree}/threads", "limit=201", "limit"),
+        ("GET /api/v1/trees/{tree}/threads", "before=-1", "before"),
+        ("GET /api/v1/trees/{tree}/review.html", "language=fr", "language"),
         (import, "format=csv", "name"),
         (import, "name=Oak", "format"),
         (import, "name=%07&format=csv", "name"),
@@ -181,8 +212,8 @@ async fn answer_to_text(server: &Router, address: &str, query: &str, body: Strin
 /// A refusal of a field says which, and what is allowed.
 fn assert_names(field: &str, (status, problem): &(StatusCode, Value), asked: &str) {
     assert_eq!(*status, StatusCode::BAD_REQUEST, "{asked}: {problem}");
-    // An entry of a list is named by its place.
-    let named = problem["field"].as_str().unwrap_or_default().split('[').next();
+    // An entry of a list is named by its place, and a field of an object with that object.
+    let named = problem["field"].as_str().unwrap_or_default().split(['[', '.']).next();
     assert_eq!(named, Some(field), "{asked}: {problem}");
     let message = problem["message"].as_str().unwrap();
     let allowed = problem["allowed"].as_str().unwrap_or_else(|| panic!("{asked} names no range: {problem}"));

@@ -284,6 +284,8 @@ impl Library for MemoryStore {
         gone.truncate(limit as usize);
         for (_, id) in &gone {
             kept.trees.remove(id);
+            kept.threads.remove(id);
+            kept.locks.remove(id);
             kept.favourites.retain(|(_, tree)| tree != id);
             kept.passes.retain(|(_, pass)| pass.tree.as_ref() != Some(id));
         }

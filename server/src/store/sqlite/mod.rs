@@ -3,10 +3,12 @@
 mod answers;
 mod audit;
 mod care;
+mod comments;
 mod finding;
 mod groups;
 mod identity;
 mod library_file;
+mod locks;
 mod open;
 mod packing;
 mod parts;

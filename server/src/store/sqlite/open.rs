@@ -34,6 +34,8 @@ const MIGRATIONS: &[(&str, &str)] = &[
     ("0012_counted_events", include_str!("../../../../migrations/0012_counted_events.sql")),
     ("0013_parts_packed_faster", include_str!("../../../../migrations/0013_parts_packed_faster.sql")),
     ("0014_tries_to_open", include_str!("../../../../migrations/0014_tries_to_open.sql")),
+    ("0015_comments", include_str!("../../../../migrations/0015_comments.sql")),
+    ("0016_locked_trees", include_str!("../../../../migrations/0016_locked_trees.sql")),
     ("0017_groups", include_str!("../../../../migrations/0017_groups.sql")),
 ];
 

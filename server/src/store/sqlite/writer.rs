@@ -20,8 +20,10 @@ use super::{
     super::{Commits, StoreError, lease::Leases},
     answers::AnswerWrite,
     audit::AuditWrite,
+    comments::CommentWrite,
     finding::FindingWrite,
     groups::GroupWrite,
+    locks::LockWrite,
     parts::{self, Orphans, Part},
     passes::PassWrite,
     place::Place,
@@ -54,6 +56,8 @@ pub(super) enum Write {
     Group(GroupWrite),
     Audit(AuditWrite),
     Answer(AnswerWrite),
+    Comment(CommentWrite),
+    Lock(LockWrite),
     #[cfg(test)]
     Raw(String),
 }
@@ -73,6 +77,8 @@ impl Write {
             Self::Group(write) => write.apply(connection).await,
             Self::Audit(write) => write.apply(connection).await,
             Self::Answer(write) => write.apply(connection).await,
+            Self::Comment(write) => write.apply(connection).await,
+            Self::Lock(write) => write.apply(connection).await,
             #[cfg(test)]
             Self::Raw(sql) => {
                 let query = sqlx::query(sqlx::AssertSqlSafe(sql.clone()));

@@ -1,4 +1,4 @@
-import type { LinkRole, MadeLink, NewLink, TreeLink } from "../../../wire/generated";
+import type { LinkRole, MadeLink, NewLink, TreeLink, TreeLock } from "../../../wire/generated";
 import { ask } from "../../requests/request";
 
 /** What lets people in for a tree alone, newest first. */
@@ -19,6 +19,20 @@ export function changeLink(tree: string, link: string, role: LinkRole): Promise<
 /** Whoever came by it is let in no longer. */
 export async function revokeLink(tree: string, link: string): Promise<void> {
   await ask<undefined>("DELETE", `${pathOf(tree)}/${encodeURIComponent(link)}`);
+}
+
+/** Whether owners alone change a tree (`AC16`). */
+export function findLock(tree: string): Promise<TreeLock> {
+  return ask<TreeLock>("GET", lockOf(tree));
+}
+
+/** Owners alone change the tree from now on, or not any more. */
+export function setLock(tree: string, locked: boolean): Promise<TreeLock> {
+  return ask<TreeLock>(locked ? "PUT" : "DELETE", lockOf(tree));
+}
+
+function lockOf(tree: string): string {
+  return `/api/v1/trees/${encodeURIComponent(tree)}/lock`;
 }
 
 function pathOf(tree: string): string {

@@ -2,7 +2,7 @@ import type { ComponentType } from "preact";
 import { useRef, useState } from "preact/hooks";
 import type { Rights } from "../../access/rights";
 import type { PlaceName } from "../../help/help-places";
-import { PANEL_NAMES, type PanelName, type SheetName } from "../../page/layout";
+import { PANEL_NAMES, type SheetName } from "../../page/layout";
 import type { Studio } from "../../studio";
 import { type Key, say } from "../../words/say";
 import {
@@ -10,6 +10,7 @@ import {
   BackgroundIcon,
   BarkIcon,
   BrushIcon,
+  CommentIcon,
   DownloadIcon,
   HelpIcon,
   HideIcon,
@@ -28,7 +29,10 @@ import { useDismissal } from "../use-dismissal";
 import { isToolBarFolded, roomOfToolBar } from "../workspace-size";
 import { DrawModeMenu } from "./draw-mode-menu";
 
-const PANEL_ICONS: Record<PanelName, ComponentType> = {
+/** A panel that the bar has a button of its own for. */
+type BarPanel = (typeof PANEL_NAMES)[number];
+
+const PANEL_ICONS: Record<BarPanel, ComponentType> = {
   architecture: ArchitectureIcon,
   brush: BrushIcon,
   leaves: LeafIcon,
@@ -75,6 +79,7 @@ const TOOL_ACTIONS: readonly ToolAction[] = [
   { label: "bars.save", Icon: SaveIcon, may: (rights) => rights.mayChange.value, act: sheet("save") },
   { label: "bars.library", Icon: LibraryIcon, act: sheet("library") },
   { label: "bars.share", Icon: ShareIcon, act: sheet("share") },
+  { label: "panels.comments", Icon: CommentIcon, act: (studio) => studio.layout.togglePanel("comments") },
   { label: "bars.download", Icon: DownloadIcon, act: sheet("download") },
   { label: "bars.settings", Icon: SettingsIcon, act: sheet("settings") },
   { label: "bars.help", title: "bars.help.title", Icon: HelpIcon, act: sheet("help") },
@@ -134,7 +139,7 @@ export function ToolBar({ studio }: { studio: Studio }) {
 
 interface MenuProps {
   readonly studio: Studio;
-  readonly panels: readonly PanelName[];
+  readonly panels: readonly BarPanel[];
   readonly actions: readonly ToolAction[];
 }
 
@@ -177,7 +182,7 @@ function Menu({ studio, panels, actions }: MenuProps) {
   );
 }
 
-function asAction(panel: PanelName): ToolAction {
+function asAction(panel: BarPanel): ToolAction {
   return {
     label: `panels.${panel}`,
     Icon: PANEL_ICONS[panel],

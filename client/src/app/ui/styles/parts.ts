@@ -20,4 +20,5 @@ import "./recent.css";
 import "./vain.css";
 import "./together.css";
 import "./structure.css";
+import "./comments.css";
 import "./wind.css";

@@ -190,7 +190,7 @@ fn ud5_a_field_shows_what_the_last_deed_in_force_says() {
 }
 
 #[derive(Clone, Debug)]
-enum Event {
+pub(super) enum Event {
     Draw(i8, u8),
     Grow(u8),
     Prune(u16),
@@ -205,7 +205,7 @@ enum Event {
     GoTo(u16),
 }
 
-fn events() -> impl Strategy<Value = Vec<(u8, Event)>> {
+pub(super) fn events() -> impl Strategy<Value = Vec<(u8, Event)>> {
     let event = prop_oneof![
         6 => (-12i8..12, 1u8..12).prop_map(|(x, y)| Event::Draw(x, y)),
         1 => (1u8..3).prop_map(Event::Grow),
@@ -224,7 +224,7 @@ fn events() -> impl Strategy<Value = Vec<(u8, Event)>> {
 }
 
 /// Lets somebody do something, if it can be done.
-fn happen(document: &mut Document, number: u32, name: &str, event: &Event) -> Result<(), Problem> {
+pub(super) fn happen(document: &mut Document, number: u32, name: &str, event: &Event) -> Result<(), Problem> {
     let living: Vec<u32> = wood(document).into_keys().filter(|&row| row > 0).collect();
     let row = |pick: u16| living.get(usize::from(pick) % living.len().max(1)).copied().unwrap_or(0);
     let action = match *event {

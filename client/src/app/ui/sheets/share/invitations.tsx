@@ -11,6 +11,7 @@ import { type Key, say } from "../../../words/say";
 import { Segments } from "../../controls/segments";
 import { LinkField } from "./link-field";
 import { LinkRow } from "./link-row";
+import { LockRow } from "./lock-row";
 import { QrCode } from "./qr-code";
 
 interface InvitationsProps {
@@ -41,6 +42,7 @@ export function Invitations({ studio, tree }: InvitationsProps) {
         <Fresh key={fresh.id} studio={studio} links={links} fresh={fresh} />
       )}
       <LinkList links={links} />
+      <LockRow studio={studio} tree={tree.id} />
     </section>
   );
 }

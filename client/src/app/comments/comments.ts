@@ -1,0 +1,35 @@
+import { signal } from "@preact/signals";
+import type { Pin } from "../../wire/generated";
+import type { Conversation } from "./conversation";
+
+/** What the server tells of comments on the tree; what is said is read when somebody looks (`CT`). */
+export class Comments {
+  /** Where threads are pinned now, by their numbers. */
+  readonly pins = signal<ReadonlyMap<number, Pin>>(new Map());
+  /** Threads that have changed and were not read again. */
+  readonly stale = signal<ReadonlySet<number>>(new Set());
+  /** The thread that is shown. */
+  readonly open = signal<number | null>(null);
+  /** What is said, once the code that reads it is there. */
+  readonly conversation = signal<Conversation | null>(null);
+
+  place(pins: readonly Pin[]): void {
+    const all = new Map(this.pins.peek());
+    for (const pin of pins) {
+      all.set(pin.thread, pin);
+    }
+    this.pins.value = all;
+  }
+
+  change(threads: readonly number[]): void {
+    this.stale.value = new Set([...this.stale.peek(), ...threads]);
+  }
+
+  /** Another session was opened. */
+  clear(): void {
+    this.pins.value = new Map();
+    this.stale.value = new Set();
+    this.open.value = null;
+    this.conversation.peek()?.clear();
+  }
+}

@@ -1,0 +1,273 @@
+import { computed, signal } from "@preact/signals";
+import { DRAW_MODES } from "../../scene/mode/draw-mode";
+import type { Vec3 } from "../../scene/vector";
+import type { Bookmark, NewComment, PinPlace, Thread } from "../../wire/generated";
+import { findSession } from "../connection/session-api";
+import { explained } from "../problems/explained";
+import { RequestFailed } from "../requests/request";
+import type { Studio } from "../studio";
+import { place, seen, told } from "../together/cameras";
+import { pointerAt } from "../together/own-pointer";
+import { onWood } from "../together/wood-place";
+import * as api from "./comment-api";
+import { isUnread } from "./filters";
+import { type Line, picture } from "./view-picture";
+
+/** A comment that is being written. */
+export interface Draft {
+  /** The thread that it answers in; null for a new one. */
+  readonly thread: number | null;
+  /** Where a new one is pinned; null for the tree as a whole. */
+  readonly pin: PinPlace | null;
+}
+
+/** All that is said of the tree on the page, and what is being said. */
+export class Conversation {
+  /** The saved tree; null where the page shows none. */
+  readonly tree = signal<string | null>(null);
+  /** By their numbers, newest first; null until they were read. */
+  readonly threads = signal<ReadonlyMap<number, Thread> | null>(null);
+  readonly draft = signal<Draft | null>(null);
+  /** Whether the next touch of the picture says where a thread is pinned. */
+  readonly placing = signal(false);
+  /** Whether a finger draws over the view; it stands still meanwhile. */
+  readonly sketching = signal(false);
+  /** What was drawn over it. */
+  readonly lines = signal<readonly Line[]>([]);
+  readonly sending = signal(false);
+  readonly unread = computed(() => [...(this.threads.value?.values() ?? [])].filter(isUnread).length);
+  #studio: Studio;
+  #session: string | null = null;
+
+  constructor(studio: Studio) {
+    this.#studio = studio;
+  }
+
+  /** Reads everything, where the page shows a saved tree. */
+  async load(): Promise<void> {
+    const session = this.#studio.link.session.peek();
+    this.#session = session;
+    await this.#try(async () => {
+      const found = session === null ? null : await findSession(session);
+      if (this.#session !== session) {
+        return;
+      }
+      this.tree.value = found?.tree?.id ?? null;
+      this.#studio.comments.stale.value = new Set();
+      const all = found?.tree ? await api.listThreads(found.tree.id) : [];
+      if (this.#session === session) {
+        this.threads.value = new Map(all.map((thread) => [thread.thread, thread]));
+      }
+    });
+  }
+
+  /** Reads what has changed. */
+  async refresh(): Promise<void> {
+    const { stale } = this.#studio.comments;
+    const [tree, changed] = [this.tree.peek(), stale.peek()];
+    if (tree === null || this.threads.peek() === null) {
+      return this.load();
+    }
+    stale.value = new Set();
+    for (const number of changed) {
+      try {
+        this.#take(await api.findThread(tree, number));
+      } catch (error) {
+        if (!(error instanceof RequestFailed && error.status === 404)) {
+          return this.#failed(error);
+        }
+        this.#drop(number);
+      }
+    }
+  }
+
+  /** The thread is shown, and with that seen. */
+  show(thread: Thread): void {
+    const { comments, layout } = this.#studio;
+    comments.open.value = thread.thread;
+    layout.panel.value = "comments";
+    this.see(thread);
+  }
+
+  see(thread: Thread): void {
+    const [tree, newest] = [this.tree.peek(), thread.comments.at(-1)?.comment ?? 0];
+    if (tree !== null && newest > thread.seen) {
+      this.#take({ ...thread, seen: newest });
+      void this.#try(() => api.seeThread(tree, thread.thread, newest));
+    }
+  }
+
+  /** Begins to write: in a thread, or a new one. */
+  write(draft: Draft): void {
+    this.lines.value = [];
+    this.sketching.value = false;
+    this.placing.value = false;
+    this.draft.value = draft;
+    this.#studio.layout.panel.value = "comments";
+  }
+
+  /** Writes nothing after all. */
+  giveUp(): void {
+    this.draft.value = null;
+    this.placing.value = false;
+    this.sketching.value = false;
+    this.lines.value = [];
+  }
+
+  /** A new thread is pinned where the picture was touched; false where there is no wood. */
+  placeAt(x: number, y: number): boolean {
+    const { stage, table } = this.#studio;
+    const wood = this.#wood();
+    const pointer = stage.view ? pointerAt(x, y, stage.view, table, wood) : null;
+    if (pointer?.kind !== "wood") {
+      return false;
+    }
+    const [end, begin] = [wood.placeOf(pointer.row), wood.placeOf(wood.parentOf(pointer.row))];
+    if (!end || !begin) {
+      return false;
+    }
+    const { row, along, offset } = pointer;
+    this.write({ thread: null, pin: { row, along, offset, place: place(onWood({ along, offset }, begin, end)) } });
+    return true;
+  }
+
+  /** Says it; true once the server has it. */
+  async send(text: string, mentions: readonly string[], showsView: boolean): Promise<boolean> {
+    const [draft, tree] = [this.draft.peek(), this.tree.peek()];
+    if (draft === null || tree === null || this.sending.peek()) {
+      return false;
+    }
+    this.sending.value = true;
+    const sent = await this.#try(async () => {
+      const comment = await this.#comment(text, mentions, showsView);
+      const session = this.#session ?? "";
+      const pin = draft.pin === null ? {} : { pin: { session, at: draft.pin } };
+      const thread = await (draft.thread === null
+        ? api.beginThread(tree, { ...pin, comment })
+        : api.answerIn(tree, draft.thread, comment));
+      this.#take(thread);
+      this.#studio.comments.open.value = thread.thread;
+    });
+    this.sending.value = false;
+    if (sent) {
+      this.giveUp();
+    }
+    return sent;
+  }
+
+  async resolve(thread: Thread): Promise<void> {
+    const tree = this.tree.peek();
+    if (tree !== null) {
+      await this.#try(async () =>
+        this.#take(await api.resolveThread(tree, thread.thread, thread.resolved === undefined)),
+      );
+    }
+  }
+
+  async delete(thread: Thread, comment: number): Promise<void> {
+    const tree = this.tree.peek();
+    if (tree !== null && (await this.#try(() => api.deleteComment(tree, thread.thread, comment)))) {
+      const comments = thread.comments.filter((one) => one.comment !== comment);
+      if (comments.length > 0) {
+        this.#take({ ...thread, comments });
+      } else {
+        this.#drop(thread.thread);
+      }
+    }
+  }
+
+  /** Shows what somebody saw, as far as this page alone is concerned: their camera and draw mode. */
+  visit({ camera, mode }: Bookmark): void {
+    const { stage, drawMode } = this.#studio;
+    stage.view?.camera.visit(seen(camera));
+    const known = DRAW_MODES.find((one) => one === mode);
+    if (known) {
+      drawMode.value = known;
+    }
+  }
+
+  /** Where a thread is drawn: its place, whether that is on the wood it was about, and the wood that is left below. */
+  whereIs(thread: Thread): { readonly at: Vec3; readonly stands: boolean; readonly below: Vec3 | null } | null {
+    const at = thread.at;
+    if (!at) {
+      return null;
+    }
+    const pin = this.#studio.comments.pins.peek().get(thread.thread);
+    const row = pin?.row;
+    const wood = this.#wood();
+    const stands = pin?.state === "standing" || pin?.state === "regrown";
+    const end = row === undefined ? null : wood.placeOf(row);
+    const begin = row === undefined ? null : wood.placeOf(wood.parentOf(row));
+    if (stands && end && begin) {
+      return { at: onWood({ along: at.along, offset: at.offset }, begin, end), stands, below: null };
+    }
+    return { at: at.place, stands: false, below: end };
+  }
+
+  clear(): void {
+    this.#session = null;
+    this.tree.value = null;
+    this.threads.value = null;
+    this.giveUp();
+  }
+
+  async #comment(text: string, mentions: readonly string[], showsView: boolean): Promise<NewComment> {
+    const { settings } = this.#studio;
+    const author = settings.author.peek().trim();
+    const bookmark = showsView ? this.#bookmark() : null;
+    const lines = this.lines.peek();
+    const seen = showsView ? await picture(this.#studio.stage, lines) : null;
+    return {
+      text,
+      ...(author === "" ? {} : { author }),
+      ...(mentions.length === 0 ? {} : { mentions: [...mentions] }),
+      ...(bookmark ? { bookmark } : {}),
+      ...(bookmark && lines.length > 0 ? { sketch: lines.map((line) => line.map(([x, y]) => [x, y])) } : {}),
+      ...(seen ? { picture: seen } : {}),
+    };
+  }
+
+  #bookmark(): Bookmark | null {
+    const { stage, time, drawMode } = this.#studio;
+    const view = stage.view?.camera.rig.view;
+    const line = time.timeline.peek();
+    return view ? { camera: told(view), step: line?.step ?? 0, line: line?.line ?? 0, mode: drawMode.peek() } : null;
+  }
+
+  #wood() {
+    const { stage, table } = this.#studio;
+    return {
+      placeOf: (row: number) => (row < 0 ? null : stage.placeOf(row)),
+      parentOf: (row: number) => table.parent[row] ?? -1,
+    };
+  }
+
+  #take(thread: Thread): void {
+    const others = [...(this.threads.peek() ?? [])].filter(([number]) => number !== thread.thread);
+    const all = [...others, [thread.thread, thread] as const];
+    this.threads.value = new Map(all.sort(([a], [b]) => b - a));
+  }
+
+  #drop(number: number): void {
+    const { open } = this.#studio.comments;
+    this.threads.value = new Map([...(this.threads.peek() ?? [])].filter(([other]) => other !== number));
+    if (open.peek() === number) {
+      open.value = null;
+    }
+  }
+
+  /** Whether it was done; what went wrong is said. */
+  async #try(act: () => Promise<void>): Promise<boolean> {
+    try {
+      await act();
+      return true;
+    } catch (error) {
+      await this.#failed(error);
+      return false;
+    }
+  }
+
+  async #failed(error: unknown): Promise<void> {
+    this.#studio.toasts.show(await explained(error));
+  }
+}

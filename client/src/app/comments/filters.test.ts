@@ -1,0 +1,49 @@
+import { expect, it } from "vitest";
+import type { Comment, Pin, Thread } from "../../wire/generated";
+import { authorsOf, FILTERS, isUnread, isWanted } from "./filters";
+
+function comment(number: number, author: string, rest: Partial<Comment> = {}): Comment {
+  const written_at = "2026-05-01T12:00:00.000Z";
+  return { comment: number, author, own: false, written_at, text: "?", mentions: [], picture: false, ...rest };
+}
+
+function thread(number: number, comments: Comment[], rest: Partial<Thread> = {}): Thread {
+  return { thread: number, seen: 0, comments, ...rest };
+}
+
+const AT = { along: 0.5, offset: [0, 0, 0], place: [0, 1, 0] } as unknown as NonNullable<Thread["at"]>;
+const THREADS = [
+  thread(1, [comment(1, "Ann", { own: true }), comment(2, "Bo")], { seen: 1, at: AT }),
+  thread(2, [comment(1, "Bo", { mentions: ["ANN"] })], { seen: 1 }),
+  thread(3, [comment(1, "Cy")], { seen: 1, at: AT, resolved: { by: "Bo", at: "2026" } }),
+];
+const PINS = new Map<number, Pin>([
+  [1, { thread: 1, state: "standing", row: 4 }],
+  [3, { thread: 3, state: "detached" }],
+]);
+
+it.each([
+  ["open", [1, 2]],
+  ["mine", [1]],
+  ["mentions", [2]],
+  ["unread", [1]],
+  ["detached", [3]],
+  ["all", [1, 2, 3]],
+] as const)("CT4: %s shows threads %j", (filter, expected) => {
+  const shown = THREADS.filter((one) => isWanted(one, PINS.get(one.thread), { filter, person: null, self: "Ann" }));
+  expect(shown.map((one) => one.thread)).toEqual(expected);
+});
+
+it("CT4: threads of a person are those in which they have said something", () => {
+  const of = (person: string) =>
+    THREADS.filter((one) => isWanted(one, undefined, { filter: "all", person, self: "" })).map((one) => one.thread);
+  expect([of("Bo"), of("Cy"), of("Ed")]).toEqual([[1, 2], [3], []]);
+  expect(authorsOf(THREADS)).toEqual(["Ann", "Bo", "Cy"]);
+});
+
+it("CT4: nobody without a name is named, and nothing of one's own is unread", () => {
+  const unnamed = THREADS.filter((one) => isWanted(one, undefined, { filter: "mentions", person: null, self: "" }));
+  expect(unnamed).toEqual([]);
+  expect(isUnread(thread(9, [comment(1, "Ann", { own: true })]))).toBe(false);
+  expect(FILTERS).toHaveLength(6);
+});

@@ -1,0 +1,125 @@
+import { useEffect, useRef } from "preact/hooks";
+import { Conversation } from "../../comments/conversation";
+import { isUnread } from "../../comments/filters";
+import type { Studio } from "../../studio";
+import { language, say } from "../../words/say";
+import { useAnimationFrames } from "../use-animation-frames";
+import { SketchGlass } from "./sketch-glass";
+
+/** The conversation of a page, made once. */
+export function conversationOf(studio: Studio): Conversation {
+  const { conversation } = studio.comments;
+  conversation.value ??= new Conversation(studio);
+  return conversation.value;
+}
+
+/** Threads at their places on the tree, and what a finger says of the picture while somebody writes. */
+export function CommentPins({ studio }: { studio: Studio }) {
+  const conversation = conversationOf(studio);
+  const layer = useRef<HTMLDivElement>(null);
+  const session = studio.link.session.value;
+  const phase = studio.link.phase.value;
+  const stale = studio.comments.stale.value;
+  useEffect(() => {
+    if (session !== null && phase === "connected") {
+      void conversation.load();
+    }
+  }, [conversation, session, phase]);
+  useEffect(() => {
+    if (stale.size > 0) {
+      void conversation.refresh();
+    }
+  }, [conversation, stale]);
+  const { open } = studio.comments;
+  const all = [...(conversation.threads.value?.values() ?? [])].filter(
+    ({ at, resolved, thread }) => at !== undefined && (resolved === undefined || open.value === thread),
+  );
+  useAnimationFrames(all.length > 0, () => {
+    const project = studio.stage.projector();
+    for (const mark of layer.current?.children ?? []) {
+      const thread = conversation.threads.peek()?.get(Number(mark.getAttribute("data-thread")));
+      const where = thread && conversation.whereIs(thread);
+      const at = where && project?.(where.at);
+      set(mark, "data-shown", String(Boolean(at)));
+      if (!where || !at) {
+        continue;
+      }
+      const [button, line] = [mark.querySelector("button"), mark.querySelector("line")];
+      set(mark, "data-stands", String(where.stands));
+      if (button) {
+        set(button, "style", `translate: ${at[0].toFixed(1)}px ${at[1].toFixed(1)}px`);
+      }
+      const below = where.below && project?.(where.below);
+      if (line) {
+        set(line, "data-shown", String(Boolean(below)));
+        const [from, to] = [at, below ?? at];
+        for (const [name, value] of Object.entries({ x1: from[0], y1: from[1], x2: to[0], y2: to[1] })) {
+          set(line, name, value.toFixed(1));
+        }
+      }
+    }
+  });
+  return (
+    <>
+      <div class="comment-pins" ref={layer} lang={language.value}>
+        {all.map((thread) => (
+          <div key={thread.thread} class="comment-pin" data-thread={thread.thread} data-unread={isUnread(thread)}>
+            <svg class="overlay" aria-hidden="true">
+              <line />
+            </svg>
+            <button
+              type="button"
+              aria-label={say("comments.pin", {
+                number: thread.thread,
+                text: (thread.comments[0]?.text ?? "").slice(0, 60),
+              })}
+              aria-pressed={open.value === thread.thread}
+              onClick={() => conversation.show(thread)}
+            >
+              <span>{thread.thread}</span>
+            </button>
+          </div>
+        ))}
+      </div>
+      {conversation.placing.value && <PlacingGlass studio={studio} conversation={conversation} />}
+      {(conversation.sketching.value || conversation.lines.value.length > 0) && (
+        <SketchGlass conversation={conversation} />
+      )}
+    </>
+  );
+}
+
+/** Lies over the picture until a place on the tree was touched. */
+function PlacingGlass({ studio, conversation }: { readonly studio: Studio; readonly conversation: Conversation }) {
+  return (
+    <div
+      class="comment-glass"
+      data-placing
+      onPointerUp={({ currentTarget, clientX, clientY }) => {
+        const { left, top } = currentTarget.getBoundingClientRect();
+        if (!conversation.placeAt(clientX - left, clientY - top)) {
+          studio.toasts.show(say("comments.place.none"));
+        }
+      }}
+    >
+      <p class="chip">
+        {say("comments.place")}
+        <button
+          type="button"
+          class="chip-stop"
+          onPointerUp={(event) => event.stopPropagation()}
+          onClick={() => conversation.giveUp()}
+        >
+          {say("comments.cancel")}
+        </button>
+      </p>
+    </div>
+  );
+}
+
+/** Changes nothing where nothing is new. */
+function set(element: Element, name: string, value: string): void {
+  if (element.getAttribute(name) !== value) {
+    element.setAttribute(name, value);
+  }
+}

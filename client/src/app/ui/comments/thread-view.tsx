@@ -1,0 +1,137 @@
+import { useState } from "preact/hooks";
+import type { Comment, Pin, Thread } from "../../../wire/generated";
+import { pictureAddress } from "../../comments/comment-api";
+import type { Conversation } from "../../comments/conversation";
+import type { Studio } from "../../studio";
+import { momentText } from "../../words/date-text";
+import { say } from "../../words/say";
+import { ConfirmRow } from "../sheets/confirm-row";
+import { Compose } from "./compose";
+
+interface ThreadViewProps {
+  readonly studio: Studio;
+  readonly conversation: Conversation;
+  readonly thread: Thread;
+}
+
+/** A thread: where it is, what was said, and what can be done with it. */
+export function ThreadView({ studio, conversation, thread }: ThreadViewProps) {
+  const mayComment = studio.rights.mayComment;
+  const pin = studio.comments.pins.value.get(thread.thread);
+  const answers = conversation.draft.value?.thread === thread.thread;
+  return (
+    <div class="stack">
+      <button
+        type="button"
+        class="small comment-back"
+        onClick={() => {
+          studio.comments.open.value = null;
+        }}
+      >
+        ‹ {say("comments.back")}
+      </button>
+      <p class="quiet" data-state={pin?.state}>
+        {thread.thread} · {stateText(thread, pin)}
+      </p>
+      {thread.resolved && <p class="quiet">{say("comments.resolved", { name: thread.resolved.by })}</p>}
+      <ol class="comments">
+        {thread.comments.map((comment) => (
+          <CommentView key={comment.comment} {...{ studio, conversation, thread, comment }} />
+        ))}
+      </ol>
+      {answers && <Compose studio={studio} conversation={conversation} />}
+      {mayComment && !answers && (
+        <div class="comment-acts">
+          <button
+            type="button"
+            class="primary"
+            onClick={() => conversation.write({ thread: thread.thread, pin: null })}
+          >
+            {say("comments.reply")}
+          </button>
+          <button type="button" onClick={() => void conversation.resolve(thread)}>
+            {say(thread.resolved ? "comments.reopen" : "comments.resolve")}
+          </button>
+        </div>
+      )}
+    </div>
+  );
+}
+
+/** How the place of a thread is now. */
+export function stateText({ at }: Thread, pin: Pin | undefined): string {
+  if (at === undefined) {
+    return say("comments.whole");
+  }
+  return pin === undefined ? "" : say(`comments.state.${pin.state}`, { step: pin.step ?? 0 });
+}
+
+interface CommentViewProps extends ThreadViewProps {
+  readonly comment: Comment;
+}
+
+function CommentView({ studio, conversation, thread, comment }: CommentViewProps) {
+  const [asks, setAsks] = useState(false);
+  const { author, text, written_at, edited_at, bookmark, mentions } = comment;
+  const tree = conversation.tree.value;
+  const now = studio.time.timeline.value;
+  const isOtherStep =
+    bookmark !== undefined && now !== null && bookmark.line === now.line && bookmark.step !== now.step;
+  const mayDelete = studio.rights.mayComment && (comment.own || studio.rights.mayDelete);
+  return (
+    <li data-own={comment.own}>
+      <p class="comment-head">
+        <strong>{author}</strong>{" "}
+        <span class="quiet">
+          {momentText(written_at)}
+          {edited_at !== undefined && ` · ${say("comments.edited")}`}
+        </span>
+      </p>
+      {mentions.length > 0 && (
+        <p class="quiet">
+          {say("comments.for")} {mentions.join(", ")}
+        </p>
+      )}
+      <p class="comment-text">{text}</p>
+      {comment.picture && tree !== null && (
+        <img
+          src={pictureAddress(tree, thread.thread, comment.comment)}
+          alt={say("comments.picture", { name: author })}
+          loading="lazy"
+        />
+      )}
+      <div class="comment-acts">
+        {bookmark && (
+          <button type="button" class="small" onClick={() => conversation.visit(bookmark)}>
+            {say("comments.go")}
+          </button>
+        )}
+        {isOtherStep && studio.rights.mayChange.value && bookmark.step <= now.last_step && (
+          <button
+            type="button"
+            class="small"
+            onClick={() => {
+              studio.submit({ kind: "go_to", step: bookmark.step });
+              conversation.visit(bookmark);
+            }}
+          >
+            {say("comments.go.step", { step: bookmark.step })}
+          </button>
+        )}
+        {mayDelete && !asks && (
+          <button type="button" class="small" onClick={() => setAsks(true)}>
+            {say("comments.delete")}
+          </button>
+        )}
+      </div>
+      {asks && (
+        <ConfirmRow
+          question={say("comments.delete.ask")}
+          act={say("comments.delete")}
+          onAct={() => conversation.delete(thread, comment.comment)}
+          onKeep={() => setAsks(false)}
+        />
+      )}
+    </li>
+  );
+}

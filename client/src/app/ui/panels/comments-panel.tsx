@@ -1,0 +1,165 @@
+import { useEffect, useState } from "preact/hooks";
+import type { Thread } from "../../../wire/generated";
+import { reviewAddress } from "../../comments/comment-api";
+import type { Conversation } from "../../comments/conversation";
+import { authorsOf, FILTERS, type Filter, isUnread, isWanted } from "../../comments/filters";
+import type { Studio } from "../../studio";
+import { dateText } from "../../words/date-text";
+import { language, say } from "../../words/say";
+import { conversationOf } from "../comments/comment-pins";
+import { Compose } from "../comments/compose";
+import { stateText, ThreadView } from "../comments/thread-view";
+
+/** What people say of the tree: a list, or one thread of it. */
+export function CommentsPanel({ studio }: { studio: Studio }) {
+  const conversation = conversationOf(studio);
+  const threads = conversation.threads.value;
+  const open = threads?.get(studio.comments.open.value ?? 0);
+  const newest = open?.comments.at(-1)?.comment;
+  // What comes while the thread is shown is seen as well.
+  useEffect(() => {
+    if (open && newest !== undefined) {
+      conversation.see(open);
+    }
+  }, [conversation, open, newest]);
+  useEffect(() => {
+    if (conversation.threads.peek() === null || conversation.tree.peek() === null) {
+      void conversation.load();
+    }
+  }, [conversation]);
+  if (threads === null) {
+    return <p class="quiet advice">{say("comments.loading")}</p>;
+  }
+  if (conversation.tree.value === null) {
+    return <SaveFirst studio={studio} />;
+  }
+  if (conversation.draft.value?.thread === null) {
+    return <Compose studio={studio} conversation={conversation} />;
+  }
+  return open ? (
+    <ThreadView studio={studio} conversation={conversation} thread={open} key={open.thread} />
+  ) : (
+    <ThreadList studio={studio} conversation={conversation} threads={[...threads.values()]} />
+  );
+}
+
+function SaveFirst({ studio }: { studio: Studio }) {
+  return (
+    <div class="stack">
+      <p class="quiet advice">{say("comments.save-first")}</p>
+      {studio.rights.mayChange.value && (
+        <div class="actions">
+          <button
+            type="button"
+            class="primary"
+            onClick={() => {
+              studio.layout.sheet.value = "save";
+            }}
+          >
+            {say("bars.save")}
+          </button>
+        </div>
+      )}
+    </div>
+  );
+}
+
+interface ThreadListProps {
+  readonly studio: Studio;
+  readonly conversation: Conversation;
+  readonly threads: readonly Thread[];
+}
+
+function ThreadList({ studio, conversation, threads }: ThreadListProps) {
+  const [filter, setFilter] = useState<Filter>("open");
+  const [person, setPerson] = useState<string | null>(null);
+  const pins = studio.comments.pins.value;
+  const self = studio.settings.author.value.trim();
+  const wanted = threads.filter((thread) => isWanted(thread, pins.get(thread.thread), { filter, person, self }));
+  const authors = authorsOf(threads);
+  const tree = conversation.tree.value;
+  return (
+    <div class="stack">
+      {studio.rights.mayComment ? (
+        <div class="comment-acts">
+          <button
+            type="button"
+            class="primary"
+            aria-pressed={conversation.placing.value}
+            onClick={() => {
+              conversation.placing.value = true;
+            }}
+          >
+            {say("comments.new")}
+          </button>
+          <button type="button" onClick={() => conversation.write({ thread: null, pin: null })}>
+            {say("comments.new.whole")}
+          </button>
+        </div>
+      ) : (
+        <p class="quiet">{say("comments.looking")}</p>
+      )}
+      {threads.length > 0 && (
+        <>
+          <fieldset class="comment-names">
+            <legend>{say("comments.filter")}</legend>
+            {FILTERS.map((one) => (
+              <button
+                type="button"
+                class="small"
+                key={one}
+                aria-pressed={filter === one}
+                onClick={() => setFilter(one)}
+              >
+                {say(`comments.filter.${one}`)}
+              </button>
+            ))}
+          </fieldset>
+          {authors.length > 1 && (
+            <label class="field">
+              <span>{say("comments.person")}</span>
+              <select
+                value={person ?? ""}
+                onChange={({ currentTarget }) => setPerson(currentTarget.value === "" ? null : currentTarget.value)}
+              >
+                <option value="">{say("comments.person.any")}</option>
+                {authors.map((name) => (
+                  <option key={name} value={name}>
+                    {name}
+                  </option>
+                ))}
+              </select>
+            </label>
+          )}
+        </>
+      )}
+      {wanted.length === 0 && (
+        <p class="quiet advice">{say(threads.length === 0 ? "comments.none" : "comments.none.like")}</p>
+      )}
+      <ul class="comment-threads">
+        {wanted.map((thread) => (
+          <li key={thread.thread} data-unread={isUnread(thread)} data-resolved={thread.resolved !== undefined}>
+            <button type="button" onClick={() => conversation.show(thread)}>
+              <span class="comment-number">{thread.thread}</span>
+              <span>
+                <strong>{thread.comments[0]?.author}</strong>{" "}
+                <span class="quiet">{dateText(thread.comments[0]?.written_at ?? "")}</span>
+                <br />
+                <span class="comment-excerpt">{thread.comments[0]?.text}</span>
+                <span class="quiet">
+                  {stateText(thread, pins.get(thread.thread))}
+                  {thread.comments.length > 1 && ` · ${say("comments.answers", { count: thread.comments.length - 1 })}`}
+                </span>
+              </span>
+            </button>
+          </li>
+        ))}
+      </ul>
+      {tree !== null && threads.length > 0 && (
+        <a href={reviewAddress(tree, language.value)} target="_blank" rel="noreferrer">
+          {say("comments.review")}
+        </a>
+      )}
+    </div>
+  );
+}

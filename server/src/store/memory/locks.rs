@@ -1,0 +1,30 @@
+//! Locks in the model.
+
+use super::{
+    super::{Locks, StoreError},
+    MemoryStore,
+};
+
+impl Locks for MemoryStore {
+    async fn lock_tree(&self, tree: &str, by: Option<String>) -> Result<bool, StoreError> {
+        let mut kept = self.writing()?;
+        if !kept.trees.contains_key(tree) {
+            return Ok(false);
+        }
+        match by {
+            Some(by) => drop(kept.locks.insert(tree.to_owned(), by)),
+            None => drop(kept.locks.remove(tree)),
+        }
+        Ok(true)
+    }
+
+    async fn lock_of(&self, tree: &str) -> Result<Option<String>, StoreError> {
+        Ok(self.kept().locks.get(tree).cloned())
+    }
+
+    async fn lock_of_session(&self, session: &str) -> Result<Option<String>, StoreError> {
+        let kept = self.kept();
+        let tree = kept.sessions.get(session).and_then(|session| session.tree.as_ref());
+        Ok(tree.and_then(|(tree, _)| kept.locks.get(tree)).cloned())
+    }
+}

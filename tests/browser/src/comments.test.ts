@@ -1,0 +1,164 @@
+import { expect, test } from "vitest";
+import { LANDSCAPE, PHONE, type Screen } from "./screens";
+import { until } from "./server";
+import type { Tablet } from "./tablet";
+import { press } from "./visits";
+import { type Point, way } from "./ways";
+import { Workshop } from "./workshop";
+
+const workshop = Workshop.withItsOwnServer();
+
+/** Small glass that is drawn all the time, so that pins are where the wood is. */
+const SEEN: Screen = { width: 1180, height: 760, detail: 0.2, watched: true };
+
+const UPRIGHT: Screen = { width: 834, height: 1194, detail: 0.5 };
+
+/** Saves the tree on a page, so that comments have a tree to belong to. */
+async function save(tablet: Tablet, name: string): Promise<string> {
+  return tablet.page.evaluate(async (name) => {
+    const session = location.pathname.slice(location.pathname.lastIndexOf("/") + 1);
+    const headers = { "content-type": "application/json" };
+    const body = JSON.stringify({ session, name });
+    return (await (await fetch("/api/v1/trees", { method: "POST", headers, body })).json()).id as string;
+  }, name);
+}
+
+/** Where a page shows the pin of a thread, and whether it stands on its wood; null where it shows none. */
+async function pinOn(tablet: Tablet, thread: number): Promise<(Point & { stands: boolean }) | null> {
+  return tablet.page.evaluate((thread) => {
+    const pin = document.querySelector(`.comment-pin[data-shown="true"][data-thread="${thread}"]`);
+    const button = pin?.querySelector("button");
+    const place = /^(-?[\d.]+)px (-?[\d.]+)px$/.exec(button?.style.translate ?? "");
+    return place && pin
+      ? { x: Number(place[1]), y: Number(place[2]), stands: pin.getAttribute("data-stands") === "true" }
+      : null;
+  }, thread);
+}
+
+async function untilPin(
+  tablet: Tablet,
+  what: string,
+  check: (pin: Point & { stands: boolean }) => boolean,
+): Promise<Point> {
+  let pin: Awaited<ReturnType<typeof pinOn>> = null;
+  const holds = async () => {
+    pin = await pinOn(tablet, 1);
+    return pin !== null && check(pin);
+  };
+  await until(what, holds).catch((error) => {
+    throw new Error(`${error}; it is at ${JSON.stringify(pin)}`);
+  });
+  return pin!;
+}
+
+async function openComments(tablet: Tablet): Promise<void> {
+  const direct = tablet.page.getByRole("button", { name: "Comments", exact: true });
+  if ((await direct.count()) === 0) {
+    await press(tablet, "More");
+  }
+  await tablet.press(tablet.page.getByRole("button", { name: "Comments", exact: true }).first());
+  await tablet.page.locator(".drawer").waitFor();
+}
+
+/** Says something of a place that is touched. */
+async function comment(tablet: Tablet, at: Point, text: string): Promise<void> {
+  await tablet.press(tablet.page.getByRole("button", { name: "Comment on a place" }));
+  await tablet.page.locator(".comment-glass[data-placing]").waitFor();
+  await tablet.tapAt(at);
+  await tablet.page.getByLabel("What you want to say").fill(text);
+}
+
+test("CT1, CT2: two pages talk about a place that rides with its branch, goes with it and comes back", async () => {
+  const { tablet, address, at } = await workshop.stem(SEEN);
+  await save(tablet, "Oak");
+  const middle = () =>
+    tablet.page.evaluate(() => {
+      const { left, width } = document.querySelector("#workspace")!.getBoundingClientRect();
+      return left + width / 2;
+    });
+  const before = await middle();
+  await openComments(tablet);
+  // The panel takes its room: the stem has moved on the glass with the middle of the picture.
+  const { x, y } = at(0, 200);
+  const stem = { x: x - before + (await middle()), y };
+  await comment(tablet, stem, "Thinner here, <b>please</b>");
+  await tablet.press(tablet.page.getByRole("button", { name: "Draw on the view" }));
+  await tablet.swipe([way({ x: stem.x - 60, y: stem.y - 40 }, { x: stem.x + 60, y: stem.y + 40 })]);
+  await until("a line is drawn", async () => (await tablet.page.locator(".sketch-line").count()) === 1);
+  await tablet.show("comment-written");
+  await tablet.press(tablet.page.getByRole("button", { name: "Send" }));
+  await tablet.page.locator(".comments > li").waitFor();
+  const first = await untilPin(tablet, "the pin stands on the stem", ({ stands }) => stands);
+  expect(Math.abs(first.x - stem.x)).toBeLessThan(30);
+
+  const other = await workshop.open(address, SEEN);
+  await untilPin(other, "the other page shows it", ({ stands }) => stands);
+  await other.page.locator('.comment-pin[data-unread="false"], .comment-pin[data-unread="true"]').waitFor();
+  await other.press(other.page.locator(".comment-pin button"));
+  await other.page.locator(".comment-text", { hasText: "Thinner here, <b>please</b>" }).waitFor();
+  await until("the picture is there", async () =>
+    other.page.evaluate(() => (document.querySelector<HTMLImageElement>(".comments img")?.naturalWidth ?? 0) > 100),
+  );
+  await other.press(other.page.getByRole("button", { name: "Answer" }));
+  await other.page.getByLabel("What you want to say").fill("It is done");
+  await other.press(other.page.getByRole("button", { name: "Send" }));
+  // The first page is told without asking.
+  await tablet.page.locator(".comment-text", { hasText: "It is done" }).waitFor();
+  await other.show("comment-answered");
+
+  // The branch is bent: the pin rides along, on both.
+  await workshop.act(address, [{ kind: "turn_branch", row: 3, rotation: [0, 0, 0.3, 0.954] }]);
+  await untilPin(tablet, "it rides along", ({ x, stands }) => stands && Math.abs(x - first.x) > 20);
+  // The branch is cut below it: it is hollow where it was, and stands again once that is undone.
+  await workshop.act(address, [{ kind: "prune", rows: [4] }]);
+  await untilPin(other, "it is detached", ({ stands }) => !stands);
+  await tablet.show("comment-detached");
+  await workshop.act(address, [{ kind: "undo" }]);
+  await untilPin(other, "it stands again", ({ stands }) => stands);
+
+  await tablet.press(tablet.page.getByRole("button", { name: "Resolve" }));
+  await tablet.page.getByText("Resolved by", { exact: false }).waitFor();
+  await tablet.press(tablet.page.getByRole("button", { name: "All comments", exact: false }));
+  await tablet.page.getByText("No thread is like that.").waitFor();
+  await tablet.press(tablet.page.getByRole("button", { name: "All", exact: true }));
+  await tablet.page.locator('.comment-threads > li[data-resolved="true"]').waitFor();
+  await tablet.show("comment-list");
+});
+
+test("CT6: the summary opens as a page of its own, and asks for nothing", async () => {
+  const { tablet } = await workshop.stem(SEEN);
+  const tree = await save(tablet, "<Elm>");
+  await tablet.page.evaluate(async (tree) => {
+    const headers = { "content-type": "application/json" };
+    const body = JSON.stringify({ comment: { text: "<img src=x onerror=alert(1)>", author: "Ann" } });
+    await fetch(`/api/v1/trees/${tree}/threads`, { method: "POST", headers, body });
+  }, tree);
+  const page = await tablet.page.context().newPage();
+  const asked: string[] = [];
+  page.on("request", (request) => asked.push(new URL(request.url()).pathname));
+  const origin = new URL(tablet.page.url()).origin;
+  await page.goto(`${origin}/api/v1/trees/${tree}/review.html?language=de`);
+  await page.getByRole("heading", { name: "Kommentare zu <Elm>" }).waitFor();
+  await page.getByText("<img src=x onerror=alert(1)>").waitFor();
+  expect(asked).toEqual([`/api/v1/trees/${tree}/review.html`]);
+  await page.close();
+});
+
+test.each<[string, Screen]>([
+  ["tablet", LANDSCAPE],
+  ["upright", UPRIGHT],
+  ["phone", PHONE],
+])("CT1: a %s has room for comments, and says first where they belong", async (name, screen) => {
+  const { tablet } = await workshop.fresh(screen);
+  await openComments(tablet);
+  await tablet.page.getByText("Comments belong to a saved tree", { exact: false }).waitFor();
+  await tablet.show(`comments-unsaved-${name}`);
+  await save(tablet, `Ash on a ${name}`);
+  await tablet.press(tablet.page.getByRole("button", { name: "Close", exact: false }).first());
+  await openComments(tablet);
+  await tablet.press(tablet.page.getByRole("button", { name: "Comment on the whole tree" }));
+  await tablet.page.getByLabel("What you want to say").fill("A fine seed, and nothing else yet.");
+  await tablet.press(tablet.page.getByRole("button", { name: "Send" }));
+  await tablet.page.locator(".comment-text", { hasText: "A fine seed" }).waitFor();
+  await tablet.show(`comments-${name}`);
+});
