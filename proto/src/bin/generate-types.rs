@@ -1,5 +1,5 @@
-//! Writes `client/src/wire/generated.ts`, the tables of `PROTOCOL.md` and `protocol.schema.json`; with `--check` only
-//! says whether they are current.
+//! Writes `client/src/wire/generated.ts`, `generated-tables.ts` beside it, the tables of `PROTOCOL.md` and
+//! `protocol.schema.json`; with `--check` only says whether they are current.
 
 use std::{fs, path::Path, process::ExitCode};
 
@@ -17,11 +17,14 @@ fn main() -> ExitCode {
 }
 
 fn bring_up_to_date(home: &Path, is_check: bool) -> Result<(), String> {
-    let (types, document) = (home.join("../client/src/wire/generated.ts"), home.join("PROTOCOL.md"));
+    let wire = home.join("../client/src/wire");
+    let types = (wire.join("generated.ts"), typescript::declarations());
+    let settings = (wire.join("generated-tables.ts"), typescript::tables());
+    let document = home.join("PROTOCOL.md");
     let read = |path: &Path| fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()));
     let with_tables = protocol_tables::with_tables(&read(&document)?).map_err(|error| error.to_string())?;
     let schema = (home.join("protocol.schema.json"), schema::document());
-    for (path, wanted) in [(types, typescript::declarations()), (document, with_tables), schema] {
+    for (path, wanted) in [types, settings, (document, with_tables), schema] {
         if read(&path).is_ok_and(|found| found == wanted) {
             continue;
         }

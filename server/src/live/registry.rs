@@ -151,7 +151,7 @@ impl Sessions {
     /// Tells a session, where it is in memory, that what people say of its tree has changed.
     pub async fn comment(&self, name: &str, places: Vec<Pinned>, threads: Vec<u32>) {
         let slot = self.0.slots().get(name).cloned();
-        if let Some(session) = slot.as_ref().and_then(|slot| slot.get()) {
+        if let Some(session) = slot.as_ref().and_then(|slot| slot.session.get()) {
             // One that has ended reads all of it when it is opened again.
             let _ = session.comment(places, threads).await;
         }
@@ -160,7 +160,7 @@ impl Sessions {
     /// Where the comments of a session's tree are pinned now; nothing where it is not in memory.
     pub async fn pins(&self, name: &str) -> Option<Vec<Pin>> {
         let slot = self.0.slots().get(name).cloned();
-        let session = slot.as_ref().and_then(|slot| slot.get())?;
+        let session = slot.as_ref().and_then(|slot| slot.session.get())?;
         session.pins().await.ok()
     }
 

@@ -1,4 +1,4 @@
-import { PARAMETERS } from "../../wire/generated";
+import { PARAMETERS } from "../../wire/generated-tables";
 import { type Group, SECTIONS, WIDGETS } from "../document/growth/growth-parameters";
 import type { PanelName, SheetName } from "../page/layout";
 import type { ToolDescriptor, ToolLater } from "../tools/descriptor";

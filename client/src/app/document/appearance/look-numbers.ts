@@ -1,10 +1,5 @@
-import {
-  type Appearance,
-  type AppearancePatch,
-  DEFAULT_APPEARANCE,
-  LOOKS,
-  type Setting,
-} from "../../../wire/generated";
+import { type Appearance, type AppearancePatch, DEFAULT_APPEARANCE, type Setting } from "../../../wire/generated";
+import { LOOKS } from "../../../wire/generated-tables";
 
 /** A section of the appearance. */
 export type Part = keyof Appearance;

@@ -1,5 +1,5 @@
 import type { Vec3 } from "../../../scene/vector";
-import { LOOKS } from "../../../wire/generated";
+import { LOOKS } from "../../../wire/generated-tables";
 
 /** Where the sun stands, in degrees: from the z axis towards the x axis, and above the horizon. */
 export interface SunPlace {

@@ -1,5 +1,6 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
-import { PARAMETERS, type Parameters } from "../../../wire/generated";
+import type { Parameters } from "../../../wire/generated";
+import { PARAMETERS } from "../../../wire/generated-tables";
 import { language } from "../../words/say";
 import {
   DEFAULTS,
@@ -25,7 +26,7 @@ const all = [
 ];
 
 /** The table with a number, a switch and a choice more in each group. */
-function withEachKindInEachGroup(generated: typeof import("../../../wire/generated")) {
+function withEachKindInEachGroup(generated: typeof import("../../../wire/generated-tables")) {
   const added = [...new Set(Object.values(generated.PARAMETERS).map(({ group }) => group))].flatMap((group) => [
     [`${group}_number`, { kind: "number", least: 0, most: 1, step: 0.1, group }],
     [`${group}_switch`, { kind: "switch", group }],
@@ -36,14 +37,14 @@ function withEachKindInEachGroup(generated: typeof import("../../../wire/generat
 
 describe("growth parameters", () => {
   afterEach(() => {
-    vi.doUnmock("../../../wire/generated");
+    vi.doUnmock("../../../wire/generated-tables");
     vi.resetModules();
   });
 
   it("of each kind have a place in a panel, whatever their group", async () => {
-    const table = withEachKindInEachGroup(await vi.importActual("../../../wire/generated"));
+    const table = withEachKindInEachGroup(await vi.importActual("../../../wire/generated-tables"));
     vi.resetModules();
-    vi.doMock("../../../wire/generated", () => table);
+    vi.doMock("../../../wire/generated-tables", () => table);
     const { SECTIONS, WIDGETS, OF_THE_BRUSH, OF_THE_LEAVES } = await import("./growth-parameters");
     const sections = SECTIONS.flatMap(({ parameters }) => parameters);
     const placed = [...sections, ...Object.values(WIDGETS).flat(), ...OF_THE_BRUSH, ...OF_THE_LEAVES];

@@ -1,10 +1,10 @@
 import {
   DEFAULT_PARAMETERS as DEFAULTS,
-  PARAMETERS,
   type Parameters,
   type ParametersPatch,
   type Setting,
 } from "../../../wire/generated";
+import { PARAMETERS } from "../../../wire/generated-tables";
 import { numberText, unitText } from "../../words/number-text";
 import { type Key, say } from "../../words/say";
 

@@ -1,4 +1,5 @@
-import { DEFAULT_APPEARANCE, LOOKS } from "../../../wire/generated";
+import { DEFAULT_APPEARANCE } from "../../../wire/generated";
+import { LOOKS } from "../../../wire/generated-tables";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 import { Choice } from "../controls/choice";

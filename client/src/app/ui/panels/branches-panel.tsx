@@ -1,4 +1,4 @@
-import { LOOKS } from "../../../wire/generated";
+import { LOOKS } from "../../../wire/generated-tables";
 import { NUMBERS } from "../../document/growth/growth-parameters";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";

@@ -1,5 +1,5 @@
 import { laminaPath } from "../../../scene/painting/lamina";
-import { LOOKS } from "../../../wire/generated";
+import { LOOKS } from "../../../wire/generated-tables";
 import { withNumber } from "../../document/appearance/look-numbers";
 import { OF_THE_LEAVES } from "../../document/growth/growth-parameters";
 import type { Studio } from "../../studio";

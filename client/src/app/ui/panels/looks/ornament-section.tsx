@@ -1,5 +1,5 @@
 import type { ComponentChildren } from "preact";
-import { LOOKS } from "../../../../wire/generated";
+import { LOOKS } from "../../../../wire/generated-tables";
 import type { Studio } from "../../../studio";
 import { numberText } from "../../../words/number-text";
 import { say } from "../../../words/say";
