@@ -153,10 +153,19 @@ pub fn text(message: &impl serde::Serialize) -> Message {
     Message::text(serde_json::to_string(message).expect("control messages are JSON"))
 }
 
+/// Whether a message tells how far a session is loaded (`HS8`).
+pub fn is_loading(message: &str) -> bool {
+    message.starts_with(r#"{"type":"loading","#)
+}
+
+/// What comes first, but for how far the session is loaded.
 async fn welcome(socket: &mut Socket) -> String {
-    match next(socket).await {
-        Some(Message::Text(answer)) => answer.to_string(),
-        other => panic!("HS2: a welcome comes first, not {other:?}"),
+    loop {
+        match next(socket).await {
+            Some(Message::Text(answer)) if is_loading(&answer) => {}
+            Some(Message::Text(answer)) => return answer.to_string(),
+            other => panic!("HS2: a welcome comes first, not {other:?}"),
+        }
     }
 }
 

@@ -192,7 +192,7 @@ async fn lm1_what_is_too_large_closes_1009_before_it_is_taken_in() {
     while !(pong && answer) {
         let (first, payload) = raw.next().expect("the socket is open");
         pong |= first == LAST | PONG && payload == b"between";
-        answer |= first == LAST | TEXT && payload == br#"{"type":"pong","nonce":7}"#;
+        answer |= first == LAST | TEXT && payload.starts_with(br#"{"type":"pong","nonce":7,"#);
     }
 }
 

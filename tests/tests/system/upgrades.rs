@@ -76,9 +76,12 @@ async fn many(client: &mut Client, command: Value) {
 /// Why the server closes a socket right after the hello, or before.
 pub(crate) async fn refused_by(port: u16, session: &str) -> CloseFrame {
     let mut socket = client::open(port, session).await;
-    match client::next(&mut socket).await.expect("the server says why") {
-        Message::Close(frame) => frame.expect("a close has a reason"),
-        other => panic!("{other:?} before the close"),
+    loop {
+        match client::next(&mut socket).await.expect("the server says why") {
+            Message::Close(frame) => return frame.expect("a close has a reason"),
+            Message::Text(loading) if client::is_loading(&loading) => {}
+            other => panic!("{other:?} before the close"),
+        }
     }
 }
 

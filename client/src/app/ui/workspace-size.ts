@@ -5,8 +5,8 @@ import { useEffect } from "preact/hooks";
 const size = signal({ width: globalThis.innerWidth ?? 1024, height: globalThis.innerHeight ?? 768 });
 
 /** The sizes below which the bars fold, in pixels: as they are, and with the names of their buttons. */
-const BARE = { toolBar: 850, width: 640, height: 560 };
-const NAMED = { toolBar: 1112, width: 640, height: 780 };
+const BARE = { toolBar: 900, width: 640, height: 560 };
+const NAMED = { toolBar: 1260, width: 640, height: 780 };
 
 /** Whether the tool bar has no room for all its buttons. */
 export function isToolBarFolded(names: boolean): boolean {
@@ -16,7 +16,7 @@ export function isToolBarFolded(names: boolean): boolean {
 /** How many buttons one row of the tool bar has room for, at the sizes of `bars.css`; with names it takes several rows. */
 export function roomOfToolBar(names: boolean): number {
   const { width } = size.value;
-  const [target, around] = width < 440 ? [44, 25] : [54, 40];
+  const [target, around] = width < 440 ? [44, 25] : [48, 35];
   return names ? Number.POSITIVE_INFINITY : Math.floor((width - around) / target);
 }
 

@@ -277,7 +277,8 @@ fn cm8_unknown_messages_are_answered() {
     let codes = problems.iter().map(|problem| problem.code);
     let unlike: Vec<_> = codes.enumerate().filter(|(_, code)| *code != ProblemCode::Malformed).collect();
     assert_eq!(unlike, [(6, ProblemCode::OutOfRange)], "-1 is a number, but out of range");
-    assert!(world.peer(client).texts.contains(&ServerMessage::Pong { nonce: 9, at: world.now }));
+    let is_answer = |text: &ServerMessage| matches!(text, ServerMessage::Pong { nonce: 9, .. });
+    assert!(world.peer(client).texts.iter().any(is_answer));
     assert_eq!(world.peer(client).closed, None);
 }
 
