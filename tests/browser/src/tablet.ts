@@ -29,8 +29,11 @@ export type Tool = keyof typeof TOOLS;
 
 /** The longest growth of a test ends sooner, in milliseconds, also on a machine that has much else to do. */
 const PATIENCE = 150_000;
-/** Panels that narrow glass may have no button for but in its menu. */
-const LAST_PANELS: ReadonlySet<string> = new Set(["Background", "Wind", "Structure", "Scene"]);
+/** What narrow glass may have no button for but in its menu. */
+const FOLDING: ReadonlySet<string> = new Set([
+  ...["Background", "Wind", "Structure", "Scene"],
+  ...["Hide everything", "New tree", "Save", "Library", "Share", "Comments", "Download", "Settings", "Help"],
+]);
 /** `ALBUM=1` takes pictures as well of which no test asks anything, for people to look at. */
 const ALBUM = process.env.ALBUM === "1";
 /** The page's picture. */
@@ -145,9 +148,9 @@ export class Tablet extends Glass {
   async tap(label: string): Promise<void> {
     const inMenu = this.page.locator(".tool-bar").getByRole("button", { name: label, exact: true });
     const control = this.page.getByLabel(label, { exact: true }).or(inMenu);
-    // On narrow glass the last panels are in the menu.
-    if (LAST_PANELS.has(label) && (await control.count()) === 0) {
-      await this.press(this.page.getByRole("button", { name: "More", exact: true }));
+    const more = this.page.getByRole("button", { name: "More", exact: true, expanded: false });
+    if (FOLDING.has(label) && (await control.count()) === 0 && (await more.count()) > 0) {
+      await this.press(more);
     }
     await this.press(control.first());
   }
