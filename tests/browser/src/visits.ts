@@ -47,7 +47,7 @@ export const PARTS: readonly Part[] = [
 export async function openPart(tablet: Tablet, { panel, tab, picks = [] }: Part): Promise<void> {
   const { page } = tablet;
   const shown = page.getByRole("region", { name: panel, exact: true });
-  if (!(await shown.isVisible())) await page.getByRole("button", { name: panel, exact: true }).first().click();
+  if (!(await shown.isVisible())) await press(tablet, panel);
   await shown.waitFor();
   if (tab) await tablet.turnTo(tab);
   await unfolded(tablet);
