@@ -105,11 +105,11 @@ test("CT1, CT2: two pages talk about a place that rides with its branch, goes wi
   // The branch is bent: the pin rides along, on both.
   await workshop.act(address, [{ kind: "turn_branch", row: 3, rotation: [0, 0, 0.3, 0.954] }]);
   await untilPin(tablet, "it rides along", ({ x, stands }) => stands && Math.abs(x - first.x) > 20);
-  // The branch is cut below it: it is hollow where it was, and stands again once that is undone.
-  await workshop.act(address, [{ kind: "prune", rows: [4] }]);
-  await untilPin(other, "it is detached", ({ stands }) => !stands);
-  await tablet.show("comment-detached");
-  await workshop.act(address, [{ kind: "undo" }]);
+  // Time goes back to before the branch: it is hollow where it was, and stands again when time has come back.
+  await workshop.act(address, [{ kind: "undo" }, { kind: "undo" }]);
+  await untilPin(other, "it is not there yet", ({ stands }) => !stands);
+  await tablet.show("comment-not-yet");
+  await workshop.act(address, [{ kind: "redo" }, { kind: "redo" }]);
   await untilPin(other, "it stands again", ({ stands }) => stands);
 
   await tablet.press(tablet.page.getByRole("button", { name: "Resolve" }));

@@ -30,6 +30,8 @@ test.each<[string, Screen]>([
   await tablet.press(button(tablet, "Limb 3"));
   const length = tablet.page.getByRole("slider", { name: "Length", exact: true });
   await length.waitFor();
+  await length.scrollIntoViewIfNeeded();
+  await tablet.untilSettled();
   const box = await tablet.boxOf(length);
   const at = (x: number) => ({ x: box.x + x * box.width, y: box.y + 0.5 * box.height });
   await tablet.swipe([way(at(0.33), at(0.75), 6)]);
