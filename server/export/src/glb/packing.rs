@@ -20,8 +20,13 @@ pub(super) fn vertices(bytes: &[u8], stride: usize) -> Result<Vec<u8>, ExportErr
         24 => packed::<24>(bytes),
         28 => packed::<28>(bytes),
         32 => packed::<32>(bytes),
+        36 => packed::<36>(bytes),
+        40 => packed::<40>(bytes),
+        44 => packed::<44>(bytes),
         52 => packed::<52>(bytes),
         60 => packed::<60>(bytes),
+        64 => packed::<64>(bytes),
+        72 => packed::<72>(bytes),
         _ => None,
     };
     packed.ok_or(ExportError::NoCompression)
