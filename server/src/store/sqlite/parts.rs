@@ -10,7 +10,7 @@ use espalier_session::plain;
 use fastcdc::v2020::FastCDC;
 use flate2::Crc;
 use sha2::{Digest, Sha256};
-use sqlx::{AssertSqlSafe, Row, SqlitePool, sqlite::SqliteConnection};
+use sqlx::{AssertSqlSafe, QueryBuilder, Row, SqlitePool, sqlite::SqliteConnection};
 use tokio::{sync::RwLock, task::spawn_blocking};
 
 use super::{
@@ -25,6 +25,8 @@ const USUAL: usize = 16 * 1024;
 const MOST: usize = 64 * 1024;
 /// So many packed bytes are written at a time, so that people's work has its turns between.
 const MAX_WRITE: usize = 2 * 1024 * 1024;
+/// So many parts are written by one statement: each is a turn of SQLite's own thread.
+const MAX_INSERTED: usize = 32;
 /// So many parts are looked for in one query.
 const MAX_LOOKED_FOR: usize = 200;
 
@@ -168,18 +170,19 @@ fn sum(bytes: &[u8]) -> u32 {
 
 /// Writes parts that are not there, or not whole.
 pub(super) async fn write(connection: &mut SqliteConnection, parts: &[Part]) -> Result<u64, StoreError> {
-    for part in parts {
-        sqlx::query(
-            "INSERT INTO parts (hash, packing, packed, checksum) VALUES (?, ?, ?, ?)
-             ON CONFLICT (hash) DO UPDATE
+    for some in parts.chunks(MAX_INSERTED) {
+        let mut query = QueryBuilder::new("INSERT INTO parts (hash, packing, packed, checksum) ");
+        query.push_values(some, |mut row, part| {
+            row.push_bind(part.hash.as_slice())
+                .push_bind(Packing::NOW.column())
+                .push_bind(part.packed.as_slice())
+                .push_bind(part.checksum);
+        });
+        query.push(
+            " ON CONFLICT (hash) DO UPDATE
              SET packing = excluded.packing, packed = excluded.packed, checksum = excluded.checksum",
-        )
-        .bind(part.hash.as_slice())
-        .bind(Packing::NOW.column())
-        .bind(&part.packed)
-        .bind(part.checksum)
-        .execute(&mut *connection)
-        .await?;
+        );
+        query.build().execute(&mut *connection).await?;
     }
     Ok(parts.len() as u64)
 }
@@ -198,12 +201,15 @@ pub(super) async fn write_document(
     let id: i64 = row.bind(hash).bind(simulation_version).fetch_one(&mut *connection).await?;
     // One that is there already is written again: it may have been damaged since.
     sqlx::query("DELETE FROM document_parts WHERE document = ?").bind(id).execute(&mut *connection).await?;
-    for (ordinal, part) in (0_i64..).zip(parts) {
-        let row = sqlx::query(
-            "INSERT INTO document_parts (document, ordinal, part) SELECT ?, ?, id FROM parts WHERE hash = ?",
-        );
-        let row = row.bind(id).bind(ordinal).bind(part.as_slice());
-        if row.execute(&mut *connection).await?.rows_affected() == 0 {
+    let numbered: Vec<(i64, &Hash)> = (0_i64..).zip(parts).collect();
+    for some in numbered.chunks(MAX_LOOKED_FOR) {
+        let mut query = QueryBuilder::new("INSERT INTO document_parts (document, ordinal, part) SELECT ");
+        query.push_bind(id).push(", named.column1, parts.id FROM (");
+        query.push_values(some, |mut row, (ordinal, part)| {
+            row.push_bind(ordinal).push_bind(part.as_slice());
+        });
+        query.push(") AS named JOIN parts ON parts.hash = named.column2");
+        if query.build().execute(&mut *connection).await?.rows_affected() != some.len() as u64 {
             return Err(StoreError::Damaged("a part of the document is not there".into()));
         }
     }
