@@ -392,18 +392,16 @@ pub fn write(
         author: options.author.as_ref().map(Name::as_str),
         licence: options.licence.as_ref().map(Name::as_str),
     };
+    let slug = species.map(|species| species.slug);
+    let origin = Origin { species: slug, seed, parameters: &parameters, looks: &appearance };
     let model = options.model();
     match format {
         Format::Glb => espalier_export::glb(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Obj => espalier_export::obj(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Usda => espalier_export::usda(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Usdz => espalier_export::usdz(document.portrait(), &style, &appearance, &about, &model, out),
-        Format::Skeleton => {
-            let species = species.map(|species| species.slug);
-            let origin = Origin { species, seed, parameters: &parameters, looks: &appearance };
-            espalier_export::skeleton_json(document.portrait(), &style, &origin, out)
-        }
-        Format::Mtg => espalier_export::mtg(document.plant(), &style, metres, out),
+        Format::Skeleton => espalier_export::skeleton_json(document.portrait(), &style, &origin, out),
+        Format::Mtg => espalier_export::mtg(document.plant(), &style, &origin, out),
         Format::Qsm => espalier_export::qsm_csv(document.plant(), &style, metres, out),
         Format::Joints => espalier_export::joints_csv(document.portrait(), &style, &appearance, metres, out),
         Format::Cloud => {

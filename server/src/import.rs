@@ -1,9 +1,16 @@
 //! Files that become trees: structure of other programs, and documents of this one.
 
-use std::{borrow::Cow, fmt};
+use std::{
+    borrow::Cow,
+    fmt,
+    io::{self, Write},
+};
 
-use espalier_growth::{WORLD_EXTENT, species};
-use espalier_import::{Fault, FaultKind, WoodFormat, WoodOptions, read_wood};
+use espalier_growth::{
+    WORLD_EXTENT,
+    species::{self, Species, Stage},
+};
+use espalier_import::{Fault, FaultKind, WoodFormat, WoodNote, WoodOptions, read_wood};
 use espalier_proto::{NotAllowed, Problem, ProblemCode, Reason};
 use espalier_session::{Document, DocumentError, TransplantError};
 use espalier_settings::{Appearance, ParameterValues, ParametersPatch};
@@ -51,6 +58,34 @@ pub struct Import {
     pub parameters: Vec<ParametersPatch>,
     /// The most metamers.
     pub metamers: u32,
+}
+
+/// What has become of a file.
+#[derive(Debug)]
+pub struct Imported {
+    /// The document.
+    pub document: Document,
+    /// What whoever takes it should know.
+    pub notes: Vec<ImportNote>,
+}
+
+/// What whoever takes a file should know although it became a tree; each message is a sentence or two.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ImportNote {
+    /// Of the file itself.
+    #[error(transparent)]
+    File(#[from] WoodNote),
+    /// It names a species that nobody knows.
+    #[error("No species here is called `{0}`; what the file does not say itself is as by default.")]
+    Species(String),
+}
+
+impl ImportNote {
+    /// Says it to whoever gave the command.
+    pub fn print(&self) {
+        // A reader that has gone is no error of ours.
+        let _ = writeln!(io::stderr(), "Note: {self}");
+    }
 }
 
 /// A file cannot become a tree; each message ends a sentence.
@@ -131,29 +166,53 @@ impl Format {
 }
 
 /// The document of a file.
-pub fn document(bytes: &[u8], import: &Import) -> Result<Document, ImportError> {
+pub fn document(bytes: &[u8], import: &Import) -> Result<Imported, ImportError> {
     let format = match import.format {
         Format::Wood(format) => format,
-        Format::Document => return Ok(Document::from_bytes(bytes)?),
+        Format::Document => {
+            return Ok(Imported { document: Document::from_bytes(bytes)?, notes: Vec::new() });
+        }
     };
-    let set =
-        |values: ParameterValues| import.parameters.iter().fold(values, |all, patch| all.patched(patch));
-    let wanted = set(ParameterValues::default());
+    let set = import.parameters.iter().fold(ParametersPatch::default(), |all, patch| all.patched(patch));
+    let wanted = ParameterValues::default().patched(&set);
+    // What the length of an internode turns into places must be a length.
+    wanted.check().map_err(TransplantError::from)?;
     let options = WoodOptions {
-        internode_length: wanted.internode_length,
+        internode_length: set.internode_length,
         unit: import.unit,
         shoot: wanted.max_shoot_length,
         nodes: import.metamers as usize,
         extent: WORLD_EXTENT,
     };
-    // What the length of an internode turns into places must be a length.
-    wanted.check().map_err(TransplantError::from)?;
     let file = read_wood(format, bytes, &options)?;
-    let parameters = set(ParameterValues::default().patched(&file.parameters));
     let species = file.species.as_deref().and_then(species::find);
+    let age = file.wood.nodes.last().map_or(0, |node| node.birth);
+    let grown = species.map_or_else(ParameterValues::default, |species| parameters_at(species, age).clone());
+    let parameters = grown.patched(&file.parameters).patched(&set);
     let looks = species.map_or_else(Appearance::default, |species| species.appearance);
     let seed = file.seed.unwrap_or(import.seed);
-    Ok(Document::transplanted(&file.wood, seed, &parameters, looks)?)
+    let document = Document::transplanted(&file.wood, seed, &parameters, looks)?;
+    let unknown = file.species.filter(|_| species.is_none()).map(|name| ImportNote::Species(excerpt(&name)));
+    Ok(Imported { document, notes: file.notes.into_iter().map(ImportNote::from).chain(unknown).collect() })
+}
+
+/// The parameters that a species has at an age.
+fn parameters_at(species: &Species, age: u32) -> &ParameterValues {
+    let (mut begins, mut parameters) = (0, &species.parameters);
+    for stage in &species.schedule {
+        match stage {
+            Stage::Grow(steps) => begins += steps,
+            Stage::Change(values) if begins < age => parameters = values,
+            Stage::Change(_) | Stage::Sow(..) | Stage::Brush(_) => {}
+        }
+    }
+    parameters
+}
+
+/// As much of a name as a sentence tells again.
+fn excerpt(name: &str) -> String {
+    const LONGEST: usize = 40;
+    name.chars().filter(|c| !c.is_control()).take(LONGEST).collect()
 }
 
 impl Import {
@@ -208,7 +267,17 @@ mod tests {
     }
 
     fn of_wood(format: WoodFormat, bytes: &[u8]) -> Document {
-        document(bytes, &import(Format::Wood(format), &[])).unwrap_or_else(|error| panic!("{error}"))
+        read(bytes, format, &[]).document
+    }
+
+    fn read(bytes: &[u8], format: WoodFormat, parameters: &[ParametersPatch]) -> Imported {
+        let import = Import { metamers: 100_000, ..import(Format::Wood(format), parameters) };
+        document(bytes, &import).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// A decimetre each.
+    fn short() -> ParametersPatch {
+        ParametersPatch { internode_length: Some(0.1), ..ParametersPatch::default() }
     }
 
     fn command(value: serde_json::Value) -> espalier_proto::Command {
@@ -217,7 +286,7 @@ mod tests {
 
     #[test]
     fn a_scan_is_bent_pruned_grown_on_and_taken_back() {
-        let mut scan = of_wood(WoodFormat::Qsm, SCAN.as_bytes());
+        let mut scan = read(SCAN.as_bytes(), WoodFormat::Qsm, &[short()]).document;
         let (metamers, hash) = (scan.metamers(), scan.plant().hash());
         assert_eq!(metamers, 19);
         assert!(!scan.figures().can_undo);
@@ -233,7 +302,8 @@ mod tests {
         assert!(act(json!({"kind": "bend_end", "bend": 1})).is_ok());
         let grown = act(json!({"kind": "grow", "steps": 3})).unwrap_or(0);
         assert!(grown > metamers, "{grown}");
-        let pruned = act(json!({"kind": "prune", "rows": [2]})).unwrap_or(grown);
+        let pruned =
+            act(json!({"kind": "prune", "rows": [tip]})).unwrap_or_else(|problem| panic!("{problem}"));
         assert!(pruned < grown, "{pruned}");
         for _ in 0..3 {
             scan.apply(&Principal::visitor(), &Action::Undo {}.into())
@@ -262,7 +332,7 @@ mod tests {
         assert_eq!(again, Ok(after.hash()));
         let file = exported(&mut before, exports::Format::Document);
         let same = document(&file, &import(Format::Document, &[]));
-        assert!(same.is_ok_and(|same| same.plant().hash() == before.plant().hash()));
+        assert!(same.is_ok_and(|same| same.document.plant().hash() == before.plant().hash()));
     }
 
     #[test]
@@ -277,9 +347,82 @@ mod tests {
     #[test]
     fn internodes_are_as_long_as_asked_for() {
         let patch = ParametersPatch { internode_length: Some(0.05), ..ParametersPatch::default() };
-        let scan = document(SCAN.as_bytes(), &import(Format::Wood(WoodFormat::Qsm), &[patch]));
-        // Twice as many, and one internode to the branch.
-        assert_eq!(scan.map(|scan| scan.metamers()).ok(), Some(20 + 6 + 10 + 1));
+        let scan = read(SCAN.as_bytes(), WoodFormat::Qsm, &[patch]).document;
+        // Of 1 m, 0.3 m and 0.5 m, and one internode to the branch.
+        assert_eq!((scan.metamers(), scan.parameters().internode_length), (20 + 6 + 10 + 1, 0.05));
+    }
+
+    #[test]
+    fn internodes_are_as_long_as_the_file_has_them() {
+        let scan = of_wood(WoodFormat::Qsm, SCAN.as_bytes());
+        // The median of 1 m, 0.5 m and 0.3 m.
+        assert_eq!((scan.metamers(), scan.parameters().internode_length), (2 + 1 + 1, 0.5));
+    }
+
+    #[test]
+    fn leaves_hang_where_they_hung_and_as_many() {
+        for name in ["oak", "cherry", "scots-pine", "weeping-willow"] {
+            let species = species::find(name).unwrap_or_else(|| panic!("{name} is a species"));
+            let mut before = Document::new(3);
+            for action in espalier_session::script(species).into_iter().take(2) {
+                before
+                    .apply(&Principal::visitor(), &action.into())
+                    .unwrap_or_else(|problem| panic!("{problem}"));
+            }
+            let steps = species_steps(species).min(12);
+            let grow = Action::Grow { steps: Steps::nearest(steps), until: None, bud: None };
+            before.apply(&Principal::visitor(), &grow.into()).unwrap_or_else(|problem| panic!("{problem}"));
+            let plant = before.plant();
+            let dead = plant.metamer_count() as u32 - plant.living_count();
+            assert!(dead > 1, "{name} must have shed twigs");
+            let skeleton = exported(&mut before, exports::Format::Skeleton);
+            let graph = exported(&mut before, exports::Format::Mtg);
+            for (format, file) in [(WoodFormat::Skeleton, &skeleton), (WoodFormat::Mtg, &graph)] {
+                let after = of_wood(format, file);
+                assert_eq!(after.seed(), 3, "{name}");
+                assert_eq!(after.parameters(), before.parameters(), "{name}, {format:?}");
+                assert_eq!(after.appearance(), before.appearance(), "{name}, {format:?}");
+                // In summer all of them are out; in spring and autumn chance decides, by rows.
+                let [before, after] = [before.clone(), after].map(|mut document| {
+                    let summer = json!({"kind": "set_appearance", "appearance": {"leaves": {"season": 1.0}}});
+                    document
+                        .apply(&Principal::visitor(), &command(summer))
+                        .unwrap_or_else(|problem| panic!("{problem}"));
+                    leaves_of(&exported(&mut document, exports::Format::Skeleton))
+                });
+                assert!(before == after, "{name}, {format:?}");
+            }
+        }
+    }
+
+    /// Steps of a species' life without a stroke.
+    fn species_steps(species: &Species) -> u32 {
+        let steps = species.schedule.iter();
+        steps.map(|stage| if let Stage::Grow(steps) = stage { *steps } else { 0 }).sum()
+    }
+
+    /// How many leaves each metamer of a skeleton bears.
+    fn leaves_of(skeleton: &[u8]) -> std::collections::BTreeMap<u64, usize> {
+        let file: serde_json::Value = serde_json::from_slice(skeleton).unwrap_or_default();
+        let leaves = file["leaves"].as_array().cloned().unwrap_or_default();
+        assert!(!leaves.is_empty());
+        let mut all = std::collections::BTreeMap::new();
+        for leaf in leaves {
+            *all.entry(leaf["metamer"].as_u64().unwrap_or(u64::MAX)).or_default() += 1;
+        }
+        all
+    }
+
+    #[test]
+    fn what_is_taken_with_a_doubt_is_said() {
+        assert_eq!(read(SCAN.as_bytes(), WoodFormat::Qsm, &[]).notes, []);
+        let cut = read(SCAN.trim_end().as_bytes(), WoodFormat::Qsm, &[]);
+        assert_eq!(cut.notes, [ImportNote::File(WoodNote::NoLineEnd)]);
+        let mut document = Document::new(1);
+        let file = exported(&mut document, exports::Format::Skeleton);
+        let file = String::from_utf8_lossy(&file).replace("\"species\":null", "\"species\":\"triffid\"");
+        let strange = read(file.as_bytes(), WoodFormat::Skeleton, &[]);
+        assert_eq!(strange.notes, [ImportNote::Species("triffid".into())]);
     }
 
     #[test]
@@ -299,6 +442,8 @@ mod tests {
         let tiny = ParametersPatch { internode_length: Some(0.005), ..ParametersPatch::default() };
         let many = SCAN.replace("20,30,6,0.05,1,1,0", "20,30,9.9,0.05,1,1,0");
         assert_eq!(problem(&many, &[tiny]), Some((ProblemCode::TooMany, at("line 3"))));
+        let thick = SCAN.replace("0.02,0.5", "1e30,0.5");
+        assert_eq!(problem(&thick, &[]), Some((ProblemCode::OutOfRange, at("line 3, column 10"))));
     }
 
     #[test]

@@ -18,7 +18,8 @@ pub struct ImportOptions {
     /// Metres in one unit of the file, for .csv and .mtg: 0.001 for millimetres; 1 if not given.
     #[arg(long, value_name = "METRES")]
     pub unit: Option<Unit>,
-    /// Metres in one internode, which a .espalier file knows itself; 0.1, or what a skeleton says, if not given.
+    /// Metres in one internode, which a .espalier file knows itself; what a skeleton or graph says, or the median of a
+    /// file's pieces, if not given.
     #[arg(long, value_name = "METRES")]
     pub internode_length: Option<InternodeLength>,
 }

@@ -21,7 +21,8 @@ use crate::{
     },
     document::{self, FORMATS, Format, Stored},
     export_options::{ExportOptions, NotOfFormat, Size},
-    import, name,
+    import::{self, ImportNote, Imported},
+    name,
     output::{OutputError, Target},
     progress::Bar,
     review,
@@ -284,10 +285,11 @@ async fn put(options: &Put) -> Result<(), LibraryError> {
         metamers: DEFAULT_METAMER_BUDGET,
     };
     let bar = Bar::turning("making a tree of the file");
-    let mut document = import::document(&bytes, &import)
+    let Imported { mut document, notes } = import::document(&bytes, &import)
         .map_err(|cause| LibraryError::Import { path: path.clone(), cause })?;
     let thumbnail = picture(&mut document);
     drop(bar);
+    notes.iter().for_each(ImportNote::print);
     let saved = Saved { thumbnail, ..Saved::of(&document) };
     let version = new_version(note, Contents::New(Box::new(saved)));
     let tree = match &options.to {

@@ -112,12 +112,8 @@ impl Assembly {
     fn of(stem: &Rows, limbs: &[(NodeId, u32, &Rows)], missing: Missing, renewed: Vec<NodeId>) -> Generated {
         let count = 1 + stem.nodes.len() + limbs.iter().map(|limb| limb.2.nodes.len()).sum::<usize>();
         let axes = 1 + limbs.iter().map(|limb| limb.2.axes.len()).sum::<usize>();
-        let mut wood = Wood {
-            nodes: Vec::with_capacity(count),
-            axes: Vec::with_capacity(axes),
-            widths: Vec::new(),
-            has_buds: false,
-        };
+        let mut wood =
+            Wood { nodes: Vec::with_capacity(count), axes: Vec::with_capacity(axes), ..Wood::default() };
         let (mut placed, mut places) = (Vec::with_capacity(axes), Vec::with_capacity(count));
         let seed = WoodNode { parent: None, axis: 0, end: Vec3::ZERO, normal: None, radius: None, birth: 0 };
         wood.nodes.push(seed);

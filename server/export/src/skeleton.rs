@@ -43,6 +43,7 @@ pub fn skeleton_json(
 ) -> Result<(), ExportError> {
     let structure = Structure::of(plant, style, origin.parameters.internode_length)?;
     let foliage = Foliage::of(plant, style, origin.looks, 0);
+    let shed = structure.shed();
     let file = File {
         format: "espalier-skeleton",
         version: VERSION,
@@ -53,7 +54,9 @@ pub fn skeleton_json(
         seed: origin.seed,
         parameters: origin.parameters,
         axes: Each::of(structure.axes.iter().map(|&id| axis(&structure, id))),
-        metamers: Each::of(structure.metamers.iter().map(|&id| metamer(&structure, id))),
+        metamers: Each::of(
+            structure.metamers.iter().zip(shed).map(|(&id, shed)| metamer(&structure, id, shed)),
+        ),
         leaves: Each::of(living(plant).flat_map(|id| {
             let structure = &structure;
             foliage.leaves(id).map(move |(leaf, _)| Leaf {
@@ -102,6 +105,8 @@ struct Metamer {
     birth: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
     width: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shed: Option<u32>,
 }
 
 #[derive(Serialize)]
@@ -138,7 +143,7 @@ fn axis(structure: &Structure<'_>, id: AxisId) -> Axis {
     }
 }
 
-fn metamer(structure: &Structure<'_>, id: MetamerId) -> Metamer {
+fn metamer(structure: &Structure<'_>, id: MetamerId, shed: u32) -> Metamer {
     let (plant, metamers) = (structure.plant, structure.plant.metamers());
     Metamer {
         parent: metamers.parent(id).map(|parent| structure.number(parent)),
@@ -148,6 +153,7 @@ fn metamer(structure: &Structure<'_>, id: MetamerId) -> Metamer {
         radius: rounded(structure.metres(structure.radius(id))),
         birth: plant.birth(id),
         width: structure.wanted(id).map(|diameter| rounded(structure.metres(diameter))),
+        shed: Some(shed).filter(|&shed| shed > 0),
     }
 }
 

@@ -84,6 +84,11 @@ impl<'a> Structure<'a> {
         Some(self.wanted[at].1)
     }
 
+    /// Tips of twigs that were shed, for each living metamer those that it bore.
+    pub(crate) fn shed(&self) -> Vec<u32> {
+        self.plant.tips_of_shed(&self.metamers)
+    }
+
     /// The living wood of each axis from its base to its tip, seeds left out.
     pub(crate) fn wood_of_axes(&self) -> Vec<Vec<MetamerId>> {
         let mut wood = vec![Vec::new(); self.axes.len()];

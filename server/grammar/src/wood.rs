@@ -1,6 +1,6 @@
 //! Words as wood: what the turtle draws becomes nodes and axes, and what goes on growing becomes buds.
 
-use espalier_plant::{Wood, WoodAxis, WoodNode, wood::SHORTEST};
+use espalier_plant::{DormantBuds, Wood, WoodAxis, WoodNode, wood::SHORTEST};
 use glam::{DVec3, Vec3};
 
 use crate::{
@@ -276,8 +276,8 @@ impl Carpenter {
         self.scale_radii();
         self.date();
         self.sort();
-        let has_buds = self.buds == Buds::Grammar;
-        let wood = Wood { nodes: self.nodes, axes: self.axes, widths: Vec::new(), has_buds };
+        let buds = if self.buds == Buds::Grammar { DormantBuds::Known } else { DormantBuds::Everywhere };
+        let wood = Wood { nodes: self.nodes, axes: self.axes, buds, ..Wood::default() };
         Drawn { wood, keys: self.keys, growing: self.growing }
     }
 

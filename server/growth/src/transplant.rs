@@ -2,7 +2,7 @@
 //! would have laid down.
 
 use espalier_plant::{
-    AxisId, BrokenPlant, Edit, Given, GivenRadii, Internode, MetamerId, Plant, PlantParts, Wood,
+    AxisId, BrokenPlant, DormantBuds, Edit, Given, GivenRadii, Internode, MetamerId, Plant, PlantParts, Wood,
 };
 use glam::Vec3;
 
@@ -19,11 +19,14 @@ use crate::{
 
 /// No row.
 const NONE: u32 = u32::MAX;
+/// Wood is young where less stands above it than so many steps grow at most.
+const YOUNG: u32 = 2;
 /// A lateral that stands off its bearer by a smaller sine says nothing of where the normal points.
 const LEAST_SINE: f32 = 0.05;
 
-/// A plant of this wood, in the step of its last birth. Its radii are given ones. Where the wood knows no buds, each
-/// node bears as many laterals as the parameters say, those that have not grown dormant.
+/// A plant of this wood, in the step of its last birth. Its radii are given ones. Nodes that bear dormant buds bear as
+/// many laterals as the parameters say. Those on young wood are young where less wood stands on them than two steps
+/// grow at most: scans do not say when wood grew, and on what has grown since long few buds are left.
 ///
 /// # Errors
 /// Where nodes and axes do not fit together, or an internode has no length.
@@ -34,10 +37,14 @@ pub fn transplant(wood: &Wood, parameters: &Parameters) -> Result<Plant, BrokenP
 /// The parts of a plant of this wood.
 fn rooted(wood: &Wood, parameters: &Parameters) -> Result<PlantParts, BrokenPlant> {
     check(wood)?;
-    let borne = Borne::of(wood);
-    let mut rooting =
-        Rooting { wood, parameters, borne, parts: PlantParts::default(), rows_of_axes: Vec::new() };
-    rooting.rows_of_axes.resize(wood.axes.len(), NONE);
+    let mut rooting = Rooting {
+        wood,
+        parameters,
+        borne: Borne::of(wood),
+        above: above(wood),
+        parts: PlantParts::default(),
+        rows_of_axes: vec![NONE; wood.axes.len()],
+    };
     for node in 0..wood.nodes.len() {
         rooting.add(node);
     }
@@ -48,7 +55,7 @@ fn rooted(wood: &Wood, parameters: &Parameters) -> Result<PlantParts, BrokenPlan
 
 impl<G: Generator + AsRef<Growth>> Simulation<G> {
     /// Plants wood beside the plants that there are, moved by so much, in a step of its own, in which nothing grows
-    /// older. Its rows stand in the order of its nodes.
+    /// older. Its rows stand in the order of its nodes; width constraints and what was shed are left out.
     ///
     /// # Errors
     /// Where it would stand outside the world or be more than the scene may hold, or does not fit together; then
@@ -135,7 +142,22 @@ fn check(wood: &Wood) -> Result<(), BrokenPlant> {
     if wood.nodes.iter().any(|node| node.parent.is_none() && is_borne(node.axis)) {
         return broken("a seed stands on a branch");
     }
+    let is_there = |row: u32| wood.nodes.get(row as usize).is_some_and(|node| node.parent.is_some());
+    if !wood.scars.is_sorted_by(|a, b| a.0 < b.0) || !wood.scars.iter().all(|&(row, _)| is_there(row)) {
+        return broken("what was shed stood on nothing");
+    }
     Ok(())
+}
+
+/// How many internodes stand on each node on the way to the farthest tip.
+fn above(wood: &Wood) -> Vec<u32> {
+    let mut above = vec![0; wood.nodes.len()];
+    for (at, node) in wood.nodes.iter().enumerate().rev() {
+        if let Some(parent) = node.parent {
+            above[parent as usize] = above[parent as usize].max(above[at] + 1);
+        }
+    }
+    above
 }
 
 /// Which axes each node bears, and where axes begin.
@@ -170,6 +192,8 @@ struct Rooting<'a> {
     wood: &'a Wood,
     parameters: &'a Parameters,
     borne: Borne,
+    /// How many internodes stand on each node.
+    above: Vec<u32>,
     parts: PlantParts,
     /// The row of each axis of the wood, once it has one.
     rows_of_axes: Vec<u32>,
@@ -198,13 +222,24 @@ impl Rooting<'_> {
         for &(axis, direction) in &laterals {
             self.rows_of_axes[axis as usize] = self.push_axis(number as u32, direction);
         }
-        if !self.wood.has_buds {
+        if self.has_dormant_buds(number) {
             let (sin, cos) = self.parameters.branching;
             let buds = self.parameters.buds_per_node as usize;
             for &around in self.parameters.whorl.iter().take(buds).skip(laterals.len()) {
                 let direction = (heading * cos + turn(normal, heading, around) * sin).normalize_or(heading);
                 self.push_axis(number as u32, direction);
             }
+        }
+    }
+
+    /// Whether laterals of a node that have not grown are dormant buds.
+    fn has_dormant_buds(&self, number: usize) -> bool {
+        match self.wood.buds {
+            DormantBuds::Everywhere => true,
+            DormantBuds::OnYoungWood => {
+                self.above[number] < YOUNG.saturating_mul(self.parameters.max_shoot_length)
+            }
+            DormantBuds::Known => false,
         }
     }
 
@@ -274,11 +309,12 @@ impl Rooting<'_> {
         }
     }
 
-    /// Each step gives radii and widths to what is born in it.
+    /// Each step gives radii, widths and the tips of what was shed to what is born in it.
     fn record_time(&mut self) {
-        let Wood { nodes, widths, .. } = self.wood;
+        let Wood { nodes, widths, scars, .. } = self.wood;
         let radius = |row: usize| nodes[row].parent.and(nodes[row].radius);
         let mut wanted = widths.iter().peekable();
+        let mut shed = scars.iter().peekable();
         let mut from = 0;
         for end in &mut self.parts.ends {
             let born = from..end[0] as usize;
@@ -292,6 +328,9 @@ impl Rooting<'_> {
             }
             while let Some((row, _)) = wanted.next_if(|(row, _)| (*row as usize) < from) {
                 self.parts.edits.push(Edit::Width(MetamerId::new(*row as usize), None));
+            }
+            while let Some(&(row, tips)) = shed.next_if(|(row, _)| (*row as usize) < from) {
+                self.parts.edits.push(Edit::Scarred(MetamerId::new(row as usize), tips));
             }
             end[2] = self.parts.edits.len() as u32;
         }
@@ -358,6 +397,7 @@ mod tests {
     fn it_goes_back_to_its_seed_and_forth_again() {
         let mut wood = sapling();
         wood.widths = vec![(2, 1.5)];
+        wood.scars = vec![(3, 2)];
         let mut plant = planted(&wood);
         let hash = plant.hash();
         plant.go_to(0);
@@ -390,7 +430,7 @@ mod tests {
     #[test]
     fn a_cut_axis_has_no_bud_and_known_buds_are_all_there_are() {
         let mut wood = sapling();
-        wood.has_buds = true;
+        wood.buds = DormantBuds::Known;
         wood.axes[1].has_bud = false;
         wood.axes.push(WoodAxis { bearer: Some(2), direction: Some(Vec3::Z), has_bud: true });
         let mut plant = planted(&wood);
@@ -401,8 +441,39 @@ mod tests {
     }
 
     #[test]
+    fn what_was_shed_counts_among_the_tips_of_what_bore_it() {
+        let tips = |wood: &Wood| {
+            let plant = planted(wood);
+            (0..5).map(|row| plant.metamers().tips(MetamerId::new(row))).collect::<Vec<_>>()
+        };
+        let mut wood = sapling();
+        assert_eq!(tips(&wood), [2, 2, 1, 1, 1]);
+        wood.scars = vec![(2, 3), (3, 1)];
+        assert_eq!(tips(&wood), [6, 6, 4, 2, 1]);
+    }
+
+    #[test]
+    fn young_wood_alone_has_dormant_buds_where_no_others_are_known() {
+        // A pole of so many internodes that the lower half has long outgrown its buds.
+        let parameters = Parameters::default();
+        let young = YOUNG * parameters.max_shoot_length;
+        let nodes = (0..=2 * young).map(|at| node(at.checked_sub(1), 0, [0.0, at as f32, 0.0], at));
+        let pole = Wood {
+            nodes: nodes.collect(),
+            axes: vec![axis(None)],
+            buds: DormantBuds::OnYoungWood,
+            ..Wood::default()
+        };
+        let plant = planted(&pole);
+        let bears = |row: u32| plant.laterals(MetamerId::new(row as usize)).count() as u32;
+        let buds = parameters.buds_per_node;
+        assert!((1..=young).all(|row| bears(row) == 0));
+        assert!((young + 1..=2 * young).all(|row| bears(row) == buds));
+    }
+
+    #[test]
     fn wood_that_does_not_fit_together_is_refused() {
-        let broken: [fn(&mut Wood); 9] = [
+        let broken: [fn(&mut Wood); 11] = [
             |wood| wood.nodes.clear(),
             |wood| wood.nodes[0].birth = 1,
             |wood| wood.nodes[4].birth = 0,
@@ -412,6 +483,8 @@ mod tests {
             |wood| wood.axes[1].bearer = Some(99),
             |wood| wood.axes[1].bearer = Some(4),
             |wood| wood.nodes[4].end = wood.nodes[2].end,
+            |wood| wood.scars = vec![(5, 1)],
+            |wood| wood.scars = vec![(2, 1), (2, 1)],
         ];
         for (case, damage) in broken.into_iter().enumerate() {
             let mut wood = sapling();

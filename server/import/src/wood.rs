@@ -2,6 +2,7 @@
 //!
 //! Any bytes at all give wood or a fault; work and memory are bounded by the file's size and the limit of nodes.
 
+mod internode;
 mod mtg;
 mod pieces;
 mod qsm;
@@ -14,6 +15,8 @@ use espalier_settings::ParametersPatch;
 
 /// Steps of birth that a file may name.
 const MAX_STEP: u32 = 100_000;
+/// Tips of shed twigs that a file may have, all together.
+const MAX_SHED: u32 = 1_000_000_000;
 
 /// A format of structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,8 +32,8 @@ pub enum WoodFormat {
 /// What turns metres into internodes, and what bounds the work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WoodOptions {
-    /// Length of one internode in metres, where the file does not say.
-    pub internode_length: f32,
+    /// Length of one internode in metres; if it is not given, what the file says, or how long its pieces are.
+    pub internode_length: Option<f32>,
     /// Metres in one unit of the file; skeletons know their own.
     pub unit: f64,
     /// Internodes that an axis is given in one step, where the file does not say when it grew.
@@ -52,6 +55,16 @@ pub struct WoodFile {
     pub species: Option<String>,
     /// The seed of its randomness.
     pub seed: Option<u32>,
+    /// What whoever takes it should know.
+    pub notes: Vec<WoodNote>,
+}
+
+/// What whoever takes a file should know although it could be read; the message is a sentence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum WoodNote {
+    /// Nobody can say whether the last number is whole.
+    #[error("The last line has no line end; the file may have been cut off there.")]
+    NoLineEnd,
 }
 
 /// What kind of fault it is; programs branch on it.
@@ -109,12 +122,23 @@ impl fmt::Display for Place {
 /// # Errors
 /// Where it is not of this format, a number is out of range, parts contradict each other, or there is too much of it.
 pub fn read_wood(format: WoodFormat, bytes: &[u8], options: &WoodOptions) -> Result<WoodFile, Fault> {
-    let wood = match format {
-        WoodFormat::Mtg => pieces::join(&mtg::read(bytes, options)?, options)?,
-        WoodFormat::Qsm => pieces::join(&qsm::read(bytes, options)?, options)?,
+    let (pieces, about) = match format {
+        WoodFormat::Mtg => mtg::read(bytes, options)?,
+        WoodFormat::Qsm => (qsm::read(bytes, options)?, About::default()),
         WoodFormat::Skeleton => return skeleton::read(bytes, options),
     };
-    Ok(WoodFile { wood, ..WoodFile::default() })
+    let (wood, length) = pieces::join(&pieces, about.internode_length, options)?;
+    let parameters = ParametersPatch { internode_length: Some(length), ..ParametersPatch::default() };
+    let notes = if bytes.ends_with(b"\n") { Vec::new() } else { vec![WoodNote::NoLineEnd] };
+    Ok(WoodFile { wood, parameters, species: about.species, seed: about.seed, notes })
+}
+
+/// What a file says of all its pieces.
+#[derive(Clone, Debug, Default)]
+struct About {
+    internode_length: Option<f32>,
+    species: Option<String>,
+    seed: Option<u32>,
 }
 
 fn malformed(place: Option<Place>, what: impl Into<String>) -> Fault {

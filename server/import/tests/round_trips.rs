@@ -3,7 +3,7 @@
 #[path = "../../export/tests/main/saplings.rs"]
 mod saplings;
 
-use espalier_export::{Origin, in_memory, mtg, qsm_csv, skeleton_json};
+use espalier_export::{ExportError, Origin, in_memory, mtg, qsm_csv, skeleton_json};
 use espalier_growth::{Parameters, transplant};
 use espalier_import::{WoodFile, WoodFormat, WoodOptions, read_wood};
 use espalier_mesh::{Style, StyleOptions};
@@ -11,7 +11,8 @@ use espalier_plant::{MetamerId, Plant, Widths, checks};
 use espalier_settings::{Appearance, ParameterValues};
 use proptest::prelude::*;
 
-const METRES: f32 = 0.1;
+/// Not the default: a file that does not say it would come in at another scale.
+const METRES: f32 = 0.3;
 const NEAR: f32 = 1e-5;
 
 fn style() -> Style {
@@ -19,14 +20,27 @@ fn style() -> Style {
 }
 
 fn options() -> WoodOptions {
-    WoodOptions { internode_length: METRES, unit: 1.0, shoot: 4, nodes: 100_000, extent: 1000.0 }
+    WoodOptions { internode_length: None, unit: 1.0, shoot: 4, nodes: 100_000, extent: 1000.0 }
+}
+
+/// Internodes as long as they were, where the file itself does not say it.
+fn known() -> WoodOptions {
+    WoodOptions { internode_length: Some(METRES), ..options() }
 }
 
 fn skeleton(plant: &Plant) -> Vec<u8> {
+    with_origin(|origin| in_memory(|out| skeleton_json(plant, &style(), origin, out)))
+}
+
+fn graph(plant: &Plant) -> Vec<u8> {
+    with_origin(|origin| in_memory(|out| mtg(plant, &style(), origin, out)))
+}
+
+fn with_origin(write: impl FnOnce(&Origin<'_>) -> Result<Vec<u8>, ExportError>) -> Vec<u8> {
     let parameters = ParameterValues { internode_length: METRES, ..ParameterValues::default() };
     let looks = Appearance::default();
     let origin = Origin { species: Some("pear"), seed: 7, parameters: &parameters, looks: &looks };
-    in_memory(|out| skeleton_json(plant, &style(), &origin, out)).expect("it exports")
+    write(&origin).expect("it exports")
 }
 
 fn read(format: WoodFormat, bytes: &[u8]) -> WoodFile {
@@ -53,6 +67,7 @@ fn is_same(before: &Plant, after: &Plant) -> Result<(), TestCaseError> {
         let parent = was.parent(old);
         prop_assert_eq!(parent.and_then(number), is.parent(new).map(MetamerId::index));
         prop_assert_eq!(before.birth(old), after.birth(new));
+        prop_assert_eq!(was.tips(old), is.tips(new));
         prop_assert_eq!(before.axes().order(was.axis(old)), after.axes().order(is.axis(new)));
         if let Some(parent) = parent {
             let radius = before_widths.radius(old);
@@ -87,8 +102,10 @@ proptest! {
     #[test]
     fn a_graph_is_the_same_plant_again(growth in saplings::growth()) {
         let before = saplings::grown(&growth);
-        let bytes = in_memory(|out| mtg(&before, &style(), METRES, out)).expect("it exports");
-        is_same(&before, &planted(&read(WoodFormat::Mtg, &bytes)))?;
+        let file = read(WoodFormat::Mtg, &graph(&before));
+        prop_assert_eq!((file.species.as_deref(), file.seed), (Some("pear"), Some(7)));
+        prop_assert_eq!(file.parameters.internode_length, Some(METRES));
+        is_same(&before, &planted(&file))?;
     }
 
     #[test]
@@ -100,7 +117,8 @@ proptest! {
             text.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect()).collect()
         };
         let bytes = in_memory(|out| qsm_csv(&before, &style(), METRES, out)).expect("it exports");
-        let after = planted(&read(WoodFormat::Qsm, &bytes));
+        let file = read_wood(WoodFormat::Qsm, &bytes, &known()).expect("cylinders");
+        let after = planted(&file);
         let (old, new) = (cylinders(&before), cylinders(&after));
         prop_assert_eq!(old.len(), new.len());
         // Branches may be numbered otherwise: births are not in the file.
@@ -130,24 +148,35 @@ fn a_skeleton_of_version_1_is_read_in_internodes() {
 }
 
 #[test]
+fn cylinders_say_how_long_internodes_are() {
+    let pole = saplings::pole(5);
+    let bytes = in_memory(|out| qsm_csv(&pole, &style(), METRES, out)).expect("it exports");
+    let file = read(WoodFormat::Qsm, &bytes);
+    assert_eq!(file.parameters.internode_length, Some(METRES));
+    let plant = planted(&file);
+    assert_eq!((plant.living_count(), plant.living_axes_count()), (5, 1));
+    assert!(plant.metamers().end(MetamerId::new(5)).distance(5.0 * glam::Vec3::Y) < NEAR);
+}
+
+#[test]
 fn longer_cylinders_than_internodes_are_cut() {
     let pole = saplings::pole(3);
     let bytes = in_memory(|out| qsm_csv(&pole, &style(), METRES, out)).expect("it exports");
-    let fine = WoodOptions { internode_length: 0.5 * METRES, ..options() };
+    let fine = WoodOptions { internode_length: Some(0.5 * METRES), ..options() };
     let plant = planted(&read_wood(WoodFormat::Qsm, &bytes, &fine).expect("cylinders"));
     assert_eq!((plant.living_count(), plant.living_axes_count()), (6, 1));
     assert!(plant.metamers().end(MetamerId::new(6)).distance(6.0 * glam::Vec3::Y) < NEAR);
     // A metamer of a graph is one, however long.
-    let bytes = in_memory(|out| mtg(&pole, &style(), METRES, out)).expect("it exports");
+    let bytes = graph(&pole);
     let plant = planted(&read_wood(WoodFormat::Mtg, &bytes, &fine).expect("a graph"));
     assert_eq!(plant.living_count(), 3);
 }
 
 #[test]
 fn a_graph_that_came_in_goes_out_as_it_was() {
-    let bytes = in_memory(|out| mtg(&saplings::fork(), &style(), METRES, out)).expect("it exports");
+    let bytes = graph(&saplings::fork());
     let plant = planted(&read(WoodFormat::Mtg, &bytes));
-    let again = in_memory(|out| mtg(&plant, &style(), METRES, out)).expect("it exports");
+    let again = graph(&plant);
     // Radii come back near enough, not to the last digit.
     let cells = |bytes: Vec<u8>| -> Vec<Vec<String>> {
         let text = String::from_utf8(bytes).expect("text");

@@ -1,13 +1,13 @@
 //! Files of other programs, and files that are none.
 
 use espalier_growth::{Parameters, transplant};
-use espalier_import::{Fault, FaultKind, Place, WoodFormat, WoodOptions, read_wood};
+use espalier_import::{Fault, FaultKind, Place, WoodFormat, WoodNote, WoodOptions, read_wood};
 use espalier_plant::{MetamerId, Plant, Wood, checks};
 use glam::Vec3;
 use serde_json::{Value, json};
 
 fn options() -> WoodOptions {
-    WoodOptions { internode_length: 0.1, unit: 1.0, shoot: 4, nodes: 10_000, extent: 1000.0 }
+    WoodOptions { internode_length: Some(0.1), unit: 1.0, shoot: 4, nodes: 10_000, extent: 1000.0 }
 }
 
 fn wood(format: WoodFormat, text: &str) -> Wood {
@@ -34,6 +34,10 @@ const RTWIG: &str = "\
 \"3\",3,1,20,30,6,20,30.04,6.3,0.03,0.3026,1,0
 ";
 
+/// With the length along an axis.
+const ALONG: &str =
+    "start.x,start.y,start.z,axis.x,axis.y,axis.z,length,radius,parent\n0,0,0,0,0,1,0.3,0.02,0\n";
+
 #[test]
 fn cylinders_become_internodes_from_the_origin_up() {
     let plant = planted(&wood(WoodFormat::Qsm, RTWIG));
@@ -49,6 +53,40 @@ fn cylinders_become_internodes_from_the_origin_up() {
     assert_eq!((thick(0), thick(1)), (None, Some(0.5)));
     // Without births all axes have grown as fast as buds may.
     assert_eq!(plant.step(), 4);
+}
+
+#[test]
+fn internodes_are_as_long_as_the_pieces_of_the_file() {
+    let length = |text: &str, options: WoodOptions| {
+        let file = read_wood(WoodFormat::Qsm, text.as_bytes(), &options).expect("cylinders");
+        (file.parameters.internode_length, planted(&file.wood).living_count())
+    };
+    let unsaid = WoodOptions { internode_length: None, ..options() };
+    // 1 m, 0.5 m and 0.304 m.
+    assert_eq!(length(RTWIG, unsaid), (Some(0.5), 4));
+    assert_eq!(length(RTWIG, WoodOptions { unit: 0.01, ..unsaid }), (Some(0.005), 4));
+    // No longer than the parameter may be, and then cylinders are cut.
+    assert_eq!(length(RTWIG, WoodOptions { unit: 4.0, ..unsaid }), (Some(1.0), 4 + 2 + 1));
+    // As long as it takes for all of it to lie within reach, and to be no more nodes than may be.
+    let near = WoodOptions { extent: 1.0, ..unsaid };
+    assert!(length(RTWIG, WoodOptions { unit: 0.5, ..near }).0.is_some_and(|length| length > 0.65));
+    let fine = RTWIG.replace("20.6", "20.11").replace("20,30.04,6.3", "20,30,6.01");
+    assert_eq!(length(&fine, WoodOptions { nodes: 20, ..unsaid }), (Some(0.08), 13 + 2 + 1));
+    assert_eq!(length(RTWIG, options()), (Some(0.1), 19));
+}
+
+#[test]
+fn wood_that_was_not_grown_here_has_buds_where_it_is_young() {
+    let plant = planted(&wood(WoodFormat::Qsm, RTWIG));
+    let tip = |row: usize| plant.metamers().end(MetamerId::new(row)).y;
+    let bears = |row: usize| plant.laterals(MetamerId::new(row)).count();
+    let trunk = (1..plant.metamer_count()).filter(|&row| plant.metamers().end(MetamerId::new(row)).x == 0.0);
+    // 13 internodes high: on the lowest ones stand more than two steps of 4 grow.
+    let (young, old): (Vec<_>, Vec<_>) = trunk.partition(|&row| tip(row) > 5.5);
+    assert!(young.len() > 7 && young.into_iter().all(|row| bears(row) == 1));
+    assert!(
+        old.len() > 4 && old.into_iter().all(|row| bears(row) == usize::from((tip(row) - 5.0).abs() < 0.1))
+    );
 }
 
 #[test]
@@ -108,12 +146,17 @@ fn bad_cylinders_are_named_by_line_and_column() {
             "`name`, `height`, `dbh`",
         ),
         ("../../etc/passwd".into(), FaultKind::Malformed, Place::Line(1), "are not those of a QSM"),
+        (String::new(), FaultKind::Malformed, Place::Line(1), "it has no columns"),
+        (RTWIG.replace("0.02,0.5", "1e30,0.5"), FaultKind::OutOfRange, Place::Cell(3, 10), "up to 100 m"),
+        (ALONG.replace("0,0,1,0.3,", "0,0,0,0.3,"), FaultKind::OutOfRange, Place::Cell(2, 4), "axis is 0"),
     ];
     for (text, kind, place, what) in cases {
         let found = fault(WoodFormat::Qsm, &text);
         assert_eq!((found.kind, found.place.as_ref()), (kind, Some(&place)), "{found}");
         assert!(found.to_string().contains(what), "{found}");
     }
+    let nothing = fault(WoodFormat::Qsm, &ALONG.replace("1,0.3,", "1,0,"));
+    assert!(nothing.place.is_none() && nothing.what.contains("it holds no wood"), "{nothing}");
     assert_eq!(fault(WoodFormat::Qsm, RTWIG.lines().next().expect("a head")).kind, FaultKind::Malformed);
     let few = WoodOptions { nodes: 12, ..options() };
     let found = read_wood(WoodFormat::Qsm, RTWIG.as_bytes(), &few).expect_err("more than 12 internodes");
@@ -205,6 +248,10 @@ fn bad_graphs_are_named_by_line_and_column() {
         assert_eq!((found.kind, found.place.as_ref()), (kind, Some(&place)), "{to}: {found}");
         assert!(found.to_string().contains(what), "{found}");
     }
+    let thick = OPENALEA.replacen("400\t8", "400\t1e30", 1);
+    let found = read_wood(WoodFormat::Mtg, thick.as_bytes(), &WoodOptions { unit: 0.001, ..options() });
+    let found = found.expect_err("it is thicker than the world");
+    assert_eq!((found.kind, &found.place), (FaultKind::OutOfRange, &Some(Place::Cell(30, 7))), "{found}");
     for (text, what) in [
         ("", "no section MTG"),
         ("CODE:\tFORM-A\n", "no section MTG"),
@@ -214,6 +261,75 @@ fn bad_graphs_are_named_by_line_and_column() {
     ] {
         let found = fault(WoodFormat::Mtg, text);
         assert!(found.kind == FaultKind::Malformed && found.to_string().contains(what), "{found}");
+    }
+}
+
+/// As this program writes it.
+const OWN: &str = include_str!("../../../tests/fuzz/seeds/own.mtg");
+
+#[test]
+fn a_graph_that_is_cut_off_is_refused_or_taken_with_a_note() {
+    let whole = read_wood(WoodFormat::Mtg, OWN.as_bytes(), &options()).expect("a graph");
+    assert_eq!(whole.notes, []);
+    let last = OWN.trim_end_matches('\n').rfind('\n').expect("lines") + 1;
+    let cells = OWN[last..].trim_end_matches('\n');
+    let cut = cells.find(char::is_numeric).expect("a code") + 1;
+    for end in cut..cells.rfind('\t').expect("cells") {
+        let found = fault(WoodFormat::Mtg, &OWN[..last + end]);
+        assert_eq!(found.kind, FaultKind::Malformed, "{found}");
+    }
+    let found = fault(WoodFormat::Mtg, &OWN[..last + cells.rfind('\t').expect("cells")]);
+    assert!(found.what.contains("cut off"), "{found}");
+    // Where nothing tells that something is missing, whoever takes it is told.
+    let file = read_wood(WoodFormat::Mtg, OWN.trim_end_matches('\n').as_bytes(), &options());
+    assert_eq!(file.map(|file| file.notes), Ok(vec![WoodNote::NoLineEnd]));
+    // Other programs leave out empty cells at the end, and the line end of the last line.
+    let short = OPENALEA.split("ENTITY").next().expect("a head").to_owned()
+        + "TOPO\tXX\tYY\tZZ\tTopDia\n/P1/U1\n^/E1\t0\t0\t0.1\n^<E2\t0\t0\t0.2";
+    let file = read_wood(WoodFormat::Mtg, short.as_bytes(), &options());
+    assert_eq!(file.map(|file| (file.wood.nodes.len(), file.notes)), Ok((2, vec![WoodNote::NoLineEnd])));
+    let (cells, _) = RTWIG.rsplit_once(',').expect("cells");
+    assert!(fault(WoodFormat::Qsm, cells).what.contains("12 cells"));
+    let file = read_wood(WoodFormat::Qsm, RTWIG.trim_end().as_bytes(), &options());
+    assert_eq!(file.map(|file| file.notes), Ok(vec![WoodNote::NoLineEnd]));
+}
+
+#[test]
+fn a_graph_may_be_in_latin_1() {
+    let text = OPENALEA.replace("A young tree", "Abricotier taill\u{e9}");
+    let latin: Vec<u8> = text.chars().map(|c| u8::try_from(u32::from(c)).expect("Latin-1")).collect();
+    assert!(std::str::from_utf8(&latin).is_err());
+    let read = |bytes: &[u8]| read_wood(WoodFormat::Mtg, bytes, &options()).map(|file| file.wood);
+    assert_eq!(read(&latin), read(text.as_bytes()));
+    assert_eq!(fault(WoodFormat::Mtg, "\u{0}\u{1}").kind, FaultKind::Malformed);
+}
+
+#[test]
+fn a_graph_says_what_it_grew_by() {
+    let about = |line: &str| {
+        let text = OPENALEA
+            .replace("TopDia\tREAL\n", "TopDia\tREAL\nInternodeLength\tREAL\nSpecies\tALPHA\nSeed\tINT\n")
+            .replace(
+                "TopDia\n/P1/U90",
+                &format!("TopDia\tInternodeLength\tSpecies\tSeed\n/P1\t\t\t\t\t\t\t{line}\n/P1/U90"),
+            );
+        let options = WoodOptions { internode_length: None, unit: 0.001, ..options() };
+        read_wood(WoodFormat::Mtg, text.as_bytes(), &options)
+    };
+    let file = about("250\toak\t4294967295").expect("a graph");
+    assert_eq!(file.parameters.internode_length, Some(0.25));
+    assert_eq!((file.species.as_deref(), file.seed), (Some("oak"), Some(u32::MAX)));
+    // The median of five components.
+    let file = about("NA").expect("a graph");
+    assert_eq!((file.parameters.internode_length, file.species, file.seed), (Some(0.2), None, None));
+    for (line, column, allowed) in [
+        ("0.25", 8, "0.005 m to 1 m"),
+        ("250\toak\t-1", 10, "whole numbers from 0 to 4294967295"),
+        ("inf", 8, "finite numbers"),
+    ] {
+        let found = about(line).expect_err(line);
+        assert!(matches!(found.place, Some(Place::Cell(_, at)) if at == column), "{found}");
+        assert_eq!(found.allowed.as_deref(), Some(allowed));
     }
 }
 
@@ -294,6 +410,10 @@ fn what_is_refused_in_a_skeleton_names_its_member_and_what_is_allowed_there() {
         (metamer("radius"), json!("x"), "0 and more"),
         (metamer("radius"), json!(-0.1), "0 and more"),
         (metamer("radius"), json!({}), "0 and more"),
+        (metamer("radius"), json!(1e9), "0 to 100"),
+        (metamer("normal"), json!([0, 1, 0]), "a unit vector across the internode"),
+        (metamer("normal"), json!([2, 0, 0]), "a unit vector across the internode"),
+        (metamer("shed"), json!(-1), "0 to 1000000000"),
         (metamer("birth"), json!(-1), "0 to 100000"),
         (metamer("birth"), json!(100_001), "0 to 100000"),
         (metamer("birth"), json!("x"), "0 to 100000"),
@@ -309,7 +429,10 @@ fn what_is_refused_in_a_skeleton_names_its_member_and_what_is_allowed_there() {
         (("/metamers/0".into(), "metamers[0]".into()), json!([null, 0, [0, 0, 0], 0]), "an object"),
     ] {
         let mut other = whole.clone();
-        *other.pointer_mut(&at).unwrap_or_else(|| panic!("{at}")) = value.clone();
+        match other.pointer_mut(&at) {
+            Some(member) => *member = value.clone(),
+            None => other["metamers"][1][at.rsplit('/').next().expect("a name")] = value.clone(),
+        }
         let found = fault(WoodFormat::Skeleton, &other.to_string());
         let expected = (Some(Place::Member(member)), Some(allowed));
         assert_eq!(
@@ -321,7 +444,7 @@ fn what_is_refused_in_a_skeleton_names_its_member_and_what_is_allowed_there() {
         // The same where it is not there at all.
         let (outer, name) = at.rsplit_once('/').expect("a path");
         if let Some(object) = other.pointer_mut(outer).and_then(Value::as_object_mut)
-            && !matches!(name, "parent" | "radius")
+            && !matches!(name, "parent" | "radius" | "normal" | "shed")
         {
             object.remove(name);
             let found = fault(WoodFormat::Skeleton, &other.to_string());
@@ -340,6 +463,36 @@ fn what_is_refused_in_a_skeleton_names_its_member_and_what_is_allowed_there() {
     for whole in ["[]", "5", "null", "\"x\""] {
         let found = fault(WoodFormat::Skeleton, whole);
         assert_eq!((found.place, found.allowed.as_deref()), (None, Some("an object")), "{whole}");
+    }
+}
+
+#[test]
+fn skeletons_whose_axes_do_not_fit_together_name_the_member() {
+    let axis = |bearer: Value| json!({"bearer": bearer});
+    let metamer = |parent: Value, axis: u32, y: f32, birth: u32| json!({"parent": parent, "axis": axis, "position": [0, y, 0], "birth": birth});
+    let fork = || {
+        let metamers =
+            [(json!(null), 0, 0.0, 0), (json!(0), 0, 0.1, 1), (json!(1), 0, 0.2, 1), (json!(1), 1, 0.3, 1)];
+        json!({"format": "espalier-skeleton", "version": 2, "axes": [axis(json!(null)), axis(json!(1))],
+            "metamers": metamers.map(|(parent, axis, y, birth)| metamer(parent, axis, y, birth))})
+    };
+    planted(&wood(WoodFormat::Skeleton, &fork().to_string()));
+    for (at, value, place) in [
+        ("/axes/0/bearer", json!(2), "axes[0].bearer"),
+        ("/axes/1/bearer", json!(9), "axes[1].bearer"),
+        ("/axes/1/bearer", json!(0), "axes[1].bearer"),
+        ("/axes/1/bearer", json!(3), "metamers[3].axis"),
+        ("/axes/1/bearer", json!(null), "metamers[3].axis"),
+        ("/axes/1", json!({"bearer": 1, "direction": [0, 3, 0]}), "axes[1].direction"),
+        ("/metamers/2/axis", json!(1), "metamers[3].axis"),
+        ("/metamers/3/axis", json!(0), "metamers[3].axis"),
+        ("/metamers/3/parent", json!(null), "axes[1].bearer"),
+        ("/metamers/0/birth", json!(1), "metamers[0].birth"),
+    ] {
+        let mut other = fork();
+        *other.pointer_mut(at).expect(at) = value.clone();
+        let found = fault(WoodFormat::Skeleton, &other.to_string());
+        assert_eq!(found.place, Some(Place::Member(place.into())), "{at} = {value}: {found}");
     }
 }
 

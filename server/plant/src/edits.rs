@@ -299,14 +299,14 @@ impl Plant {
         }
         // They are those of living wood, so none is refused.
         let _given = self.give_radii(&radii);
-        for (at, shed) in self.shed_tips(&rows).into_iter().enumerate().filter(|&(_, shed)| shed > 0) {
+        for (at, shed) in self.tips_of_shed(&rows).into_iter().enumerate().filter(|&(_, shed)| shed > 0) {
             self.timeline.edits.push(Edit::Scarred(MetamerId::new(first_row + at), shed));
         }
         root
     }
 
-    /// Tips of twigs that were shed from each of the metamers of a branch.
-    fn shed_tips(&self, rows: &[MetamerId]) -> Vec<u32> {
+    /// Tips of twigs that were shed from each of the living metamers of a branch or a plant, which are in birth order.
+    pub fn tips_of_shed(&self, rows: &[MetamerId]) -> Vec<u32> {
         // An end carries one tip of its own.
         let mut living = vec![1u32; rows.len()];
         let mut goes_on = vec![false; rows.len()];

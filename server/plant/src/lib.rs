@@ -50,4 +50,4 @@ pub use resettled::{AxisEnds, Resettled};
 pub use settling::{Claim, Settled};
 pub use time_travel::TimeShift;
 pub use widths::{Width, Widths};
-pub use wood::{Wood, WoodAxis, WoodNode};
+pub use wood::{DormantBuds, Wood, WoodAxis, WoodNode};

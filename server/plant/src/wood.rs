@@ -14,8 +14,22 @@ pub struct Wood {
     pub axes: Vec<WoodAxis>,
     /// Width constraints: nodes in ascending order, and diameters.
     pub widths: Vec<(u32, f32)>,
-    /// Whether the axes without wood are all dormant buds there are, none included.
-    pub has_buds: bool,
+    /// Tips of twigs that were shed, which nodes carry for them: nodes in ascending order, and how many.
+    pub scars: Vec<(u32, u32)>,
+    /// Which dormant buds there are.
+    pub buds: DormantBuds,
+}
+
+/// Dormant buds beside the axes that have no wood.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DormantBuds {
+    /// Each node bears as many laterals as the parameters say; those that have not grown are dormant.
+    #[default]
+    Everywhere,
+    /// So do the nodes of young wood alone: what is older has grown, shed or lost its buds.
+    OnYoungWood,
+    /// There are no others.
+    Known,
 }
 
 /// One node.

@@ -163,6 +163,7 @@ impl Session {
     pub fn draw_whole(&mut self) {
         if let Some(work) = &mut self.home {
             work.catch_up(&Held::Nothing);
+            self.leaves = work.table.leaves();
         }
     }
 

@@ -20,6 +20,8 @@ pub struct Bench {
     followed: bool,
     sequence: u32,
     started: Instant,
+    /// Rows that there were before anything grew: those of a file, and seeds.
+    taken: usize,
     /// Memory held before anything grew.
     held_before: Option<u64>,
     phases: Stopwatch,
@@ -34,6 +36,7 @@ impl Bench {
     pub fn new(document: Document) -> Self {
         Self {
             style: Style::new(style_options(&document.parameters())),
+            taken: document.plant().metamer_count(),
             document,
             table: RingTable::new(),
             followed: true,
@@ -82,20 +85,24 @@ impl Bench {
     pub fn stats(&mut self) -> Stats {
         let seconds_total = self.started.elapsed().as_secs_f64();
         let held = stats::resident_memory_bytes().zip(self.held_before);
-        if !self.followed {
+        if !self.followed || self.sequence == 0 {
             // Leaves are counted where they are drawn.
             self.table.sync(self.document.portrait(), &self.style, self.sequence);
         }
         let figures = self.document.figures();
-        let plant = self.document.plant();
+        let rows = self.document.plant().metamer_count();
+        let taken = self.taken.min(rows);
         // Seeds are rows as well, but nothing that grew.
-        let seeds = (0..self.table.rows() as u32).filter(|&row| self.table.parent(row).is_none()).count();
+        let metamers_in = |rows: std::ops::Range<usize>| -> u32 {
+            rows.filter(|&row| self.table.parent(row as u32).is_some()).count() as u32
+        };
         let tree_memory_bytes = held.map(|(now, before)| now.saturating_sub(before));
         let metamers = f64::from(figures.metamers.max(1));
         let of = |phase: Phase| self.phases.total(phase).as_secs_f64();
         Stats {
             metamers_alive: figures.metamers,
-            metamers_grown: (plant.metamer_count() - seeds) as u32,
+            metamers_taken: metamers_in(0..taken),
+            metamers_grown: metamers_in(taken..rows),
             axes: figures.axes,
             leaves: self.table.leaves(),
             steps: self.steps,
@@ -115,7 +122,7 @@ impl Bench {
             tree_memory_bytes,
             bytes_per_metamer: tree_memory_bytes.map(|bytes| bytes as f64 / metamers),
             seconds_export: None,
-            plant_hash: format!("{:016x}", plant.hash()),
+            plant_hash: format!("{:016x}", self.document.plant().hash()),
         }
     }
 

@@ -23,7 +23,7 @@ use crate::{
     cli::{self, Grow, NoFormat, Replay, Results, SEED, Start},
     document,
     export_options::NotOfFormat,
-    import as imports,
+    import::{self as imports, ImportNote, Imported},
     output::OutputError,
     pool::SimulationPool,
     progress::Bar,
@@ -161,7 +161,8 @@ pub fn import(options: &cli::Import) -> Result<(), HeadlessError> {
     let bar = Bar::turning("making a tree of the file");
     let bench = SimulationPool::new(options.results.threads)?.block_on(|| {
         let made = imports::document(&bytes, &import);
-        let mut document = made.map_err(|cause| HeadlessError::Import { path, cause })?;
+        let Imported { mut document, notes } = made.map_err(|cause| HeadlessError::Import { path, cause })?;
+        bar.aside(|| notes.iter().for_each(ImportNote::print));
         document.set_metamer_budget(budget);
         let mut bench = bench(document, &options.results);
         if let Some(steps) = options.grow.map(Steps::nearest) {

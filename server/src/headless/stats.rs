@@ -9,7 +9,9 @@ use serde::Serialize;
 pub struct Stats {
     /// Living metamers at the end.
     pub metamers_alive: u32,
-    /// Metamers born up to the present, the dead included.
+    /// Metamers that came with a file, the dead of a document included.
+    pub metamers_taken: u32,
+    /// Metamers born since then up to the present, the dead included.
     pub metamers_grown: u32,
     /// Living axes with wood.
     pub axes: u32,
@@ -70,13 +72,22 @@ impl Stats {
 
     /// A few lines for people.
     pub fn summary(&self) -> String {
-        let Self { metamers_alive, metamers_grown, axes, leaves, steps, seconds_total, plant_hash, .. } =
-            self;
-        let rate = f64::from(*metamers_grown) / seconds_total.max(f64::MIN_POSITIVE);
+        let Self { metamers_alive, metamers_taken, metamers_grown, axes, leaves, steps, .. } = self;
+        let of = match (metamers_taken, steps) {
+            (0, _) => format!(" of {metamers_grown} grown"),
+            (_, 0) => String::new(),
+            _ => format!(" of {metamers_taken} taken and {metamers_grown} grown"),
+        };
+        let growth = if *metamers_taken > 0 && *steps == 0 {
+            String::new()
+        } else {
+            let seconds = self.seconds_total;
+            let rate = f64::from(*metamers_grown) / seconds.max(f64::MIN_POSITIVE);
+            format!("{steps} steps in {seconds:.2} s, {rate:.0} metamers per second\n")
+        };
         format!(
-            "{metamers_alive} metamers alive of {metamers_grown} grown, on {axes} axes with {leaves} leaves\n\
-             {steps} steps in {seconds_total:.2} s, {rate:.0} metamers per second\n\
-             plant {plant_hash}"
+            "{metamers_alive} metamers alive{of}, on {axes} axes with {leaves} leaves\n{growth}plant {}",
+            self.plant_hash
         )
     }
 }
@@ -121,8 +132,7 @@ mod tests {
         assert!((block.len() as u64..=peak_memory_bytes().unwrap()).contains(&resident));
     }
 
-    #[test]
-    fn the_object_has_the_documented_fields() {
+    fn example() -> Stats {
         let seconds = PhaseSeconds {
             space: 0.5,
             light: 0.0,
@@ -132,8 +142,9 @@ mod tests {
             girth: 0.0,
             delta: 0.0,
         };
-        let stats = Stats {
+        Stats {
             metamers_alive: 3,
+            metamers_taken: 0,
             metamers_grown: 4,
             axes: 1,
             leaves: 9,
@@ -147,10 +158,26 @@ mod tests {
             bytes_per_metamer: Some(200.0),
             seconds_export: None,
             plant_hash: "00ff".into(),
-        };
+        }
+    }
+
+    #[test]
+    fn what_came_with_a_file_has_not_grown() {
+        let grown = example();
+        let (first, rest) = ("3 metamers alive", "on 1 axes with 9 leaves\n");
+        let growth = "2 steps in 1.00 s, 4 metamers per second\nplant 00ff";
+        assert_eq!(grown.summary(), format!("{first} of 4 grown, {rest}{growth}"));
+        let taken = Stats { metamers_taken: 2, ..grown.clone() };
+        assert_eq!(taken.summary(), format!("{first} of 2 taken and 4 grown, {rest}{growth}"));
+        let still = Stats { metamers_taken: 3, metamers_grown: 0, steps: 0, ..grown };
+        assert_eq!(still.summary(), format!("{first}, {rest}plant 00ff"));
+    }
+
+    #[test]
+    fn the_object_has_the_documented_fields() {
         assert_eq!(
-            stats.to_json(),
-            "{\"metamers_alive\":3,\"metamers_grown\":4,\"axes\":1,\"leaves\":9,\"steps\":2,\"seconds_total\":1.0,\
+            example().to_json(),
+            "{\"metamers_alive\":3,\"metamers_taken\":0,\"metamers_grown\":4,\"axes\":1,\"leaves\":9,\"steps\":2,\"seconds_total\":1.0,\
              \"seconds_last_step\":0.25,\"seconds\":{\"space\":0.5,\"light\":0.0,\"vigor\":0.0,\"growth\":0.0,\
              \"shedding\":0.0,\"girth\":0.0,\"delta\":0.0},\"delta_bytes\":99,\"peak_memory_bytes\":null,\
              \"tree_memory_bytes\":600,\"bytes_per_metamer\":200.0,\"seconds_export\":null,\

@@ -18,7 +18,7 @@ use super::{
     versions::{self, Said},
 };
 use crate::{
-    import::{self, Import},
+    import::{self, Import, Imported},
     import_options::{ImportOptions, InternodeLength, Unit},
     pool::Class,
     store::{Contents, NewVersion, Saved},
@@ -112,7 +112,8 @@ async fn made(
     said: Said,
 ) -> Result<NewVersion, Failure> {
     let made = shared.pool.run(Class::Whole, principal.name().into(), move |_| {
-        let document = import::document(&file, &import).map_err(|error| import.refusal(&error))?;
+        let Imported { document, notes: _ } =
+            import::document(&file, &import).map_err(|error| import.refusal(&error))?;
         Ok::<_, Problem>(Saved::of(&document))
     });
     let saved = made.await??;

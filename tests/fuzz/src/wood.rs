@@ -11,7 +11,7 @@ const NODES: usize = 1000;
 /// Reads a file; what it gives is within the limits, and if it fits together it is a document that can be written,
 /// read again and taken back to its seeds.
 pub(crate) fn read(format: WoodFormat, bytes: &[u8]) -> bool {
-    let options = WoodOptions { internode_length: 0.1, unit: 1.0, shoot: 4, nodes: NODES, extent: 1000.0 };
+    let options = WoodOptions { internode_length: None, unit: 1.0, shoot: 4, nodes: NODES, extent: 1000.0 };
     let file = match read_wood(format, bytes, &options) {
         Ok(file) => file,
         Err(fault) => {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use espalier_export::{Origin, Sampling, in_memory, mtg, ply, qsm_csv, skeleton_json};
+use espalier_export::{ExportError, Origin, Sampling, in_memory, mtg, ply, qsm_csv, skeleton_json};
 use espalier_plant::{MetamerId, Plant, Widths, wood::as_written};
 use espalier_settings::ParameterValues;
 use glam::{DVec3, Vec3};
@@ -13,13 +13,18 @@ use crate::{METRES, looks, saplings, style};
 
 /// The skeleton of a plant, as any reader of JSON sees it.
 pub fn skeleton(plant: &Plant) -> Value {
+    let file = with_origin(|origin| in_memory(|out| skeleton_json(plant, &style(), origin, out)));
+    serde_json::from_slice(&file.expect("it exports")).expect("it is JSON")
+}
+
+fn graph(plant: &Plant) -> Result<Vec<u8>, ExportError> {
+    with_origin(|origin| in_memory(|out| mtg(plant, &style(), origin, out)))
+}
+
+fn with_origin<T>(write: impl FnOnce(&Origin<'_>) -> T) -> T {
     let parameters = ParameterValues { internode_length: METRES, ..ParameterValues::default() };
     let looks = looks();
-    let origin = Origin { species: Some("pear"), seed: 7, parameters: &parameters, looks: &looks };
-    serde_json::from_slice(
-        &in_memory(|out| skeleton_json(plant, &style(), &origin, out)).expect("it exports"),
-    )
-    .expect("it is JSON")
+    write(&Origin { species: Some("pear"), seed: 7, parameters: &parameters, looks: &looks })
 }
 
 /// The radius in metres of a metamer in the skeleton.
@@ -79,7 +84,7 @@ proptest! {
     #[test]
     fn any_graph_names_each_living_metamer_once_behind_what_bears_it(growth in saplings::growth()) {
         let plant = saplings::grown(&growth);
-        let file = text(in_memory(|out| mtg(&plant, &style(), METRES, out)).expect("it exports"));
+        let file = text(graph(&plant).expect("it exports"));
         let (_, code) = file.split_once("\nMTG:\n").expect("a graph");
         let mut lines = code.lines();
         let head: Vec<&str> = lines.next().expect("a head").split('\t').collect();
@@ -214,7 +219,7 @@ fn skeleton_of_a_fork_is_this() {
     let text = file["metamers"].to_string();
     let expected = concat!(
         r#"[{"axis":0,"birth":0,"normal":[1.0,0.0,0.0],"parent":null,"position":[0.0,0.0,0.0],"radius":0.0},"#,
-        r#"{"axis":0,"birth":1,"normal":[1.0,0.0,0.0],"parent":0,"position":[0.0,0.1,0.0],"radius":0.008660253882},"#,
+        r#"{"axis":0,"birth":1,"normal":[1.0,0.0,0.0],"parent":0,"position":[0.0,0.1,0.0],"radius":0.008660253882,"shed":1},"#,
     );
     assert!(text.starts_with(expected), "{text}");
     assert_eq!(list(&file["axes"]).iter().filter(|axis| axis["bearer"].is_null()).count(), 1);
@@ -222,14 +227,14 @@ fn skeleton_of_a_fork_is_this() {
 
 #[test]
 fn graph_of_a_fork_is_this_text() {
-    let file = text(in_memory(|out| mtg(&saplings::fork(), &style(), METRES, out)).expect("it exports"));
+    let file = text(graph(&saplings::fork()).expect("it exports"));
     let (_, code) = file.split_once("\nMTG:\n").expect("a graph");
     let expected = "\
-TOPO\t\tXX\tYY\tZZ\tTopDia\tBirth\tAge\tId
-/P1\t\t0\t0\t0\t0\t0\t2\t0
-^/A0/M1\t\t0\t0\t0.1\t0.01732050776\t1\t1\t1
-\t+A1/M1\t0\t-0.05\t0.1\t0.01000000015\t2\t0\t3
-^<M2\t\t0\t0\t0.2\t0.01000000015\t1\t1\t2
+TOPO\t\tXX\tYY\tZZ\tTopDia\tBirth\tAge\tId\tShed\tInternodeLength\tSpecies\tSeed
+/P1\t\t0\t0\t0\t0\t0\t2\t0\t\t0.1\tpear\t7
+^/A0/M1\t\t0\t0\t0.1\t0.01732050776\t1\t1\t1\t1\t\t\t
+\t+A1/M1\t0\t-0.05\t0.1\t0.01000000015\t2\t0\t3\t\t\t\t
+^<M2\t\t0\t0\t0.2\t0.01000000015\t1\t1\t2\t\t\t\t
 ";
     assert_eq!(code, expected);
 }

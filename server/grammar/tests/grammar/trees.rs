@@ -2,7 +2,7 @@
 
 use espalier_grammar::{Drawn, OpenSky, WoodOptions};
 use espalier_growth::{ParameterValues, Parameters, transplant};
-use espalier_plant::{Plant, checks};
+use espalier_plant::{DormantBuds, Plant, checks};
 use glam::Vec3;
 
 use crate::words::derivation;
@@ -79,9 +79,9 @@ fn modules_that_grow_are_buds() {
     );
     // Without apices nothing grows, unless nodes are filled with buds.
     let still = drawn("buds: grammar\naxiom: FF[+(30)F]F", 0);
-    assert!(still.wood.axes.iter().all(|axis| !axis.has_bud) && still.wood.has_buds);
+    assert!(still.wood.axes.iter().all(|axis| !axis.has_bud) && still.wood.buds == DormantBuds::Known);
     let filled = drawn("axiom: FF[+(30)F]F", 0);
-    assert!(filled.wood.axes.iter().all(|axis| axis.has_bud) && !filled.wood.has_buds);
+    assert!(filled.wood.axes.iter().all(|axis| axis.has_bud) && filled.wood.buds == DormantBuds::Everywhere);
     assert!(planted(&filled).axis_count() > 4);
     // What was cut has no bud in either.
     let cut = drawn("axiom: FF[+(30)FF%FFA]F\nA --> F", 0);

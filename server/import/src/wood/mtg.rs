@@ -2,11 +2,13 @@
 
 mod graph;
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
 use self::graph::{Component, Graph, Relation};
 use super::{
-    Fault, Place, WoodOptions, excerpt, malformed, number, out_of_range,
+    About, Fault, MAX_SHED, Place, WoodOptions, excerpt, internode, malformed, number, out_of_range,
     pieces::{Piece, y_up},
 };
 
@@ -42,14 +44,26 @@ struct Features {
     radius: Option<(usize, f64)>,
     birth: Option<usize>,
     id: Option<usize>,
+    shed: Option<usize>,
+    /// What is known of a plant as a whole, on its own line.
+    length: Option<usize>,
+    species: Option<usize>,
+    seed: Option<usize>,
 }
 
-/// The pieces of wood of a file: the components of its finest scale that have places.
-pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<Vec<Piece>, Fault> {
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let line = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count() as u64 + 1;
-        malformed(Some(Place::Line(line)), "it is not text in UTF-8")
-    })?;
+/// Text in UTF-8, or else, as older programs wrote it, in Latin-1, where each byte is a character.
+fn text(bytes: &[u8]) -> Cow<'_, str> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.into(),
+        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect::<String>().into(),
+    }
+}
+
+/// The pieces of wood of a file, which are the components of its finest scale that have places, and what it says of its
+/// plants.
+pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<(Vec<Piece>, About), Fault> {
+    let text = text(bytes);
     let mut lines = Lines { lines: text.lines().zip(1..) };
     let mut section = String::new();
     let mut graph = Graph::new(options);
@@ -93,16 +107,32 @@ pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<Vec<Piece>, Fa
     let codes = head.iter().position(|name| names.contains(name)).unwrap_or(head.len());
     let features = Features::of(&head, codes);
     let mut values: Vec<Values> = Vec::new();
+    let mut about = About::default();
+    // The least cells of a line, and the last line with its cells.
+    let (mut fewest, mut last) = (head.len(), None);
     for (line, cells) in lines {
+        if let Some((_, count)) = last.replace((line, cells.len())) {
+            fewest = fewest.min(count);
+        }
         let read = features.read(line, &cells, options.unit)?;
         let code = &cells[..codes.min(cells.len())];
         let same_for_all = graph.follow(line, code)?;
         values.resize_with(graph.components.len(), Values::default);
         for at in same_for_all {
+            let Component { parent, complex, .. } = graph.components[at];
+            if parent.is_none() && complex.is_none() {
+                features.read_about(line, &cells, options.unit, &mut about)?;
+            }
             values[at] = read;
         }
     }
-    pieces(&graph, &values)
+    // Empty cells at the end of a line may be left out, so that in other lines fewer than in the head are none lost.
+    if let Some((line, count)) = last.filter(|&(_, count)| count < fewest && !text.ends_with('\n')) {
+        let what = format!("the file is cut off: the line has {count} cells, and no line end");
+        return Err(malformed(Some(Place::Line(line)), what));
+    }
+    let thickness = features.radius.map_or(0, |(column, _)| column as u64 + 1);
+    Ok((pieces(&graph, &values, thickness)?, about))
 }
 
 /// What a line says of a component.
@@ -112,6 +142,7 @@ struct Values {
     radius: Option<f64>,
     birth: Option<u32>,
     id: Option<u32>,
+    shed: Option<u32>,
 }
 
 impl Features {
@@ -124,7 +155,40 @@ impl Features {
             radius: first(&DIAMETERS, 0.5).or_else(|| first(&RADII, 1.0)),
             birth: find("Birth"),
             id: find("Id"),
+            shed: find("Shed"),
+            length: find("InternodeLength"),
+            species: find("Species"),
+            seed: find("Seed"),
         }
+    }
+
+    /// Takes what the line of a plant says of it as a whole; the first plant that says something is believed.
+    fn read_about(&self, line: u64, cells: &[&str], unit: f64, about: &mut About) -> Result<(), Fault> {
+        let cell = |column: Option<usize>| {
+            let column = column?;
+            let cell = cells.get(column).copied().filter(|cell| !matches!(*cell, "" | "NA"))?;
+            Some((cell, Place::Cell(line, column as u64 + 1)))
+        };
+        if let Some((cell, place)) = cell(self.length).filter(|_| about.internode_length.is_none()) {
+            let length = (number(cell, place.clone(), "InternodeLength")? * unit) as f32;
+            let [least, most] = internode::range();
+            if !(least..=most).contains(&length) {
+                let what = format!("InternodeLength is {length} m");
+                return Err(out_of_range(Some(place), what, format!("{least} m to {most} m")));
+            }
+            about.internode_length = Some(length);
+        }
+        if let Some((cell, _)) = cell(self.species).filter(|_| about.species.is_none()) {
+            about.species = Some(excerpt(cell));
+        }
+        if let Some((cell, place)) = cell(self.seed).filter(|_| about.seed.is_none()) {
+            let seed = cell.parse().map_err(|_| {
+                let what = format!("Seed is `{}`", excerpt(cell));
+                out_of_range(Some(place), what, format!("whole numbers from 0 to {}", u32::MAX))
+            })?;
+            about.seed = Some(seed);
+        }
+        Ok(())
     }
 
     fn read(&self, line: u64, cells: &[&str], unit: f64) -> Result<Values, Fault> {
@@ -159,18 +223,24 @@ impl Features {
                 return Err(out_of_range(Some(place(column)), what, "0 and more"));
             }
         }
+        let shed = count(self.shed, "Shed")?;
+        if let Some(shed) = shed.filter(|&shed| shed > MAX_SHED) {
+            let place = self.shed.map(place);
+            return Err(out_of_range(place, format!("Shed is {shed}"), format!("0 to {MAX_SHED}")));
+        }
         Ok(Values {
             place: at,
             radius: radius.map(|radius| radius * unit),
             birth: count(self.birth, "Birth")?,
             id: count(self.id, "Id")?,
+            shed,
         })
     }
 }
 
 /// The components with places as pieces of wood; what has none is passed over, and what stands on it stands on the
 /// next one below.
-fn pieces(graph: &Graph, values: &[Values]) -> Result<Vec<Piece>, Fault> {
+fn pieces(graph: &Graph, values: &[Values], thickness: u64) -> Result<Vec<Piece>, Fault> {
     let is_placed = |(component, values): (&Component, &Values)| values.place.map(|_| component.scale);
     let Some(scale) = graph.components.iter().zip(values).filter_map(is_placed).max() else {
         return Err(malformed(None, "none of its components has a place (features XX, YY and ZZ)"));
@@ -197,8 +267,10 @@ fn pieces(graph: &Graph, values: &[Values]) -> Result<Vec<Piece>, Fault> {
             radius: known.radius.filter(|radius| *radius > 0.0),
             birth: known.birth,
             id: known.id,
+            shed: known.shed.unwrap_or(0),
             is_whole: graph.name_of(component.class) == METAMER,
             line: component.line,
+            thickness,
         });
         stands[at] = Some((pieces.len() as u32 - 1, true));
     }

@@ -1,12 +1,12 @@
 //! Pieces of wood in metres become nodes an internode apart.
 
 use espalier_plant::{
-    Wood, WoodAxis, WoodNode,
+    DormantBuds, Wood, WoodAxis, WoodNode,
     wood::{SHORTEST, as_written},
 };
 use glam::{DVec3, Vec3};
 
-use super::{Fault, MAX_STEP, Place, WoodOptions, malformed, out_of_range, too_many};
+use super::{Fault, MAX_SHED, MAX_STEP, Place, WoodOptions, internode, malformed, out_of_range, too_many};
 
 /// A piece that begins farther than this from the wood that bears it, in internodes, is joined to it by a node where
 /// it begins.
@@ -29,10 +29,22 @@ pub(super) struct Piece {
     pub birth: Option<u32>,
     /// Its number in the program that wrote it.
     pub id: Option<u32>,
+    /// Tips of twigs that were shed from it.
+    pub shed: u32,
     /// Whether it is one internode, however long.
     pub is_whole: bool,
     /// The line that it stands in.
     pub line: u64,
+    /// The column of its radius, from 1.
+    pub thickness: u64,
+}
+
+impl Piece {
+    /// How long it is in metres; a seed has no length.
+    pub(super) fn length(&self, pieces: &[Self]) -> Option<f64> {
+        let start = self.start.or_else(|| Some(pieces[self.parent? as usize].end))?;
+        Some(start.distance(self.end))
+    }
 }
 
 /// Turned as plants stand here: from Z up to Y up.
@@ -40,22 +52,40 @@ pub(super) fn y_up([x, y, z]: [f64; 3]) -> DVec3 {
     DVec3::new(x, z, -y)
 }
 
-/// Joins pieces to wood: long ones are cut into internodes, and the base of the first trunk comes to the origin.
-pub(super) fn join(pieces: &[Piece], options: &WoodOptions) -> Result<Wood, Fault> {
+/// Joins pieces to wood: long ones are cut into internodes, and the base of the first trunk comes to the origin. Gives
+/// the length of an internode in metres as well, which the file may have said.
+pub(super) fn join(pieces: &[Piece], said: Option<f32>, options: &WoodOptions) -> Result<(Wood, f32), Fault> {
     let order = in_order(pieces)?;
     let Some(&first) = order.first() else { return Err(malformed(None, "it holds no wood")) };
     let first = &pieces[first as usize];
     let origin = first.start.unwrap_or(first.end);
     let has_births = pieces.iter().any(|piece| piece.birth.is_some());
-    let metres = as_written(options.internode_length);
-    let mut joinery = Joinery { options, metres, origin, has_births, nodes: Vec::new(), axes: Vec::new() };
+    let length = options.internode_length.or(said);
+    let length = length.unwrap_or_else(|| internode::length(pieces, origin, options));
+    let mut joinery = Joinery {
+        options,
+        length,
+        metres: as_written(length),
+        origin,
+        has_births,
+        nodes: Vec::new(),
+        axes: Vec::new(),
+        shed: 0,
+        scars: Vec::new(),
+    };
     let mut ends: Vec<Option<Joined>> = vec![None; pieces.len()];
     for at in order {
         let piece = &pieces[at as usize];
         let parent = piece.parent.and_then(|parent| ends[parent as usize]);
         ends[at as usize] = Some(joinery.add(piece, parent)?);
     }
-    Ok(joinery.finish())
+    // A seed may stand alone, but a file that has wood is not meant to be one.
+    let has_wood = |piece: &Piece| piece.start.is_some() || piece.parent.is_some();
+    if pieces.iter().any(has_wood) && joinery.nodes.iter().all(|(node, ..)| node.parent.is_none()) {
+        let what = "it holds no wood: nothing in it is as long as a hundredth of an internode";
+        return Err(malformed(None, what));
+    }
+    Ok((joinery.finish(), length))
 }
 
 /// The pieces, parents before children, in the order of the file but for that.
@@ -103,7 +133,9 @@ struct Joined {
 
 struct Joinery<'a> {
     options: &'a WoodOptions,
-    /// Of an internode.
+    /// Of an internode, in metres.
+    length: f32,
+    /// The same as it is written.
     metres: f64,
     origin: DVec3,
     has_births: bool,
@@ -111,6 +143,10 @@ struct Joinery<'a> {
     nodes: Vec<(WoodNode, Option<u32>, Depth)>,
     /// Axes, and their last nodes.
     axes: Vec<(WoodAxis, u32)>,
+    /// Tips of all twigs that were shed so far.
+    shed: u32,
+    /// Nodes that carry some, and how many.
+    scars: Vec<(u32, u32)>,
 }
 
 /// Internodes from a node down to its seed.
@@ -194,13 +230,11 @@ impl Joinery<'_> {
             let allowed = format!("{} to {MAX_STEP}", below.birth);
             return Err(out_of_range(Some(Place::Line(piece.line)), what, allowed));
         }
-        let count = if piece.is_whole { 1.0 } else { start.distance(end).round().max(1.0) };
+        let count = if piece.is_whole { 1.0 } else { internode::cut(start.distance(end)) };
         let is_apart = start.distance(from) >= GAP;
         let places = (1..=count as u32).map(|k| start.lerp(end, f64::from(k) / count));
         let places = is_apart.then_some(start).into_iter().chain(places);
-        let radius = piece.radius.map(|radius| (radius / self.metres) as f32);
-        // Of one that is 0 or less than an f32 can hold, nothing is known; its width follows from what it bears.
-        let radius = radius.filter(|radius| radius.is_finite() && *radius > 0.0);
+        let radius = self.radius(piece)?;
         let (base, first, mut last) = (bearer, self.nodes.len() as u32, bearer);
         for place in places {
             let place = self.within(piece, place)?;
@@ -216,7 +250,31 @@ impl Joinery<'_> {
             let node = WoodNode { parent: Some(last), axis, end: place, normal: None, radius, birth };
             last = self.push(piece, node, piece.id, depth + 1)?;
         }
+        if piece.shed > 0 && last != bearer {
+            self.shed = self.shed.saturating_add(piece.shed);
+            if self.shed > MAX_SHED {
+                let (place, what) = (Place::Line(piece.line), "too many twigs were shed");
+                return Err(out_of_range(Some(place), what, format!("up to {MAX_SHED} in a file")));
+            }
+            self.scars.push((last, piece.shed));
+        }
         Ok(Joined { base, first, last, axis })
+    }
+
+    /// The radius of a piece in internodes.
+    fn radius(&self, piece: &Piece) -> Result<Option<f32>, Fault> {
+        let Some(metres) = piece.radius else { return Ok(None) };
+        let radius = (metres / self.metres) as f32;
+        let most = self.options.extent;
+        if radius > most {
+            let (place, what) =
+                (Place::Cell(piece.line, piece.thickness), format!("the radius is {metres} m"));
+            let allowed =
+                format!("up to {} m, which is {most} internodes of {} m", most * self.length, self.length);
+            return Err(out_of_range(Some(place), what, allowed));
+        }
+        // Of one that is 0 or less than an f32 can hold, nothing is known; its width follows from what it bears.
+        Ok(Some(radius).filter(|radius| *radius > 0.0))
     }
 
     fn push(&mut self, piece: &Piece, node: WoodNode, id: Option<u32>, depth: Depth) -> Result<u32, Fault> {
@@ -234,7 +292,7 @@ impl Joinery<'_> {
     }
 
     fn within(&self, piece: &Piece, place: DVec3) -> Result<Vec3, Fault> {
-        let WoodOptions { extent, internode_length, .. } = *self.options;
+        let (extent, internode_length) = (self.options.extent, self.length);
         if place.is_finite() && place.abs().max_element() <= f64::from(extent) {
             return Ok(place.as_vec3());
         }
@@ -247,7 +305,7 @@ impl Joinery<'_> {
 
     /// The nodes in the order of their births; of those born together, in the order in which they were numbered.
     fn finish(self) -> Wood {
-        let Self { nodes, axes, .. } = self;
+        let Self { nodes, axes, scars, .. } = self;
         let mut order: Vec<u32> = (0..nodes.len() as u32).collect();
         let key = |at: u32| (nodes[at as usize].0.birth, nodes[at as usize].1.unwrap_or(at));
         order.sort_by_key(|&at| key(at));
@@ -270,10 +328,14 @@ impl Joinery<'_> {
             WoodNode { parent: node.parent.map(moved), ..node }
         };
         let axis = |(axis, _): &(WoodAxis, u32)| WoodAxis { bearer: axis.bearer.map(moved), ..*axis };
+        let mut scars: Vec<_> = scars.into_iter().map(|(at, tips)| (moved(at), tips)).collect();
+        scars.sort_unstable();
         Wood {
             nodes: order.iter().map(node).collect(),
             axes: axes.iter().map(axis).collect(),
-            ..Wood::default()
+            widths: Vec::new(),
+            scars,
+            buds: DormantBuds::OnYoungWood,
         }
     }
 }

@@ -148,6 +148,8 @@ struct Row {
     start: DVec3,
     end: DVec3,
     radius: f64,
+    /// The column of the radius, from 1.
+    thickness: u64,
     branch: Option<i64>,
     order: Option<i64>,
 }
@@ -156,6 +158,9 @@ impl Table {
     fn of(head: &StringRecord) -> Result<Self, Fault> {
         let tables = DIALECTS.iter().filter_map(|dialect| Self::by(dialect, head));
         tables.into_iter().next().ok_or_else(|| {
+            if head.iter().all(|name| name.trim().is_empty()) {
+                return malformed(Some(Place::Line(1)), "it has no columns; the first line must name them");
+            }
             let names = DIALECTS.each_ref().map(|dialect| dialect.name).join(", ");
             let found: Vec<_> = head.iter().take(12).map(|name| format!("`{}`", excerpt(name))).collect();
             let what = format!("its columns are not those of a QSM by {names}: {}", found.join(", "));
@@ -214,6 +219,10 @@ impl Table {
                     let what = format!("{length} is {far}");
                     return Err(out_of_range(Some(place(column)), what, "0 and more"));
                 }
+                if far > 0.0 && along.length_squared() <= 0.0 {
+                    let allowed = "a unit vector from its start to its end";
+                    return Err(out_of_range(Some(place(columns[0])), "its axis is 0, 0, 0", allowed));
+                }
                 from + along * far
             }
         };
@@ -234,6 +243,7 @@ impl Table {
             start: from * unit,
             end: to * unit,
             radius: thick * unit,
+            thickness: self.radius as u64 + 1,
             branch: known(self.branch, branch)?,
             order: known(self.order, order)?,
         })
@@ -288,8 +298,10 @@ fn pieces(rows: &[Row]) -> Result<Vec<Piece>, Fault> {
             radius: Some(row.radius),
             birth: None,
             id: None,
+            shed: 0,
             is_whole: false,
             line: row.line,
+            thickness: row.thickness,
         });
     }
     for at in next.into_iter().flatten() {

@@ -1,15 +1,20 @@
 //! Skeletons as this program writes them, of both versions.
 
+mod fit;
 mod values;
 
-use espalier_plant::{Wood, WoodAxis, WoodNode, wood::as_written};
+use espalier_plant::{DormantBuds, Wood, WoodAxis, WoodNode, wood::as_written};
 use espalier_reading::{Kind, Refusal, Unread, from_slice};
-use espalier_settings::ParametersPatch;
+use espalier_settings::{ParameterValues, ParametersPatch};
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, de::DeserializeOwned};
 
-use self::values::{Axes, AxisNumber, Bearer, Birth, Girth, Head, Metamers, Order, Parent, Vector, Version};
-use super::{Fault, FaultKind, MAX_STEP, Place, WoodFile, WoodOptions, malformed, out_of_range, too_many};
+use self::values::{
+    Axes, AxisNumber, Bearer, Birth, Girth, Head, Metamers, Order, Parent, Shed, Vector, Version,
+};
+use super::{
+    Fault, FaultKind, MAX_SHED, MAX_STEP, Place, WoodFile, WoodOptions, malformed, out_of_range, too_many,
+};
 
 /// Version 1, which knew neither metres nor axes.
 #[derive(Deserialize)]
@@ -57,6 +62,7 @@ struct Metamer {
     radius: Option<Girth>,
     birth: Birth,
     width: Option<Girth>,
+    shed: Option<Shed>,
 }
 
 /// The wood of a skeleton.
@@ -106,32 +112,53 @@ fn first(First { metamers }: First, options: &WoodOptions) -> Result<WoodFile, F
             }
         };
         let end = within(at, DVec3::from_array(position.0), options)?;
-        let radius = girth(at, "radius", parent.map(|_| radius), 1.0)?;
+        let radius = girth(at, "radius", parent.map(|_| radius), 1.0, options.extent)?;
         nodes.push(WoodNode { parent, axis, end, normal: None, radius, birth });
     }
-    Ok(WoodFile { wood: Wood { nodes, axes, ..Wood::default() }, ..WoodFile::default() })
+    let wood = Wood { nodes, axes, buds: DormantBuds::OnYoungWood, ..Wood::default() };
+    Ok(WoodFile { wood, ..WoodFile::default() })
 }
 
-fn second(file: Second, options: &WoodOptions) -> Result<WoodFile, Fault> {
+fn second(mut file: Second, options: &WoodOptions) -> Result<WoodFile, Fault> {
     limit(file.metamers.len(), options)?;
     limit(file.axes.len() / 5, options)?;
-    let length = file.parameters.internode_length.unwrap_or(options.internode_length);
+    let length = options.internode_length.or(file.parameters.internode_length);
+    let length = length.unwrap_or(ParameterValues::default().internode_length);
+    file.parameters.internode_length = Some(length);
     if !(length.is_finite() && length > 0.0) {
         let place = Place::Member("parameters.internode_length".into());
         return Err(out_of_range(Some(place), format!("it is {length}"), "more than 0"));
     }
     let scale = as_written(length);
-    let (mut nodes, mut widths) = (Vec::with_capacity(file.metamers.len()), Vec::new());
+    let (mut nodes, mut widths, mut scars) =
+        (Vec::with_capacity(file.metamers.len()), Vec::new(), Vec::new());
+    let mut all_shed = 0;
     for (metamer, at) in file.metamers.iter().zip(0u32..) {
-        let &Metamer { axis: AxisNumber(axis), position, normal, radius, birth: Birth(birth), width, .. } =
-            metamer;
+        let &Metamer {
+            axis: AxisNumber(axis),
+            position,
+            normal,
+            radius,
+            birth: Birth(birth),
+            width,
+            shed,
+            ..
+        } = metamer;
         let parent = metamer.parent.map(|Parent(parent)| parent);
         if let Some(parent) = parent.filter(|&parent| parent >= at) {
             return Err(behind(at, parent));
         }
         let end = within(at, DVec3::from_array(position.0) / scale, options)?;
-        let radius = girth(at, "radius", radius.filter(|_| parent.is_some()), scale)?;
-        widths.extend(girth(at, "width", width, scale)?.map(|width| (at, width)));
+        let radius = girth(at, "radius", radius.filter(|_| parent.is_some()), scale, options.extent)?;
+        widths.extend(girth(at, "width", width, scale, 2.0 * options.extent)?.map(|width| (at, width)));
+        if let Some(Shed(shed)) = shed.filter(|&Shed(shed)| shed > 0 && parent.is_some()) {
+            all_shed += shed;
+            if all_shed > MAX_SHED {
+                let allowed = format!("up to {MAX_SHED} in a file");
+                return Err(out_of_range(member(at as usize, "shed"), "too many twigs were shed", allowed));
+            }
+            scars.push((at, shed));
+        }
         let normal = normal.map(|Vector(normal)| Vec3::from_array(normal));
         nodes.push(WoodNode { parent, axis, end, normal, radius, birth });
     }
@@ -140,8 +167,10 @@ fn second(file: Second, options: &WoodOptions) -> Result<WoodFile, Fault> {
         direction: axis.direction.map(|Vector(direction)| Vec3::from_array(direction)),
         has_bud: axis.bud,
     };
-    let wood = Wood { nodes, axes: file.axes.iter().map(axis).collect(), widths, has_buds: true };
-    Ok(WoodFile { wood, parameters: file.parameters, species: file.species, seed: file.seed })
+    let axes = file.axes.iter().map(axis).collect();
+    let wood = Wood { nodes, axes, widths, scars, buds: DormantBuds::Known };
+    let notes = Vec::new();
+    Ok(WoodFile { wood, parameters: file.parameters, species: file.species, seed: file.seed, notes })
 }
 
 /// Checks what both versions have alike.
@@ -151,6 +180,13 @@ fn check(wood: &Wood, options: &WoodOptions) -> Result<(), Fault> {
     for (at, node) in wood.nodes.iter().enumerate() {
         // Nothing has grown in the step of the first seed.
         let last = u32::from(node.parent.is_some()).max(before);
+        if at == 0 && node.birth > 0 {
+            return Err(out_of_range(
+                member(at, "birth"),
+                format!("it is {}", node.birth),
+                "0 for the first",
+            ));
+        }
         if node.birth > MAX_STEP || node.birth < last {
             let allowed = format!("{last}, the birth of the one before, to {MAX_STEP}");
             return Err(out_of_range(member(at, "birth"), format!("it is {}", node.birth), allowed));
@@ -165,7 +201,7 @@ fn check(wood: &Wood, options: &WoodOptions) -> Result<(), Fault> {
             return Err(malformed(member(at, "position"), "its internode has no length"));
         }
     }
-    Ok(())
+    fit::check(wood)
 }
 
 fn member(at: usize, name: &str) -> Option<Place> {
@@ -194,12 +230,12 @@ fn within(at: u32, place: DVec3, options: &WoodOptions) -> Result<Vec3, Fault> {
     Err(out_of_range(member(at as usize, "position"), "it lies too far from the origin", allowed))
 }
 
-/// A radius or diameter in internodes; none where it is 0.
-fn girth(at: u32, name: &str, metres: Option<Girth>, scale: f64) -> Result<Option<f32>, Fault> {
+/// A radius or diameter in internodes, of so many at most; none where it is 0.
+fn girth(at: u32, name: &str, metres: Option<Girth>, scale: f64, most: f32) -> Result<Option<f32>, Fault> {
     let Some(Girth(metres)) = metres else { return Ok(None) };
     let internodes = (metres / scale) as f32;
-    if !internodes.is_finite() {
-        let allowed = format!("0 to {:e}", f64::from(f32::MAX) * scale);
+    if internodes > most {
+        let allowed = format!("0 to {}", f64::from(most) * scale);
         return Err(out_of_range(member(at as usize, name), format!("it is {metres}"), allowed));
     }
     Ok(Some(internodes).filter(|&internodes| internodes > 0.0))

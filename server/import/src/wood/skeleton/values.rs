@@ -8,7 +8,7 @@ use serde::{
     de::{DeserializeSeed, Error, IgnoredAny, SeqAccess, Unexpected, Visitor},
 };
 
-use crate::wood::MAX_STEP;
+use crate::wood::{MAX_SHED, MAX_STEP};
 
 /// What says how to read the rest.
 #[derive(Deserialize)]
@@ -83,6 +83,8 @@ numbers! {
     Order: u32 from 0, to u32::MAX, Between(0, u32::MAX);
     /// The step in which a metamer grew.
     Birth: u32 from 0, to MAX_STEP, Between(0, MAX_STEP);
+    /// Tips of twigs that were shed.
+    Shed: u32 from 0, to MAX_SHED, Between(0, MAX_SHED);
     /// A radius, or a width.
     Girth: f64 from 0.0, to f64::MAX, "0 and more";
 }
