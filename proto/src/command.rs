@@ -11,6 +11,7 @@ use ts_rs::TS;
 use crate::{
     bounded::{Age, BrushRadius, Depth, Diameter, List, Share, Steps, Touches},
     design::{DesignEdit, DesignValue, MAX_DESIGN_EDITS},
+    grammar::{GrammarBody, GrammarValue, MAX_GRAMMAR_VALUES},
     obstacle::{Obstacle, Pose, SimpleShape},
     place::{DrawingPlane, PlanePoint, Position, UnitRotation},
     problem::Problem,
@@ -317,6 +318,41 @@ tagged_enum! {
         },
         /// Let the design in force go: its wood stays, and is wood like any other (`DS3`).
         ReleaseDesign {},
+        /// Plant what a grammar writes (`GR1`).
+        SetGrammar {
+            /// The text of the grammar.
+            text: String,
+            /// What its sliders are set to; others have the values of the text.
+            #[serde(default)]
+            #[ts(as = "Option<List<GrammarValue, 0, MAX_GRAMMAR_VALUES>>", optional)]
+            values: List<GrammarValue, 0, MAX_GRAMMAR_VALUES>,
+            /// The seed of its chance; that of the document if there is none.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            seed: Option<u32>,
+            /// Where its turtle begins, on the ground; the middle if nothing is said.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            position: Option<Position>,
+            /// Steps of derivation to begin with; none if nothing is said.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            depth: Option<Steps>,
+            /// A body that the grammar may ask for as `inside(0)`.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            within: Option<GrammarBody>,
+        },
+        /// Derive the grammar in force further; each step is one of growth (`GR2`).
+        Derive {
+            /// 1 to 1000 steps of derivation.
+            steps: Steps,
+        },
+        /// Set sliders of the grammar in force; its plant follows (`GR3`).
+        SetGrammarValues {
+            /// The sliders to set; others stay as they are.
+            values: List<GrammarValue, 0, MAX_GRAMMAR_VALUES>,
+        },
         /// Go to a step of the present line of time, back or forth (`TT2`).
         GoTo {
             /// 0 to the line's last step.

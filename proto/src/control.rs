@@ -13,6 +13,7 @@ use crate::{
     comment::Pin,
     design::DesignInForce,
     envelope::FrameKind,
+    grammar::GrammarInForce,
     obstacle::PlacedObstacle,
     place::Position,
     presence::{Camera, Person, Pointer},
@@ -391,6 +392,11 @@ pub enum ServerMessage {
     Design {
         /// The design; none where there is none any more.
         design: Option<Box<DesignInForce>>,
+    },
+    /// The grammar in force: after the welcome if there is one, and when it changes (`GR5`).
+    Grammar {
+        /// The grammar; none where there is none any more.
+        grammar: Option<Box<GrammarInForce>>,
     },
     /// How the session was opened, after the welcome (`OP3`).
     Notice {

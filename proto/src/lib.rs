@@ -16,6 +16,7 @@ pub mod design;
 pub mod envelope;
 pub mod frame;
 pub mod ghost;
+pub mod grammar;
 pub mod library;
 pub mod mesh;
 pub mod obstacle;
@@ -54,6 +55,10 @@ pub use envelope::FrameKind;
 pub use espalier_reading::NotAllowed;
 pub use frame::{ChunkChange, Column, Frame, FrameError, Rows, Values};
 pub use ghost::GhostFrame;
+pub use grammar::{
+    CheckGrammar, GrammarBody, GrammarDiagnostic, GrammarInForce, GrammarOrigins, GrammarReport, GrammarRule,
+    GrammarSeverity, GrammarSize, GrammarSlider, GrammarValue, MAX_GRAMMAR_VALUES, ShippedGrammar,
+};
 pub use mesh::{Mesh, MeshError};
 pub use obstacle::{
     MeshSize, Obstacle, PlacedObstacle, PlacedShape, Pose, Shape, SimpleShape, UploadedObstacle,

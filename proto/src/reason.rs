@@ -52,6 +52,8 @@ reasons! {
         GltfDamaged,
         /// A line of an OBJ file is none; `cause` says why.
         ObjDamaged,
+        /// A text is no grammar; `cause` says where and why.
+        NotAGrammar,
         /// A thumbnail is not a picture.
         ThumbnailKind,
     }
@@ -158,6 +160,8 @@ reasons! {
         TrianglesFull,
         /// The shape of a mesh stays as it is.
         MeshKeepsShape,
+        /// A grammar cannot be derived any further; `cause` says why.
+        GrammarEnds,
         /// There is no programme that parameters could follow.
         NoProgramme,
         /// A future is damaged.
@@ -188,6 +192,8 @@ reasons! {
     NotFound {
         /// There is no living metamer with this row.
         BranchGone,
+        /// No grammar is in force.
+        NoGrammar,
         /// No such stroke is in progress.
         StrokeGone,
         /// No such bend is in progress.

@@ -38,6 +38,8 @@ pub enum OperationKind {
     BroughtBack,
     /// A design begun, changed or let go.
     Design,
+    /// A grammar set, derived further, or its sliders set.
+    Grammar,
 }
 
 /// One operation on a line of time.

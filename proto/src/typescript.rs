@@ -9,8 +9,8 @@ use ts_rs::{Config, TS};
 
 use crate::{
     access::{self, Role},
-    bounded, command, comment, control, design, envelope, frame, library, obstacle, permission, place,
-    presence, problem, programme, reason, schematic, species, status, thumbnail, timeline, version,
+    bounded, command, comment, control, design, envelope, frame, grammar, library, obstacle, permission,
+    place, presence, problem, programme, reason, schematic, species, status, thumbnail, timeline, version,
 };
 
 /// How both generated files begin.
@@ -49,6 +49,7 @@ pub fn declarations() -> String {
     constant("MAX_MENTIONS", version::MAX_MENTIONS.to_string());
     constant("MAX_COMMENT_LINES", version::MAX_COMMENT_LINES.to_string());
     constant("MAX_LINE_PLACES", version::MAX_LINE_PLACES.to_string());
+    constant("MAX_GRAMMAR_VALUES", grammar::MAX_GRAMMAR_VALUES.to_string());
     constant("MAX_OBSTACLES", version::MAX_OBSTACLES.to_string());
     constant("MAX_MESH_VERTICES", version::MAX_MESH_VERTICES.to_string());
     constant("MAX_MESH_TRIANGLES", version::MAX_MESH_TRIANGLES.to_string());
@@ -91,6 +92,18 @@ pub fn declarations() -> String {
     add_tables(&mut out);
     for declaration in [
         command::StrokeSample::decl(&config),
+        grammar::GrammarValue::decl(&config),
+        grammar::GrammarBody::decl(&config),
+        grammar::GrammarSlider::decl(&config),
+        grammar::GrammarInForce::decl(&config),
+        grammar::CheckGrammar::decl(&config),
+        grammar::GrammarSeverity::decl(&config),
+        grammar::GrammarDiagnostic::decl(&config),
+        grammar::GrammarSize::decl(&config),
+        grammar::GrammarReport::decl(&config),
+        grammar::ShippedGrammar::decl(&config),
+        grammar::GrammarRule::decl(&config),
+        grammar::GrammarOrigins::decl(&config),
         settings::VigorModel::decl(&config),
         settings::Unit::decl(&config),
         Setting::decl(&config),

@@ -150,7 +150,7 @@ pub struct Grow {
     /// Grow until so many metamers are alive.
     #[arg(
         long,
-        required_unless_present_any = ["species", "steps"],
+        required_unless_present_any = ["species", "steps", "grammar"],
         value_parser = clap::value_parser!(u32).range(1..)
     )]
     pub metamers: Option<u32>,
@@ -160,6 +160,12 @@ pub struct Grow {
     /// Grow a tree of a species to its age; `espalier species` lists them.
     #[arg(long, value_name = "NAME", value_parser = parse_species)]
     pub species: Option<&'static species::Species>,
+    /// Plant what a grammar writes; `-` for standard input.
+    #[arg(long, value_name = "FILE", conflicts_with = "species")]
+    pub grammar: Option<PathBuf>,
+    /// Derive the grammar so deep; as deep as its text says if nothing is said.
+    #[arg(long, value_name = "N", requires = "grammar", value_parser = parse_steps)]
+    pub depth: Option<Steps>,
     /// Seed of all randomness.
     #[arg(long, default_value_t = 1)]
     pub seed: u32,

@@ -3,9 +3,9 @@
 use std::{collections::VecDeque, fmt::Debug, time::Duration};
 
 use espalier_proto::{
-    BendFrame, ClientMessage, DesignInForce, DocumentState, Frame, FrameKind, GhostFrame, Notice, Person,
-    PlacedObstacle, PresenceFrame, Problem, Programme, ServerMessage, Timeline, WidthConstraint,
-    access::Role,
+    BendFrame, ClientMessage, DesignInForce, DocumentState, Frame, FrameKind, GhostFrame, GrammarInForce,
+    Notice, Person, PlacedObstacle, PresenceFrame, Problem, Programme, ServerMessage, Timeline,
+    WidthConstraint, access::Role,
 };
 use espalier_settings::{Appearance, ParameterValues};
 use futures_util::{SinkExt, StreamExt};
@@ -66,6 +66,8 @@ pub struct Client {
     pub widths: Vec<WidthConstraint>,
     /// The design in force.
     pub design: Option<DesignInForce>,
+    /// The grammar in force, as it was told last.
+    pub grammar: Option<GrammarInForce>,
     /// Frames of bends, in the order they came.
     pub bend_frames: Vec<BendFrame>,
     /// Ghosts of predictions, in the order they came.
@@ -213,6 +215,7 @@ impl Client {
             timeline: Timeline::default(),
             widths: Vec::new(),
             design: None,
+            grammar: None,
             bend_frames: Vec::new(),
             ghosts: Vec::new(),
             presence: Vec::new(),
@@ -413,11 +416,12 @@ impl Client {
                 assert_eq!(epoch, self.table.epoch, "RS1: only the same epoch can be resumed");
                 self.resumed = resumed;
                 self.parameters = *parameters;
-                // These follow if there are any (`PG5`, `OB3`, `WI2`, `DS4`).
+                // These follow if there are any (`PG5`, `OB3`, `WI2`, `DS4`, `GR5`).
                 self.programme = None;
                 self.obstacles.clear();
                 self.widths.clear();
                 self.design = None;
+                self.grammar = None;
                 self.state = state;
                 self.done = 0;
                 self.take_acknowledgement(acknowledged);
@@ -440,6 +444,7 @@ impl Client {
             ServerMessage::TimelineChanged(change) => self.timeline.change(*change),
             ServerMessage::Widths { widths } => self.widths = widths,
             ServerMessage::Design { design } => self.design = design.map(|design| *design),
+            ServerMessage::Grammar { grammar } => self.grammar = grammar.map(|grammar| *grammar),
             ServerMessage::Appearance { appearance } => {
                 self.appearance = *appearance;
                 self.appearances += 1;

@@ -10,6 +10,7 @@ import type { SessionEvents } from "./connection/session-link";
 import type { LookDraft } from "./document/appearance/look-draft";
 import type { DesignSignal } from "./document/design/design-signal";
 import type { Draft } from "./document/draft";
+import type { GrammarSignal } from "./document/grammar/grammar-signal";
 import type { GrowControl } from "./document/growth/grow-control";
 import type { ProgrammeControl } from "./document/growth/programme-control";
 import type { OwnUndo } from "./document/timeline/own-undo";
@@ -37,6 +38,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly outline: OutlineTrace;
   readonly widths: WidthList;
   readonly design: DesignSignal;
+  readonly grammar: GrammarSignal;
   readonly bends: SharedBends;
   readonly unsaved: UnsavedTrees;
   readonly layout: Pick<Layout, "sheet">;
@@ -81,6 +83,7 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
       page.widths.all.value = widths;
     },
     design: ({ design }) => page.design.receive(design),
+    grammar: ({ grammar }) => page.grammar.receive(grammar),
     deed: ({ deed }) => page.undo.done(deed),
     hint: ({ hint }) => page.drawnInVain.show(hint),
     people: (people) => {
@@ -119,6 +122,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
       page.growing.settle(settled);
       page.looks.settle(settled);
       page.obstacles.settle(settled);
+      page.grammar.listener?.settle(settled);
       page.tools.changed();
     },
     aside: (aside) => {
@@ -136,6 +140,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
       page.growing.letGo();
       page.looks.letGo();
       page.obstacles.letGo();
+      page.grammar.listener?.letGo();
       page.growth.forget();
       page.undo.forget();
       page.tools.abandon();
@@ -174,6 +179,7 @@ function forget(page: SessionTargets): void {
   page.comments.clear();
   page.widths.all.value = [];
   page.design.receive(null);
+  page.grammar.receive(null);
   page.obstacles.forget();
   page.time.clear();
   page.unsaved.clear();

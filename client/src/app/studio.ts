@@ -10,6 +10,7 @@ import { SessionLink } from "./connection/session-link";
 import { LookDraft } from "./document/appearance/look-draft";
 import { DesignSignal } from "./document/design/design-signal";
 import { Draft, type GrowthAhead } from "./document/draft";
+import { GrammarSignal } from "./document/grammar/grammar-signal";
 import { GrowControl } from "./document/growth/grow-control";
 import { growthAhead } from "./document/growth/growth-ahead";
 import { ProgrammeControl } from "./document/growth/programme-control";
@@ -114,6 +115,7 @@ export class Studio {
   readonly drawnInVain = new DrawnInVain(browserClock);
   readonly widths = new WidthList();
   readonly design = new DesignSignal();
+  readonly grammar = new GrammarSignal();
   readonly bends = new SharedBends();
   /** Who else has the tree open. */
   readonly together = new Together();

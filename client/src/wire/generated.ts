@@ -27,6 +27,7 @@ export const MAX_COMMENT_CHARACTERS = 4000;
 export const MAX_MENTIONS = 16;
 export const MAX_COMMENT_LINES = 32;
 export const MAX_LINE_PLACES = 256;
+export const MAX_GRAMMAR_VALUES = 64;
 export const MAX_OBSTACLES = 64;
 export const MAX_MESH_VERTICES = 65536;
 export const MAX_MESH_TRIANGLES = 131072;
@@ -168,6 +169,250 @@ position: [number, number, number],
  * The radius of the brush; 0 sketches one limb exactly.
  */
 radius: number, };
+
+export type GrammarValue = { 
+/**
+ * The name that the text gives it.
+ */
+name: string, 
+/**
+ * A number that the text allows.
+ */
+value: number, };
+
+export type GrammarBody = { 
+/**
+ * 3 to 4096 points on the plane, in internode lengths; the last is joined to the first.
+ */
+outline: Array<[number, number]>, 
+/**
+ * Where the outline lies.
+ */
+plane: DrawingPlane, 
+/**
+ * How deep the body is, 0.1 to 1: at 1 it is as deep as it is wide, everywhere.
+ */
+depth: number, };
+
+export type GrammarSlider = { 
+/**
+ * The name that the text gives it.
+ */
+name: string, 
+/**
+ * The least it may be set to.
+ */
+from: number, 
+/**
+ * The most.
+ */
+to: number, 
+/**
+ * What the text sets it to.
+ */
+value: number, };
+
+export type GrammarInForce = { 
+/**
+ * Its text.
+ */
+text: string, 
+/**
+ * What the text calls it.
+ */
+title: string | null, 
+/**
+ * Where its turtle began.
+ */
+at: [number, number, number], 
+/**
+ * The seed of its chance.
+ */
+seed: number, 
+/**
+ * The sliders of the text.
+ */
+sliders: Array<GrammarSlider>, 
+/**
+ * What was set; other sliders have the values of the text.
+ */
+values: Array<GrammarValue>, 
+/**
+ * Whether a body goes with it, for `inside(0)`.
+ */
+within: boolean, 
+/**
+ * Steps of derivation up to the present step of the plants.
+ */
+depth: number, 
+/**
+ * How many steps back on the line of time each lead to the depth before.
+ */
+earlier: number, 
+/**
+ * How many steps forth on it each lead to the next depth.
+ */
+later: number, 
+/**
+ * Whether hands have changed the plants since it was set.
+ */
+edited: boolean, 
+/**
+ * Why it could not be derived further, where that was tried last.
+ */
+ends: string | null, };
+
+export type CheckGrammar = { 
+/**
+ * The text.
+ */
+text: string, 
+/**
+ * What its sliders are set to; others have the values of the text.
+ */
+values?: Array<GrammarValue>, 
+/**
+ * The seed of its chance; 1 if nothing is said.
+ */
+seed?: number, 
+/**
+ * Whether its sizes are wanted, which take longer than the rest.
+ */
+sizes?: boolean, };
+
+export type GrammarSeverity = "error" | "warning";
+
+export type GrammarDiagnostic = { 
+/**
+ * How bad it is.
+ */
+severity: GrammarSeverity, 
+/**
+ * Line, counted from 1.
+ */
+line: number, 
+/**
+ * Character of the line, counted from 1; what `length` counts as well.
+ */
+column: number, 
+/**
+ * Characters that it concerns; 0 where something is missing.
+ */
+length: number, 
+/**
+ * What kind it is, as `unknown-function`; [docs/grammars.md](../docs/grammars.md#errors) has all.
+ */
+code: string, 
+/**
+ * A sentence in English without its full stop.
+ */
+message: string, 
+/**
+ * What to write instead.
+ */
+hint: string | null, };
+
+export type GrammarSize = { 
+/**
+ * Modules of its word.
+ */
+modules: number, 
+/**
+ * Internodes that the turtle draws.
+ */
+internodes: number, };
+
+export type GrammarReport = { 
+/**
+ * What is wrong with it, in the order of the text; 50 at most.
+ */
+diagnostics: Array<GrammarDiagnostic>, 
+/**
+ * What the text calls it. This and what follows says nothing where the text has errors.
+ */
+title: string | null, 
+/**
+ * A sentence about it.
+ */
+about: string | null, 
+/**
+ * Who wrote it.
+ */
+author: string | null, 
+/**
+ * How deep the text would be derived.
+ */
+depth: number | null, 
+/**
+ * Its sliders.
+ */
+sliders: Array<GrammarSlider>, 
+/**
+ * How large it is at depth 0, 1, 2 and so on, as far as a bounded amount of work goes; under an open sky.
+ */
+sizes: Array<GrammarSize>, 
+/**
+ * Why it cannot be derived further than the sizes go, where a limit of documents ends it.
+ */
+ends: string | null, };
+
+export type ShippedGrammar = { 
+/**
+ * Its short name, as in addresses.
+ */
+name: string, 
+/**
+ * What it is called.
+ */
+title: string, 
+/**
+ * What it shows, in one sentence.
+ */
+about: string, 
+/**
+ * How deep it is best derived at first.
+ */
+depth: number, 
+/**
+ * Its sliders.
+ */
+sliders: Array<GrammarSlider>, 
+/**
+ * Its text, for `set_grammar`.
+ */
+text: string, 
+/**
+ * Where its picture is.
+ */
+picture: string, };
+
+export type GrammarRule = { 
+/**
+ * Line, counted from 1.
+ */
+line: number, 
+/**
+ * Character of the line that it begins with, counted from 1.
+ */
+column: number, };
+
+export type GrammarOrigins = { 
+/**
+ * The depth it is about.
+ */
+depth: number, 
+/**
+ * The axiom, then rules in the order of the text that have made something.
+ */
+rules: Array<GrammarRule>, 
+/**
+ * Living rows that the grammar wrote, ascending.
+ */
+rows: Array<number>, 
+/**
+ * For each of them the number of the rule in `rules` that its module came from.
+ */
+by: Array<number>, };
 
 export type VigorModel = "borchert_honda" | "priority";
 
@@ -1395,7 +1640,39 @@ graph?: unknown, } | { "kind": "edit_design",
 /**
  * 1 to 64 edits, done one after another.
  */
-edits: Array<DesignEdit>, } | { "kind": "release_design", } | { "kind": "go_to", 
+edits: Array<DesignEdit>, } | { "kind": "release_design", } | { "kind": "set_grammar", 
+/**
+ * The text of the grammar.
+ */
+text: string, 
+/**
+ * What its sliders are set to; others have the values of the text.
+ */
+values?: Array<GrammarValue>, 
+/**
+ * The seed of its chance; that of the document if there is none.
+ */
+seed?: number, 
+/**
+ * Where its turtle begins, on the ground; the middle if nothing is said.
+ */
+position?: [number, number, number], 
+/**
+ * Steps of derivation to begin with; none if nothing is said.
+ */
+depth?: number, 
+/**
+ * A body that the grammar may ask for as `inside(0)`.
+ */
+within?: GrammarBody, } | { "kind": "derive", 
+/**
+ * 1 to 1000 steps of derivation.
+ */
+steps: number, } | { "kind": "set_grammar_values", 
+/**
+ * The sliders to set; others stay as they are.
+ */
+values: Array<GrammarValue>, } | { "kind": "go_to", 
 /**
  * 0 to the line's last step.
  */
@@ -1468,7 +1745,7 @@ appearance: Appearance, };
 
 export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "stale" | "unavailable";
 
-export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-of-yours" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "design-sealed" | "design-refused" | "being-drawn" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "tree-locked" | "comment-stays" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "design-gone" | "design-branch-gone" | "no-template" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
+export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "not-a-grammar" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-of-yours" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "design-sealed" | "design-refused" | "being-drawn" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "grammar-ends" | "no-programme" | "future-damaged" | "tree-locked" | "comment-stays" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "no-grammar" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "design-gone" | "design-branch-gone" | "no-template" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
 
 export type Problem = { 
 /**
@@ -1639,7 +1916,7 @@ asleep: Array<string>,
  */
 steps_on_top: number, };
 
-export type OperationKind = "stroke" | "growth" | "lasso" | "parameters" | "appearance" | "seed" | "obstacle" | "bend" | "width" | "prune" | "turn" | "graft" | "taken_back" | "brought_back" | "design";
+export type OperationKind = "stroke" | "growth" | "lasso" | "parameters" | "appearance" | "seed" | "obstacle" | "bend" | "width" | "prune" | "turn" | "graft" | "taken_back" | "brought_back" | "design" | "grammar";
 
 export type TimelineOperation = { 
 /**
@@ -2122,7 +2399,11 @@ widths: Array<WidthConstraint>, } | { "type": "design",
 /**
  * The design; none where there is none any more.
  */
-design: DesignInForce | null, } | { "type": "notice", 
+design: DesignInForce | null, } | { "type": "grammar", 
+/**
+ * The grammar; none where there is none any more.
+ */
+grammar: GrammarInForce | null, } | { "type": "notice", 
 /**
  * What happened.
  */

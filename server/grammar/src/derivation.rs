@@ -54,7 +54,12 @@ pub struct Derivation {
     /// Where the modules of the word stand, if the grammar asks.
     stands: Vec<Stand>,
     stopped: Option<Stop>,
+    /// The keys of modules and the place of the rule that made them, if that is wanted.
+    traced: Option<Vec<(u64, Place)>>,
 }
+
+/// The line and column of a rule.
+pub type Place = (u32, u32);
 
 impl Derivation {
     /// The axiom.
@@ -62,6 +67,23 @@ impl Derivation {
     /// # Errors
     /// Where it is too large, or a number of it is none.
     pub fn new(program: Arc<Program>, seed: u32, limits: Limits) -> Result<Self, Stop> {
+        Self::begin(program, seed, limits, None)
+    }
+
+    /// The axiom of a derivation that notes which rule makes each module, for [`Derivation::origins`].
+    ///
+    /// # Errors
+    /// As [`Derivation::new`] does.
+    pub fn traced(program: Arc<Program>, seed: u32, limits: Limits) -> Result<Self, Stop> {
+        Self::begin(program, seed, limits, Some(Vec::new()))
+    }
+
+    fn begin(
+        program: Arc<Program>,
+        seed: u32,
+        limits: Limits,
+        traced: Option<Vec<(u64, Place)>>,
+    ) -> Result<Self, Stop> {
         let columns = program.columns;
         let mut derivation = Self {
             program: Arc::clone(&program),
@@ -76,6 +98,7 @@ impl Derivation {
             machine: Machine::new(),
             stands: Vec::new(),
             stopped: None,
+            traced,
         };
         let start =
             Stand { place: glam::DVec3::ZERO, heading: glam::DVec3::Y, order: 0, below: 0, branch: 0 };
@@ -115,6 +138,15 @@ impl Derivation {
         self.step
     }
 
+    /// The keys of modules in ascending order, each with the line and column of the rule that made it; those of the axiom
+    /// are not among them. A module that goes on keeps the rule that it began with.
+    pub fn origins(&self) -> Vec<(u64, Place)> {
+        let mut origins = self.traced.clone().unwrap_or_default();
+        origins.sort_unstable();
+        origins.dedup_by_key(|(key, _)| *key);
+        origins
+    }
+
     /// The grammar with its values.
     pub fn program(&self) -> &Arc<Program> {
         &self.program
@@ -123,6 +155,10 @@ impl Derivation {
     /// Bytes that words take while it goes on: that of the last step and the one being made.
     pub fn bytes(&self) -> usize {
         self.word.bytes() + self.next.bytes() + size_of_val(&*self.stands)
+    }
+
+    pub(crate) fn is_traced(&self) -> bool {
+        self.traced.is_some()
     }
 
     pub(crate) fn limits(&self) -> &Limits {
@@ -360,6 +396,9 @@ impl Derivation {
                 born: if is_heir { of.born } else { born },
                 time: firing.time,
             };
+            if let Some(traced) = self.traced.as_mut().filter(|_| !is_heir) {
+                traced.push((tag.key, rule.at));
+            }
             if is_plain(program, tag) {
                 self.next.push(tag, &self.limits)?;
                 for code in &product.arguments {

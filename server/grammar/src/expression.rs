@@ -298,7 +298,8 @@ impl Parser<'_> {
             if self.eat(')') {
                 return Ok(arguments);
             }
-            self.expect(',')?;
+            // Where the text ends it is the end of the parameters that is missing.
+            self.expect(if self.rest().is_empty() { ')' } else { ',' })?;
         }
     }
 }

@@ -1,6 +1,7 @@
 //! A grammar as it was written.
 
 use crate::{
+    derivation::Place,
     diagnostic::Diagnostic,
     expression::Expr,
     parser::Parser,
@@ -20,6 +21,8 @@ pub struct Grammar {
     pub(crate) sliders: Vec<SliderRow>,
     pub(crate) curves: Vec<Curve>,
     pub(crate) axiom: Vec<Module>,
+    /// Line and column of what the axiom begins with.
+    pub(crate) axiom_at: Place,
     pub(crate) rules: Vec<Rule>,
     pub(crate) homomorphism: Vec<Rule>,
     pub(crate) decomposition: Vec<Rule>,
@@ -190,6 +193,11 @@ impl Grammar {
     /// Who wrote it.
     pub fn author(&self) -> Option<&str> {
         self.heading.author.as_deref()
+    }
+
+    /// The line and column of its axiom.
+    pub fn axiom_place(&self) -> Place {
+        self.axiom_at
     }
 
     /// Whether it asks where modules stand, so that what grows depends on surroundings.

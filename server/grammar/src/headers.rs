@@ -37,7 +37,7 @@ pub(crate) enum Header {
 }
 
 /// Names of headers, and whether a colon must follow. Of names that begin alike the longer stands first.
-const HEADERS: &[(&str, bool, Header)] = &[
+pub(crate) const HEADERS: &[(&str, bool, Header)] = &[
     ("endlsystem", false, Header::End),
     ("lsystem", true, Header::Name),
     ("title", true, Header::Title),

@@ -18,6 +18,8 @@ mod foreign;
 mod functions;
 mod grammar;
 mod headers;
+#[cfg(test)]
+mod highlighting_tests;
 mod keys;
 mod library;
 mod limits;
@@ -32,7 +34,7 @@ mod turtle;
 mod wood;
 mod word;
 
-pub use derivation::{Derivation, Progress};
+pub use derivation::{Derivation, Place, Progress};
 pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS, Severity};
 pub use environment::{Environment, OpenSky, Stand};
 pub use grammar::{Buds, Checked, Grammar, MAX_TEXT, Radii, Slider};

@@ -171,13 +171,19 @@ impl<'a> Parser<'a> {
         }
         let [rules, homomorphism, decomposition] = std::mem::take(&mut self.rules);
         let [_, homomorphism_depth, decomposition_depth] = self.depths;
+        let axiom = self.axiom.unwrap_or_default();
+        let axiom_at = axiom.first().map_or((1, 1), |first| {
+            let (line, column, _) = source.place(first.place);
+            (line, column)
+        });
         let grammar = Grammar {
             symbols: self.symbols,
             heading: self.heading,
             defines: self.defines,
             sliders: self.sliders,
             curves: self.curves,
-            axiom: self.axiom.unwrap_or_default(),
+            axiom,
+            axiom_at,
             rules,
             homomorphism,
             decomposition,

@@ -44,6 +44,9 @@ pub struct Drawn {
     pub keys: Vec<u64>,
     /// Axes that the grammar goes on from: those with a module at their tip that rules rewrite.
     pub growing: usize,
+    /// For each node the key of the module of the word that drew it, by way of the homomorphism or not, if a
+    /// derivation is [traced](Derivation::traced).
+    pub modules: Vec<u64>,
 }
 
 /// A word on its way to wood.
@@ -60,7 +63,9 @@ impl Derivation {
     pub fn drawing(&self, options: WoodOptions) -> Drawing<'_> {
         let program = self.program();
         let reading = Reading::new(program, self.when(), self.limits().work);
-        Drawing { derivation: self, reading, at: 0, carpenter: Carpenter::new(program, options) }
+        let mut carpenter = Carpenter::new(program, options);
+        carpenter.modules = self.is_traced().then(Vec::new);
+        Drawing { derivation: self, reading, at: 0, carpenter }
     }
 
     /// Draws the word of the last step.
@@ -69,6 +74,24 @@ impl Derivation {
     /// Where there is too much wood, it reaches too far, or a number is none.
     pub fn draw(&self, surroundings: &dyn Environment, options: WoodOptions) -> Result<Drawn, Stop> {
         let mut drawing = self.drawing(options);
+        while !drawing.advance(surroundings, usize::MAX)? {}
+        drawing.finish()
+    }
+
+    /// Draws the word of the last step as it goes on from a drawing of one before, in which nodes had these keys, in
+    /// ascending order. What was one node stays one, and what was several stays as many, however long it has become:
+    /// so what bears a node is the same from step to step.
+    ///
+    /// # Errors
+    /// As [`Derivation::draw`] does.
+    pub fn draw_on(
+        &self,
+        surroundings: &dyn Environment,
+        options: WoodOptions,
+        keys: Vec<u64>,
+    ) -> Result<Drawn, Stop> {
+        let mut drawing = self.drawing(options);
+        drawing.carpenter.known = Some(Known { keys, depth: self.depth() });
         while !drawing.advance(surroundings, usize::MAX)? {}
         drawing.finish()
     }
@@ -84,6 +107,7 @@ impl Drawing<'_> {
         let end = self.at.saturating_add(modules.max(1)).min(word.len());
         while self.at < end {
             let program = self.derivation.program();
+            self.carpenter.module = word.key(self.at);
             self.reading.read(program, word, self.at, surroundings, &mut self.carpenter)?;
             self.at += 1;
         }
@@ -126,16 +150,52 @@ struct Loose {
     end: DVec3,
     /// Its radius, as the grammar has it.
     radius: f64,
+    /// The key of the module of the word that draws it.
+    module: u64,
+}
+
+/// What was drawn before.
+#[derive(Clone, Debug)]
+struct Known {
+    keys: Vec<u64>,
+    /// The step of the word that is drawn now.
+    depth: u32,
+}
+
+impl Known {
+    fn has(&self, key: u64) -> bool {
+        self.keys.binary_search(&key).is_ok()
+    }
+
+    /// How long what a module draws must be to be a node of its own. What came to be earlier and was none then would
+    /// part what stands on it from what bears that.
+    fn least(&self, tag: Tag) -> f64 {
+        match self.has(tag.key) {
+            true => LEAST,
+            false if tag.born == self.depth => SHORT,
+            false => f64::INFINITY,
+        }
+    }
+
+    /// In how many pieces it was drawn.
+    fn pieces(&self, key: u64) -> Option<usize> {
+        let more = || (1..).take_while(|&number| self.has(keys::piece(key, number))).count();
+        self.has(key).then(|| 1 + more())
+    }
 }
 
 /// Joins what the turtle draws.
 #[derive(Clone, Debug)]
 struct Carpenter {
     options: WoodOptions,
+    known: Option<Known>,
     buds: Buds,
     radii: Radii,
     nodes: Vec<WoodNode>,
     keys: Vec<u64>,
+    modules: Option<Vec<u64>>,
+    /// The key of the module of the word that is read.
+    module: u64,
     axes: Vec<WoodAxis>,
     level: Level,
     levels: Vec<Level>,
@@ -148,10 +208,13 @@ impl Carpenter {
     fn new(program: &Program, options: WoodOptions) -> Self {
         Self {
             options,
+            known: None,
             buds: program.buds,
             radii: program.radii,
             nodes: Vec::new(),
             keys: Vec::new(),
+            modules: None,
+            module: 0,
             axes: Vec::new(),
             level: Level::default(),
             levels: Vec::new(),
@@ -164,7 +227,7 @@ impl Carpenter {
         self.nodes[node as usize].end.as_dvec3()
     }
 
-    fn add(&mut self, node: WoodNode, key: u64) -> Result<u32, Stop> {
+    fn add(&mut self, node: WoodNode, key: u64, module: u64) -> Result<u32, Stop> {
         if self.nodes.len() >= self.options.nodes {
             return Err(Stop::Nodes(self.options.nodes));
         }
@@ -174,6 +237,7 @@ impl Carpenter {
         }
         self.nodes.push(node);
         self.keys.push(key);
+        self.modules.iter_mut().for_each(|modules| modules.push(module));
         Ok(self.nodes.len() as u32 - 1)
     }
 
@@ -182,7 +246,7 @@ impl Carpenter {
         let axis = self.axes.len() as u32;
         let (end, birth) = (place.as_vec3(), tag.born);
         let seed = WoodNode { parent: None, axis, end, normal: None, radius: None, birth };
-        let seed = self.add(seed, keys::piece(tag.key, usize::MAX))?;
+        let seed = self.add(seed, keys::piece(tag.key, usize::MAX), self.module)?;
         self.axes.push(WoodAxis { bearer: None, direction: None, has_bud: false });
         (self.level.node, self.level.axis) = (Some(seed), Some(axis));
         Ok(())
@@ -190,7 +254,7 @@ impl Carpenter {
 
     /// Makes nodes of what is loose, if that is long enough.
     fn fix(&mut self, least: f64) -> Result<(), Stop> {
-        let Some(Loose { tag, end: to, radius }) = self.level.loose else { return Ok(()) };
+        let Some(Loose { tag, end: to, radius, module }) = self.level.loose else { return Ok(()) };
         let from = match self.level.node {
             Some(node) if !self.stands_apart(node) => self.place(node),
             _ => self.level.from,
@@ -217,7 +281,8 @@ impl Carpenter {
             }
         }
         self.level.has_jumped = false;
-        let count = length.round().max(1.0);
+        let known = self.known.as_ref().and_then(|known| known.pieces(tag.key));
+        let count = known.map_or(length.round().max(1.0), |pieces| pieces as f64);
         if count > self.options.nodes as f64 {
             return Err(Stop::Nodes(self.options.nodes));
         }
@@ -227,7 +292,7 @@ impl Carpenter {
             let end = from.lerp(to, (number + 1) as f64 / count).as_vec3();
             let (parent, axis) = (self.level.node, self.level.axis.unwrap_or_default());
             let node = WoodNode { parent, axis, end, normal: None, radius, birth: tag.born };
-            self.level.node = Some(self.add(node, keys::piece(tag.key, number))?);
+            self.level.node = Some(self.add(node, keys::piece(tag.key, number), module)?);
         }
         self.axiom_draws |= tag.born == 0;
         self.level.loose = None;
@@ -271,6 +336,7 @@ impl Carpenter {
                 WoodNode { parent: None, axis: 0, end: Vec3::ZERO, normal: None, radius: None, birth: 0 };
             self.nodes.push(seed);
             self.keys.push(0);
+            self.modules.iter_mut().for_each(|modules| modules.push(0));
             self.axes.push(WoodAxis { bearer: None, direction: None, has_bud: true });
         }
         self.scale_radii();
@@ -278,7 +344,8 @@ impl Carpenter {
         self.sort();
         let buds = if self.buds == Buds::Grammar { DormantBuds::Known } else { DormantBuds::Everywhere };
         let wood = Wood { nodes: self.nodes, axes: self.axes, buds, ..Wood::default() };
-        Drawn { wood, keys: self.keys, growing: self.growing }
+        let modules = self.modules.unwrap_or_default();
+        Drawn { wood, keys: self.keys, growing: self.growing, modules }
     }
 
     /// The thinnest wood is as thick as a twig.
@@ -322,6 +389,9 @@ impl Carpenter {
         };
         self.nodes = order.iter().map(node).collect();
         self.keys = order.iter().map(|&at| self.keys[at as usize]).collect();
+        if let Some(modules) = &mut self.modules {
+            *modules = order.iter().map(|&at| modules[at as usize]).collect();
+        }
         for axis in &mut self.axes {
             axis.bearer = axis.bearer.map(moved);
         }
@@ -345,8 +415,10 @@ impl Pen for Carpenter {
 
     fn draw(&mut self, turtle: &State, tag: Tag) -> Result<(), Stop> {
         self.level.apex = None;
-        self.level.loose = Some(Loose { tag, end: turtle.place, radius: 0.5 * turtle.width * turtle.scale });
-        self.fix(SHORT)
+        let radius = 0.5 * turtle.width * turtle.scale;
+        self.level.loose = Some(Loose { tag, end: turtle.place, radius, module: self.module });
+        let least = self.known.as_ref().map_or(SHORT, |known| known.least(tag));
+        self.fix(least)
     }
 
     fn jump(&mut self, turtle: &State) -> Result<(), Stop> {

@@ -32,6 +32,7 @@ mod place_grid;
 pub mod random;
 #[cfg(test)]
 mod reference;
+mod rewriting;
 mod rules;
 mod scene;
 mod schematic;
@@ -66,6 +67,7 @@ pub use observer::{NoObserver, Observer, Phase};
 pub use obstacles::{MAX_TRIANGLES, Obstacle, ObstacleError, Obstacles, Shape, TriangleMesh};
 pub use parameter_table::ParameterTable;
 pub use parameters::Parameters;
+pub use rewriting::{Drawn, Rewriting, Rewritten};
 #[cfg(feature = "next-simulation")]
 pub use rules::use_next_simulation;
 pub use rules::{SIMULATION_VERSION, simulation_version};

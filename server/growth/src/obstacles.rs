@@ -65,6 +65,11 @@ impl Obstacles {
         self.between(place, place).any(|body| body.contains(place))
     }
 
+    /// Whether one of them, by its number from 0, is a solid that holds a place.
+    pub fn holds(&self, number: usize, place: Vec3) -> bool {
+        self.bodies.get(number).is_some_and(|body| body.contains(place))
+    }
+
     /// Whether an obstacle stands between two places, or either lies in a solid.
     #[inline]
     pub fn hides(&self, from: Vec3, to: Vec3) -> bool {

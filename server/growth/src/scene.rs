@@ -69,6 +69,31 @@ impl Scene {
         !self.obstacles.contains(place) && !self.space.is_occupied(place, radius, |_| true)
     }
 
+    /// Whether no node of another axis than that of the nearest node lies within a radius of a place, and no obstacle
+    /// holds it.
+    pub fn is_free_of_others(&self, place: Vec3, radius: f32) -> bool {
+        if self.obstacles.contains(place) {
+            return false;
+        }
+        let nearest = std::cell::Cell::new(None::<(f32, MetamerId)>);
+        // Nothing counts, so that all are seen.
+        self.space.is_occupied(place, radius, |id| {
+            let here = (self.plant.metamers().end(id).distance_squared(place), id);
+            if nearest.get().is_none_or(|best| here.0 < best.0 || here.0 == best.0 && here.1 < best.1) {
+                nearest.set(Some(here));
+            }
+            false
+        });
+        let Some((_, own)) = nearest.get() else { return true };
+        let own = self.plant.metamers().axis(own);
+        !self.space.is_occupied(place, radius, |id| self.plant.metamers().axis(id) != own)
+    }
+
+    /// Whether an obstacle, by its place among all, holds a place.
+    pub fn is_in_obstacle(&self, number: usize, place: Vec3) -> bool {
+        self.obstacles.holds(number, place)
+    }
+
     /// The unit direction towards more light: that in which shadows end, and the sky past obstacles opens. None where
     /// it is equally light all around.
     pub fn towards_light(&self, place: Vec3) -> Option<Vec3> {

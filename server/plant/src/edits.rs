@@ -305,6 +305,21 @@ impl Plant {
         root
     }
 
+    /// Lays down a bud at the node of wood that was there before this step, within a step; returns its axis. In the
+    /// timeline it is a graft without wood.
+    ///
+    /// # Panics
+    /// If the wood is dead.
+    pub fn graft_bud(&mut self, onto: MetamerId, direction: Vec3) -> AxisId {
+        debug_assert!(self.timeline.recording, "changes belong to a step");
+        assert!(self.is_alive(onto), "buds are borne by living wood");
+        let order = self.axes.order(self.metamers.axis(onto)) + 1;
+        let axis = self.axes.push(onto, direction, order);
+        self.timeline.edits.push(Edit::Grafted(axis));
+        self.grafts.entry(onto).or_default().push(axis);
+        axis
+    }
+
     /// Tips of twigs that were shed from each of the living metamers of a branch or a plant, which are in birth order.
     pub fn tips_of_shed(&self, rows: &[MetamerId]) -> Vec<u32> {
         // An end carries one tip of its own.

@@ -8,6 +8,7 @@ mod designing;
 mod folding;
 mod futures;
 mod generators;
+mod grammars;
 mod growing;
 mod hints;
 mod history;
@@ -29,7 +30,7 @@ use std::{collections::VecDeque, sync::Arc};
 
 use espalier_growth::{Parameters, Simulation};
 use espalier_plant::{MetamerId, Plant, hash::StableHash};
-use espalier_proto::{Action, Command, Position, Problem, Reason, version::MAX_OUTLINE_STEPS};
+use espalier_proto::{Action, Command, Position, Problem, Reason, Steps, version::MAX_OUTLINE_STEPS};
 use espalier_settings::{Appearance, ParameterValues};
 
 pub(crate) use self::bytes::{Container, Reader, SESSION, Writer};
@@ -53,6 +54,7 @@ pub(crate) use self::{
     deeds::Switched,
     designing::{DesignMark, Designed},
     generators::{GeneratorState, Generators, Step},
+    grammars::{GrammarMark, bad_value, sliders_of},
     hints::DrawnInVain,
     obstacles::ObstaclesMark,
     pruning::prune as prune_simulation,
@@ -211,6 +213,19 @@ impl Document {
             }
             Action::EditDesign { edits } => self.edit_design(cause, edits),
             Action::ReleaseDesign {} => self.release_design(cause),
+            Action::SetGrammar { text, values, seed, position, depth, within } => {
+                let planting = grammars::Planting {
+                    text,
+                    values,
+                    seed: *seed,
+                    position: *position,
+                    within: within.as_ref(),
+                    depth: depth.map(Steps::get),
+                };
+                self.set_grammar(cause, &planting)
+            }
+            Action::Derive { steps } => self.derive(cause, steps.get()),
+            Action::SetGrammarValues { values } => self.set_grammar_values(cause, values),
             Action::GoTo { step } => self.go_to(*step),
             Action::TakeFuture { future } => self.take_future(*future),
         }
@@ -250,11 +265,12 @@ impl Document {
         self.simulation.plant().living_count()
     }
 
-    /// What it takes of memory, in rows: metamers, dead ones and those of its futures included, and as many triangles of
-    /// obstacles as [`Document::held_triangles`] said last.
+    /// What it takes of memory, in rows: metamers, dead ones and those of its futures included, what grammars keep, and as
+    /// many triangles of obstacles as [`Document::held_triangles`] said last.
     pub(crate) fn held_rows(&self, triangles: u64) -> u64 {
         let rows = self.simulation.plant().metamer_count() + self.futures.metamers();
-        room::as_rows(rows as u64, triangles)
+        let words = self.simulation.generator().bytes_of_words();
+        room::as_rows(rows as u64, triangles) + room::grammars_as_rows(self.held_by_grammars().0, words)
     }
 
     /// The parameters in force.
@@ -307,6 +323,7 @@ impl Document {
         if let Some(design) = self.design_in_force() {
             design.hash(&mut hash);
         }
+        self.simulation.generator().state().written.hash(&mut hash);
         hash.word(u64::from(self.steps_begun));
         hash.finish()
     }
@@ -353,6 +370,9 @@ fn keeps_set(action: &Action) -> bool {
             | Action::NewDesign { .. }
             | Action::EditDesign { .. }
             | Action::ReleaseDesign {}
+            | Action::SetGrammar { .. }
+            | Action::Derive { .. }
+            | Action::SetGrammarValues { .. }
             | Action::TakeBack {}
             | Action::BringBack {}
     )

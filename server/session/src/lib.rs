@@ -12,6 +12,7 @@ mod command_script;
 mod document;
 mod entrant;
 mod form;
+mod grammars;
 mod io;
 mod journal;
 mod obstacle;
@@ -37,6 +38,7 @@ pub use document::{
 };
 pub use entrant::Entrant;
 pub use form::read_command;
+pub use grammars::{check_grammar, grammar_script, shipped_grammar, wire_grammar};
 pub use io::{ActId, AnchorId, ClientId, Input, JournalEntry, Output, Place, ReadDocument, ReadId};
 pub use prediction::PredictionRun;
 pub use principal::Principal;

@@ -9,6 +9,10 @@ pub type HasRoom<'a> = &'a mut dyn FnMut(u64, Urgency) -> bool;
 
 /// A triangle of an obstacle takes as much as this part of a row.
 const TRIANGLES_OF_A_ROW: u64 = 3;
+/// Bytes that a row takes,
+const ROW: usize = 400;
+/// and a name of a grammar with its row.
+const NAME: usize = 16;
 /// Rows that a step may add to few,
 const LEAST_STEP: u64 = 1024;
 /// and this part of many.
@@ -17,6 +21,11 @@ const STEP_SHARE: u64 = 8;
 /// Rows and triangles that a document holds, as rows.
 pub(crate) fn as_rows(rows: u64, triangles: u64) -> u64 {
     rows + triangles / TRIANGLES_OF_A_ROW
+}
+
+/// What grammars keep takes as much as so many rows: names with their rows, and bytes of words.
+pub(crate) fn grammars_as_rows(names: usize, bytes: usize) -> u64 {
+    ((names * NAME + bytes) / ROW) as u64
 }
 
 /// What a document of so many rows may hold after a step.
@@ -42,6 +51,10 @@ pub(crate) fn after_taking_on(action: &Action, rows: u64) -> u64 {
     match action {
         // A copy of any branch.
         Action::Graft { .. } => 2 * rows + LEAST_STEP,
+        // A step of derivation seldom adds more.
+        Action::SetGrammar { .. } | Action::Derive { .. } | Action::SetGrammarValues { .. } => {
+            4 * rows + LEAST_STEP
+        }
         Action::PlaceObstacle { obstacle } => rows + as_rows(LEAST_STEP, triangles_of(&obstacle.shape)),
         _ => rows,
     }

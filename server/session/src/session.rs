@@ -18,8 +18,8 @@ use std::{
 };
 
 use espalier_proto::{
-    ClientMessage, DesignInForce, FrameKind, Notice, PlacedObstacle, Problem, Programme, Reason,
-    ServerMessage, Timeline, Unreadable, WidthConstraint,
+    ClientMessage, DesignInForce, FrameKind, GrammarInForce, Notice, PlacedObstacle, Problem, Programme,
+    Reason, ServerMessage, Timeline, Unreadable, WidthConstraint,
     comment::Pin,
     reading,
     version::{CloseCode, MAX_MESSAGE_BYTES},
@@ -29,7 +29,7 @@ use espalier_settings::{Appearance, ParameterValues};
 use crate::{
     author::Authors,
     clients::{Client, Clients},
-    document::{DesignMark, Document, Figures, ObstaclesMark},
+    document::{DesignMark, Document, Figures, GrammarMark, ObstaclesMark},
     io::{ClientId, Input, Output, ReadId},
     journal::Journal,
     obstacle::Mesh,
@@ -78,6 +78,8 @@ pub struct Session {
     widths: Vec<WidthConstraint>,
     design: Option<DesignInForce>,
     design_mark: DesignMark,
+    grammar: Option<GrammarInForce>,
+    grammar_mark: GrammarMark,
     /// Bends as they are sent to clients, by their numbers.
     bends: BTreeMap<u32, BendUpdate>,
     /// Predictions that are being made.
@@ -204,6 +206,8 @@ impl Session {
             widths: work.document.widths(),
             design: work.document.design_told(),
             design_mark: work.document.design_mark(),
+            grammar: work.document.grammar_told(),
+            grammar_mark: work.document.grammar_mark(),
             bends: bends.into_iter().map(|update| (update.bend, update)).collect(),
             predictions: 0,
             home: Some(work),

@@ -43,7 +43,7 @@ pub enum Urgency {
 
 /// Whether trees grow alone by a command, for as long as it says.
 fn grows_alone(action: &Action) -> bool {
-    matches!(action, Action::Grow { .. } | Action::Lasso { .. })
+    matches!(action, Action::Grow { .. } | Action::Lasso { .. } | Action::Derive { .. })
 }
 
 /// A command in its place in the order.

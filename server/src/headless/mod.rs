@@ -1,6 +1,7 @@
 //! Growing without a server: `espalier replay` and `espalier grow`.
 
 mod bench;
+mod grammar;
 mod species;
 mod stats;
 
@@ -70,6 +71,24 @@ pub enum HeadlessError {
     /// The tree cannot grow on.
     #[error("The tree cannot grow on: {0}.")]
     Growth(Problem),
+    /// The text is no grammar.
+    #[error("The file {} is no grammar:\n{causes}", path.display())]
+    Grammar {
+        /// Which file.
+        path: PathBuf,
+        /// What is wrong with it, a line each.
+        causes: String,
+    },
+    /// The grammar cannot be derived so deep.
+    #[error("The grammar ended at depth {reached} of {wanted}: {cause}.")]
+    GrammarEnded {
+        /// Steps derived.
+        reached: u32,
+        /// Steps asked for.
+        wanted: u32,
+        /// Why it ended.
+        cause: String,
+    },
     /// Many trees would be written to one file.
     #[error("The export of several seeds needs {SEED} in its name, as in oak-{SEED}.glb.")]
     OneName,
@@ -127,6 +146,12 @@ pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
 
 /// One tree.
 fn grown(options: &Grow, seed: u32, pool: &SimulationPool) -> Result<Bench, HeadlessError> {
+    let planted = options.grammar.as_deref().map(|path| grammar::planted(path, options.depth)).transpose()?;
+    let depth = planted.as_ref().map(|planted| planted.depth);
+    let base = match planted {
+        Some(planted) => Recipe { script: vec![planted.action], ..Recipe::default() },
+        None => options.species.map(Recipe::of).unwrap_or_default(),
+    };
     let patches = options.start.parameters.iter();
     let recipe = Recipe {
         // All at once: weights that are changed one by one do not sum to 1 in between.
@@ -135,12 +160,13 @@ fn grown(options: &Grow, seed: u32, pool: &SimulationPool) -> Result<Bench, Head
         metamers: options.metamers,
         // Dead metamers count as well, and how many will die is not known before.
         budget: options.start.budget.unwrap_or(u32::MAX),
-        ..options.species.map(Recipe::of).unwrap_or_default()
+        ..base
     };
     pool.block_on(|| {
         let seedling = recipe.seedling(seed).map_err(HeadlessError::Parameters)?;
         let mut bench = bench(seedling, &options.results);
         recipe.grow(&mut bench)?;
+        depth.map_or(Ok(()), |depth| grammar::check(bench.document_mut(), depth))?;
         Ok(bench)
     })
 }

@@ -4,6 +4,7 @@ use std::{borrow::Cow, collections::BTreeMap, time::Duration};
 
 use axum::routing::{MethodRouter, delete, get, patch, post, put};
 use espalier_proto::{
+    CheckGrammar, GrammarOrigins, GrammarReport, ShippedGrammar,
     access::{
         Admitted, AuditEvent, ChangeLink, Entrance, ListedUser, LogIn, MadeLink, Me, NewLink, Redeem,
         TreeLink, TreeLock,
@@ -26,8 +27,8 @@ use tower::limit::GlobalConcurrencyLimitLayer;
 
 use super::{
     Shared, audit, collections, comments, description, description::About, entry, exports, failure::Path,
-    guard::TIME_LIMIT, imports, jobs, keys::Shown, links, locks, obstacles, origin::METRICS, reviews,
-    schematic, sessions, species, status, trees, uploads::uploads, versions,
+    grammars, guard::TIME_LIMIT, imports, jobs, keys::Shown, links, locks, obstacles, origin::METRICS,
+    reviews, schematic, sessions, species, status, trees, uploads::uploads, versions,
 };
 use crate::{
     access::Action,
@@ -60,6 +61,12 @@ const MAX_PICTURES: usize = 1;
 const MAX_TURNTABLES: usize = 1;
 /// How long a request for one may take: those of the largest trees that a server keeps are drawn on a busy machine.
 const TURNTABLE_TIME: Duration = Duration::from_mins(5);
+/// Texts checked at once; each may take a tenth of a second where its sizes are wanted.
+const MAX_CHECKS: usize = 2;
+/// Sessions looked through at once for what a grammar wrote.
+const MAX_ORIGINS: usize = 1;
+/// The longest text of a grammar as JSON, with room for the rest of the request.
+const MAX_GRAMMAR_BODY: usize = 2 * espalier_grammar::MAX_TEXT + 16 * 1024;
 /// Schematics grown at once; each takes some milliseconds.
 const MAX_SCHEMATICS: usize = 4;
 
@@ -209,6 +216,10 @@ pub(super) fn routes() -> Vec<Route> {
         route("GET /api/v1/sessions/{session}/obstacles/{obstacle}", Action::SeeObstacle, get(obstacles::mesh), About::new("The mesh of an obstacle (OB5).").gives_parts("application/octet-stream")),
         route("GET /api/v1/species", Action::Look, get(species::list), About::new("All species, in the order of a picker. Picking one is a `set_programme` with its `programme` and a `set_appearance` with the sections of its `appearance` but the background and the wind, both with one gesture.").gives::<Vec<Species>>(200)),
         route("GET /api/v1/species/{slug}/picture", Action::Look, get(species::picture).layer(at_once(MAX_PICTURES)), About::new("A tree of that species, with an `ETag`.").gives_parts("image/png")),
+        route("GET /api/v1/grammars", Action::Look, get(grammars::list), About::new("Grammars that come with the program, in the order of a picker (GR7).").gives::<Vec<ShippedGrammar>>(200)),
+        route("GET /api/v1/grammars/{name}/picture", Action::Look, get(grammars::picture).layer(at_once(MAX_PICTURES)), About::new("What that grammar writes, with an `ETag`.").gives_parts("image/png")),
+        route("POST /api/v1/grammars/check", Action::Look, post(grammars::check).layer(at_once(MAX_CHECKS)), About::new("What is wrong with the text of a grammar, its sliders and its sizes (GR6).").takes::<CheckGrammar>().gives::<GrammarReport>(200)).up_to(MAX_GRAMMAR_BODY),
+        route("GET /api/v1/sessions/{session}/grammar", Action::SeeSession, get(grammars::origins).layer(at_once(MAX_ORIGINS)), About::new("Which rule of the grammar in force made which row (GR8).").gives::<GrammarOrigins>(200)),
         route("POST /api/v1/grow", Action::GrowTrees, post(jobs::grow), About::new("Grow a tree for each of many seeds into files, as a job (JB1).").takes::<jobs::GrowTrees>().gives::<jobs::JobNow>(202)).up_to(MAX_SAID_BODY),
         route("GET /api/v1/jobs", Action::OwnJobs, get(jobs::list), About::new("One's own jobs, newest first, page by page (JB8).").asks::<jobs::Page>().gives::<jobs::JobPage>(200)),
         route("GET /api/v1/jobs/{job}", Action::OwnJobs, get(jobs::find), About::new("How far a job is, and its files so far (JB2).").gives::<jobs::JobNow>(200)),

@@ -10,6 +10,7 @@ mod description;
 mod entry;
 mod exports;
 mod failure;
+mod grammars;
 mod guard;
 mod imports;
 mod jobs;

@@ -12,6 +12,8 @@ use espalier_growth::species;
 use espalier_proto::{Reason, species::Species};
 use espalier_session::wire_species;
 
+use crate::portrait::{Print, Sitter};
+
 use super::{
     Shared,
     failure::{Failure, Path},
@@ -31,12 +33,22 @@ pub(super) async fn picture(
     Path(slug): Path<String>,
     asked: HeaderMap,
 ) -> Result<Response, Failure> {
-    let print = shared.portraits.of(&slug, &shared.pool).await.map_err(|error| {
-        tracing::error!(slug, %error, "a species cannot be drawn");
-        Failure::new(Reason::NotDrawn, "The picture cannot be drawn.")
-    })?;
+    let print = print(&shared, Sitter::Species(&slug)).await?;
     let print =
         print.ok_or_else(|| Failure::none_such("species", "slug", "the slug of one of /api/v1/species"))?;
+    answer(&print, &asked)
+}
+
+/// The picture of a species or a grammar.
+pub(super) async fn print(shared: &Shared, sitter: Sitter<'_>) -> Result<Option<Print>, Failure> {
+    shared.portraits.of(sitter, &shared.pool).await.map_err(|error| {
+        tracing::error!(?sitter, %error, "a picture cannot be drawn");
+        Failure::new(Reason::NotDrawn, "The picture cannot be drawn.")
+    })
+}
+
+/// Sends a picture to whoever does not have it.
+pub(super) fn answer(print: &Print, asked: &HeaderMap) -> Result<Response, Failure> {
     let headers = [(header::ETAG, print.tag.clone()), (header::CACHE_CONTROL, CACHE.to_owned())];
     let known = asked.get(header::IF_NONE_MATCH).and_then(|tags| tags.to_str().ok());
     let is_known = known.is_some_and(|tags| tags.split(',').any(|tag| tag.trim() == print.tag));
@@ -45,5 +57,5 @@ pub(super) async fn picture(
     }
     let said = [(header::CONTENT_TYPE, "image/png"), (header::CACHE_CONTROL, CACHE)];
     let (png, length) = (Cursor::new(print.png.to_vec()), print.png.len() as u64);
-    ranges::answer(&asked, said, &print.tag, png, length)
+    ranges::answer(asked, said, &print.tag, png, length)
 }

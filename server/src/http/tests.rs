@@ -1,6 +1,7 @@
 mod audit;
 mod comments;
 mod files;
+mod grammars;
 mod jobs;
 mod keys;
 mod links;
@@ -139,6 +140,7 @@ fn filled(path: &str) -> String {
         .replace("{obstacle}", "1")
         .replace("{ticket}", "a-ticket-of-nobody")
         .replace("{slug}", "of-no-species")
+        .replace("{name}", "of-no-grammar")
         .replace("{version}", "1")
         .replace("{job}", JOB)
         .replace("{link}", "a-link")
@@ -252,6 +254,7 @@ async fn rg1_every_download_goes_on_where_it_was_cut_off() {
         "/api/v1/trees/ash/versions/2/tree.glb",
         "/api/v1/trees/ash/versions/2/tree.glb?lod=2",
         "/api/v1/species/oak/picture",
+        "/api/v1/grammars/koch/picture",
     ] {
         let (status, tag, whole) = get(path, &[]).await;
         assert_eq!(status, StatusCode::OK, "{path}");

@@ -31,7 +31,7 @@ export type Tool = keyof typeof TOOLS;
 const PATIENCE = 150_000;
 /** What narrow glass may have no button for but in its menu. */
 const FOLDING: ReadonlySet<string> = new Set([
-  ...["Background", "Wind", "Structure", "Scene"],
+  ...["Background", "Wind", "Structure", "Grammars", "Scene"],
   ...["Hide everything", "New tree", "Save", "Library", "Share", "Comments", "Download", "Settings", "Help"],
 ]);
 /** `ALBUM=1` takes pictures as well of which no test asks anything, for people to look at. */

@@ -51,6 +51,7 @@ describe("help", () => {
       "background",
       "branches",
       "brush",
+      "grammars",
       "leaves",
       "scene",
       "structure",

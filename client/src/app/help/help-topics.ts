@@ -83,6 +83,7 @@ const PANELS = [
   ["background", { panel: "background" }],
   ["wind", { panel: "wind" }],
   ["structure", { panel: "structure" }],
+  ["grammars", { panel: "grammars" }],
   ["scene", { panel: "scene" }],
   ["import", { panel: "scene" }],
 ] as const;
@@ -287,6 +288,8 @@ function subjectOf(label: Key, tools: ToolHelp): Subject | undefined {
       return { panel: "wind", control };
     case "structure":
       return { panel: "structure" };
+    case "grammars":
+      return { panel: "grammars" };
     case "brush":
       return { panel: "brush", control };
     case "scene":

@@ -26,6 +26,7 @@ export const PANEL_NAMES = [
   "background",
   "wind",
   "structure",
+  "grammars",
   "scene",
 ] as const;
 /** Panels of the tool bar, and the one of comments, which everybody has. */

@@ -155,7 +155,7 @@ export class Room implements Listener {
 
   /** What others may see of this page; who may only look shows that they are there. */
   #here(): Omit<Here, "camera" | "name"> {
-    const { stage, tools, outline, rights } = this.#studio;
+    const { stage, tools, outline, rights, grammar } = this.#studio;
     if (document.hidden) {
       return { type: "here", away: true };
     }
@@ -163,7 +163,10 @@ export class Room implements Listener {
     if (!rights.mayChange.peek() || !view) {
       return { type: "here" };
     }
-    const here: Omit<Here, "camera" | "name"> = { type: "here", tool: tools.chosen.peek() };
+    const here: Omit<Here, "camera" | "name"> = {
+      type: "here",
+      tool: grammar.writing.peek() ? "grammar" : tools.chosen.peek(),
+    };
     const brush = view.brush;
     if (brush) {
       const [x, y, z, radius] = brush;

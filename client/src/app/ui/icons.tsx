@@ -232,6 +232,13 @@ export const CommentIcon = () => (
   </Icon>
 );
 
+/** A shoot that repeats itself between brackets. */
+export const GrammarIcon = () => (
+  <Icon>
+    <path d="M7.500 4.500H5v15h2.500M16.500 4.500H19v15h-2.500M12 17.500v-11M12 14.500l-2.500-2M12 11.500l2.500-2" />
+  </Icon>
+);
+
 export const LeafIcon = () => (
   <Icon>
     <path d="M6.500 17.500c-3-7 2-13 13.500-13.500.5 11.500-6 16.500-13.500 13.500Z" />

@@ -24,6 +24,7 @@ export const PANELS: Readonly<Record<PanelName, Part<StudioView>>> = {
   background: new Part(async () => (await import("./panels/background-panel")).BackgroundPanel),
   wind: new Part(async () => (await import("./panels/wind-panel")).WindPanel),
   structure: new Part(async () => (await import("./panels/structure-panel")).StructurePanel),
+  grammars: new Part(async () => (await import("./panels/grammars-panel")).GrammarsPanel),
   scene: new Part(async () => (await import("./panels/scene-panel")).ScenePanel),
   comments: new Part(async () => (await import("./panels/comments-panel")).CommentsPanel),
 };

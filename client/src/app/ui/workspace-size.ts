@@ -5,8 +5,8 @@ import { useEffect } from "preact/hooks";
 const size = signal({ width: globalThis.innerWidth ?? 1024, height: globalThis.innerHeight ?? 768 });
 
 /** The sizes below which the bars fold, in pixels: as they are, and with the names of their buttons. */
-const BARE = { toolBar: 900, width: 640, height: 560 };
-const NAMED = { toolBar: 1260, width: 640, height: 780 };
+const BARE = { toolBar: 948, width: 640, height: 560 };
+const NAMED = { toolBar: 1336, width: 640, height: 780 };
 
 /** Whether the tool bar has no room for all its buttons. */
 export function isToolBarFolded(names: boolean): boolean {

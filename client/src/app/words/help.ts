@@ -320,6 +320,15 @@ export const HELP = {
     "bonsai design silhouette outline hull inherit chokkan",
     "bonsai entwurf umriss silhouette erben chokkan form",
   ],
+  "help.topic.grammars": ["Grammars", "Grammatiken"],
+  "help.topic.grammars.text": [
+    "Write a plant as an L-system. Its depth, Barron’s slider, says how often its rules were used: each is a step of time, and most are many times as large as the one before",
+    "Eine Pflanze als L-System schreiben. Ihre Tiefe, Barrons Regler, sagt, wie oft die Regeln angewandt sind: Jede ist ein Schritt der Zeit und meist um ein Vielfaches größer als die davor",
+  ],
+  "help.topic.grammars.words": [
+    "l-system lindenmayer depth slider derive rules axiom turtle cpfg l-py fractal text editor",
+    "l-system lindenmayer tiefe regler ableiten regeln axiom schildkröte cpfg l-py fraktal text",
+  ],
   "help.topic.wind.words": [
     "sway gust storm breeze air move animation swing compass",
     "schwanken Böe Sturm Brise Luft bewegen Animation schwingen Windrose",

@@ -10,6 +10,7 @@ import { DRAWMODE } from "./drawmode";
 import { ENTRY } from "./entry";
 import { EXPORTS } from "./exports";
 import { FINDING } from "./finding";
+import { GRAMMARS } from "./grammars";
 import { HELP } from "./help";
 import { LEAVES } from "./leaves";
 import { LIBRARY } from "./library";
@@ -61,5 +62,6 @@ export const LATER = {
   ...VARIATIONS,
   ...TIMELINE,
   ...STRUCTURE,
+  ...GRAMMARS,
   ...WIND,
 } as const satisfies Record<string, readonly [string, string]>;

@@ -7,6 +7,7 @@ export const PANELS = {
   "panels.background": ["Background", "Hintergrund"],
   "panels.wind": ["Wind", "Wind"],
   "panels.structure": ["Structure", "Aufbau"],
+  "panels.grammars": ["Grammars", "Grammatiken"],
   "panels.comments": ["Comments", "Kommentare"],
   "panels.scene": ["Scene", "Szene"],
 } as const;

@@ -184,6 +184,15 @@ export const REFUSALS = {
     "A model keeps its shape; place another one instead.",
     "Ein Modell behält seine Form; stelle stattdessen ein anderes auf.",
   ],
+  "problems.not-a-grammar": ["This text is no grammar yet: {cause}", "Dieser Text ist noch keine Grammatik: {cause}"],
+  "problems.grammar-ends": [
+    "The grammar cannot be derived so far: {cause}",
+    "So weit lässt sich die Grammatik nicht ableiten: {cause}",
+  ],
+  "problems.no-grammar": [
+    "No grammar is in force here; plant one first.",
+    "Hier gilt keine Grammatik; pflanze zuerst eine.",
+  ],
   "problems.no-programme": [
     "The tree has no programme any more that a parameter could follow.",
     "Der Baum hat kein Programm mehr, dem ein Parameter folgen könnte.",

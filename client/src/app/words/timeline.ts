@@ -23,6 +23,7 @@ export const OPERATIONS = {
   "operations.kind.taken_back": ["Taken back", "Zurückgenommen"],
   "operations.kind.brought_back": ["Brought back", "Zurückgeholt"],
   "operations.kind.design": ["Design", "Entwurf"],
+  "operations.kind.grammar": ["Grammar", "Grammatik"],
 } as const;
 
 /** The line of time. */

@@ -6,6 +6,7 @@ export const TOGETHER = {
   "together.came": ["{name} is here", "{name} ist da"],
   "together.left": ["{name} has left", "{name} ist gegangen"],
   "together.here": ["Here", "Hier"],
+  "together.here.writes": ["writes a grammar", "schreibt eine Grammatik"],
   "together.here.tool": ["Holds: {tool}", "Hält: {tool}"],
   "together.away": ["Looks at something else", "Sieht etwas anderes an"],
   "together.gone": ["Does not answer", "Antwortet nicht"],

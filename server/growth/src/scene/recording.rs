@@ -86,6 +86,11 @@ impl<'a> Recording<'a> {
         self.scene.plant.graft(source, onto, motion)
     }
 
+    /// Lays down a bud at the node of wood that was there before ([`espalier_plant::Plant::graft_bud`]).
+    pub(crate) fn graft_bud(&mut self, onto: MetamerId, direction: Vec3) -> AxisId {
+        self.scene.plant.graft_bud(onto, direction)
+    }
+
     /// Plants a seed.
     pub fn sow(&mut self, position: Vec3) -> AxisId {
         self.scene.plant.sow(position)

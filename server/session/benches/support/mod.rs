@@ -6,7 +6,7 @@ use std::{
 };
 
 use espalier_mesh::{RingTable, Style};
-use espalier_proto::{Action, BrushRadius, Position, Steps, StrokeSample};
+use espalier_proto::{Action, BrushRadius, Command, Position, Steps, StrokeSample};
 use espalier_session::{Document, Principal, delta, style_options};
 use glam::Vec3;
 
@@ -53,8 +53,13 @@ impl Followed {
 
     /// Does an action with all its steps, and tells the client once.
     pub fn act(&mut self, action: &Action) -> Cost {
+        self.command(&action.clone().into())
+    }
+
+    /// The same of an action in a gesture.
+    pub fn command(&mut self, command: &Command) -> Cost {
         let begun = Instant::now();
-        self.document.apply(&Principal::visitor(), &action.clone().into()).expect("the action can be done");
+        self.document.apply(&Principal::visitor(), command).expect("the action can be done");
         let acted = Instant::now();
         self.sequence += 1;
         let changes = self.table.sync(self.document.portrait(), &self.style, self.sequence);
@@ -109,6 +114,7 @@ impl fmt::Display for Percentiles {
 
 /// Prints what the same actions cost in several rounds: all of them, and for each action the cheapest round, which
 /// says what the action costs rather than what else the machine was doing.
+#[allow(dead_code, reason = "not every bench has rounds")]
 pub fn report(title: &str, rounds: &[Vec<Cost>], added: &[u32]) {
     let all: Vec<Cost> = rounds.concat();
     let least: Vec<Cost> = (0..added.len())

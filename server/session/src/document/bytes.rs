@@ -6,6 +6,7 @@ mod designs;
 mod fields;
 mod format_4;
 mod gestures;
+mod grammars;
 mod growth;
 mod lengths;
 mod packing;
@@ -124,6 +125,9 @@ impl Document {
         if super::tests::forks::has_grown(&self.history, futures) {
             add(&sections::FORKS, &|out| super::tests::forks::write(out, &self.history, futures));
         }
+        if grammars::are_there(&self.history, futures) {
+            add(&sections::GRAMMARS, &|out| grammars::write(out, &self.history, futures));
+        }
         add(&sections::LOOKS, &|out| pool.write_looks(out, &self.appearance));
         add(&sections::OBSTACLES, &|out| pool.write_obstacles(out, &self.obstacles));
         add(&sections::HISTORY, &|out| times::write_history(out, &self.history, &pool));
@@ -183,6 +187,7 @@ impl Document {
         };
         programmes.tell_states(&mut history, &mut futures)?;
         designs::read(container, &mut history, &mut futures)?;
+        grammars::read(container, &mut history, &mut futures)?;
         #[cfg(test)]
         super::tests::forks::read(container, &mut history, &mut futures)?;
         times::check_futures(&futures, &history, &plant)?;

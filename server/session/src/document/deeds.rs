@@ -39,7 +39,10 @@ impl Operation {
     /// Whether a hand drew the wood that was born in it, rather than that it grew by itself.
     pub(super) fn is_drawn(&self) -> bool {
         self.is_chosen
-            || matches!(self.kind, Kind::Stroke | Kind::Lasso | Kind::Seed | Kind::Graft | Kind::Design)
+            || matches!(
+                self.kind,
+                Kind::Stroke | Kind::Lasso | Kind::Seed | Kind::Graft | Kind::Design | Kind::Grammar
+            )
     }
 }
 
@@ -194,6 +197,7 @@ impl Document {
         self.switched = Some(Switched { kind: what.into(), away, fell, rose, held });
         self.set(&setting);
         self.history.settle(setting);
+        self.keep_grammar_to(deed, away);
         self.history.keep_places(settled.falls.len() + settled.rises.len());
         self.reach();
         Ok(true)

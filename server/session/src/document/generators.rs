@@ -7,6 +7,7 @@ use std::sync::Arc;
 use espalier_growth::{Change, Generator, Growth, Observer, Scene, StepInput, StepOutcome, StrokeId};
 use espalier_plant::MetamerId;
 
+use super::grammars::{Grammars, InForce, Write, WriteError};
 use crate::schedule::{GrowthSchedule, ScheduledAction};
 
 /// Steps in a row in which the brush of a programme finds nothing to do.
@@ -17,6 +18,7 @@ const PATIENCE: u32 = 64;
 pub(crate) struct Generators {
     growth: Growth,
     schedule: Arc<GrowthSchedule>,
+    grammars: Grammars,
     state: GeneratorState,
 }
 
@@ -27,6 +29,8 @@ pub(crate) struct GeneratorState {
     /// By how much the plants are older than the steps of growth they have taken: a programme goes on where its
     /// brush finds nothing to do.
     pub(super) ahead: u32,
+    /// The grammar in force.
+    pub(super) written: InForce,
     /// That of the generator which tests have.
     #[cfg(test)]
     pub(super) forks: super::tests::forks::Forks,
@@ -47,6 +51,8 @@ pub(crate) enum Step {
     Growth(StepInput),
     /// The plants grow older by the programme, or on their own where there is none, but not beyond an age.
     Age { chosen: Option<MetamerId>, until: u32 },
+    /// A grammar writes.
+    Write(Write),
     /// Every bud becomes a fork.
     #[cfg(test)]
     Fork,
@@ -78,6 +84,16 @@ impl Generator for Generators {
                 self.growth.step(scene, input, observer)
             }
             &Step::Age { chosen, until } => self.grow_older(scene, chosen, until, observer),
+            Step::Write(write) => {
+                let before = scene.plant().metamer_count();
+                let written =
+                    self.grammars.write(scene, self.growth.parameters(), &self.state.written, write);
+                let Some(written) = written else { return StepOutcome::default() };
+                self.state.written = written;
+                self.growth.follow(scene, &Change::Edited);
+                let metamers_grown = scene.plant().metamer_count().saturating_sub(before) as u32;
+                StepOutcome { metamers_grown, buds_enabled: 0 }
+            }
             #[cfg(test)]
             Step::Fork => {
                 let outcome = self.state.forks.step(scene, &(), observer);
@@ -101,7 +117,28 @@ impl Generator for Generators {
 impl Generators {
     /// Growth by a schedule, and all generators in this state.
     pub(crate) fn new(growth: Growth, schedule: Arc<GrowthSchedule>, state: GeneratorState) -> Self {
-        Self { growth, schedule, state }
+        Self { growth, schedule, grammars: Grammars::default(), state }
+    }
+
+    /// Why the grammar in force could not write the last step, if it could not.
+    pub(super) fn refusal(&self) -> Option<&WriteError> {
+        self.grammars.refusal.as_ref()
+    }
+
+    /// Metamers that the last step of a grammar has moved.
+    pub(super) fn moved(&self) -> usize {
+        self.grammars.moved
+    }
+
+    /// Bytes of the word that is at hand.
+    pub(super) fn bytes_of_words(&self) -> usize {
+        self.grammars.bytes()
+    }
+
+    /// Another grammar is in force, or the same one at another depth.
+    pub(super) fn put_in_force(&mut self, written: InForce) {
+        self.state.written = written;
+        self.grammars.refusal = None;
     }
 
     /// The schedule in force.
@@ -128,6 +165,7 @@ impl Generators {
     pub(super) fn turn_to(&mut self, schedule: &Arc<GrowthSchedule>, state: GeneratorState) {
         self.schedule = Arc::clone(schedule);
         self.state = state;
+        self.grammars.refusal = None;
     }
 
     /// Makes the parameters those of the schedule at the present age.

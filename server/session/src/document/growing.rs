@@ -54,9 +54,13 @@ impl Document {
                 let last = if has_grown { age.saturating_add(left) } else { u32::MAX };
                 if !self.is_stopped() && !step.is_over(age) {
                     self.step(&step.up_to(last), observer);
+                    if matches!(step, Step::Write(_)) {
+                        self.keep_what_moved();
+                    }
                     let left = left.saturating_sub((self.age() - age).max(1));
                     let has_grown = has_grown || self.plant().step() != now;
-                    if left > 0 && !self.simulation.is_out_of_budget() {
+                    let goes_on = !matches!(step, Step::Write(_)) || self.may_derive();
+                    if left > 0 && goes_on && !self.simulation.is_out_of_budget() {
                         self.pending.push_front(Pending::Steps { left, has_grown, step });
                     }
                 }
@@ -232,7 +236,7 @@ impl Document {
         Err(Problem::new(Reason::TreeFull, message).at("kind", allowed))
     }
 
-    fn step(&mut self, step: &Step, observer: &mut impl Observer) -> StepOutcome {
+    pub(super) fn step(&mut self, step: &Step, observer: &mut impl Observer) -> StepOutcome {
         self.steps_begun = self.steps_begun.wrapping_add(1);
         let kept = self.kept();
         self.simulation.generator_mut().keep_what_began_in(kept);

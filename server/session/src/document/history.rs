@@ -51,10 +51,12 @@ pub(super) enum Kind {
     BroughtBack = 13,
     /// A design begun, changed or let go.
     Design = 14,
+    /// A grammar set, derived further, or its sliders set.
+    Grammar = 15,
 }
 
 impl Kind {
-    const ALL: [Self; 15] = [
+    const ALL: [Self; 16] = [
         Self::Stroke,
         Self::Growth,
         Self::Parameters,
@@ -70,12 +72,16 @@ impl Kind {
         Self::TakenBack,
         Self::BroughtBack,
         Self::Design,
+        Self::Grammar,
     ];
 
-    /// Whether such an operation holds a set of parameters, looks or obstacles that no other holds.
+    /// Whether such an operation holds a set of parameters, looks or obstacles, a design or a grammar that no other holds.
     fn has_set(self) -> bool {
-        matches!(self, Self::Parameters | Self::Appearance | Self::Obstacle | Self::Design)
-            || self.is_switch()
+        let holds = matches!(
+            self,
+            Self::Parameters | Self::Appearance | Self::Obstacle | Self::Design | Self::Grammar
+        );
+        holds || self.is_switch()
     }
 
     /// Whether such an operation says of another one whether it is in force.
@@ -280,6 +286,12 @@ impl History {
     /// The state of the generators at a step.
     pub fn state_at(&self, step: u32) -> GeneratorState {
         let is_past = |mark: &&StateMark| mark.step <= step && mark.done as usize <= self.done;
+        self.states.iter().rev().find(is_past).map(|mark| mark.state.clone()).unwrap_or_default()
+    }
+
+    /// The state of the generators after so many operations.
+    pub fn state_after(&self, operations: usize) -> GeneratorState {
+        let is_past = |mark: &&StateMark| mark.done as usize <= operations;
         self.states.iter().rev().find(is_past).map(|mark| mark.state.clone()).unwrap_or_default()
     }
 

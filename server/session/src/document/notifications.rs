@@ -118,6 +118,7 @@ impl From<Kind> for OperationKind {
             Kind::TakenBack => Self::TakenBack,
             Kind::BroughtBack => Self::BroughtBack,
             Kind::Design => Self::Design,
+            Kind::Grammar => Self::Grammar,
         }
     }
 }

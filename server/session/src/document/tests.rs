@@ -6,6 +6,7 @@ mod deeds;
 mod designing;
 pub(super) mod forks;
 mod generating;
+mod grammars;
 mod histories;
 mod looks;
 mod pins;

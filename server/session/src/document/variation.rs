@@ -5,8 +5,8 @@ use espalier_proto::{Action, Age, Steps};
 use super::Document;
 
 impl Document {
-    /// What grows another tree of this kind from another seed: its programme, parameters and looks, to its age. What was drawn
-    /// and done by hand is no part of it.
+    /// What grows another tree of this kind from another seed: its programme, parameters and looks, and the grammar in
+    /// force, to its age. What was drawn and done by hand is no part of it.
     pub fn variation(&self) -> Vec<Action> {
         let programme = self.programme().map(|programme| (**programme).clone());
         let age = Age::nearest(self.age());
@@ -16,6 +16,8 @@ impl Document {
             Action::SetParameters { parameters },
             Action::SetAppearance { appearance: (*self.appearance()).into() },
         ];
+        // What a grammar writes is written again, with other chance.
+        actions.extend(self.grammar_to_set());
         let grow = Action::Grow { steps: Steps::MOST, until: Some(age), bud: None };
         let commands = age.get().div_ceil(Steps::MOST.get()) as usize;
         actions.extend(std::iter::repeat_n(grow, commands));

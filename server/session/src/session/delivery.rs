@@ -87,6 +87,12 @@ impl Session {
             self.design = work.document.design_told();
             self.upkeep.design_changed = true;
         }
+        let mark = work.document.grammar_mark();
+        if mark != self.grammar_mark {
+            self.grammar_mark = mark;
+            self.grammar = work.document.grammar_told();
+            self.upkeep.grammar_changed = true;
+        }
     }
 
     /// Sends the delta to all in step; a client whose window is closed falls out of step instead (`FL2`).
@@ -162,6 +168,11 @@ impl Session {
     /// The design in force as it is sent to clients (`DS4`).
     pub(super) fn design_message(&self) -> ServerMessage {
         ServerMessage::Design { design: self.design.clone().map(Box::new) }
+    }
+
+    /// The grammar in force as it is sent to clients (`GR5`).
+    pub(super) fn grammar_message(&self) -> ServerMessage {
+        ServerMessage::Grammar { grammar: self.grammar.clone().map(Box::new) }
     }
 
     /// The document's figures as they are sent to clients.

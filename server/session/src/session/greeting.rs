@@ -114,6 +114,9 @@ impl Session {
         if self.design.is_some() {
             self.send(client, &self.design_message());
         }
+        if self.grammar.is_some() {
+            self.send(client, &self.grammar_message());
+        }
         // As all others have it: what has changed since comes to everybody.
         self.send(client, &ServerMessage::Timeline(Box::new(self.told_timeline.clone())));
         self.show_pins(client);

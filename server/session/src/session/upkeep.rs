@@ -50,6 +50,9 @@ pub(super) struct Upkeep {
     /// Whether the design does.
     pub(super) design_changed: bool,
     design_due: u64,
+    /// Whether the grammar does.
+    pub(super) grammar_changed: bool,
+    grammar_due: u64,
     pub(super) last_command_at: u64,
     /// The last entry in a snapshot that is kept.
     snapshotted: u64,
@@ -80,6 +83,8 @@ impl Upkeep {
             widths_due: 0,
             design_changed: false,
             design_due: 0,
+            grammar_changed: false,
+            grammar_due: 0,
             last_command_at: 0,
             snapshotted,
             snapshot_asked: false,
@@ -219,6 +224,11 @@ impl Session {
             self.upkeep.design_due = self.now + STATE_MS;
             self.broadcast(&self.design_message());
         }
+        if self.upkeep.grammar_changed && self.now >= self.upkeep.grammar_due {
+            self.upkeep.grammar_changed = false;
+            self.upkeep.grammar_due = self.now + STATE_MS;
+            self.broadcast(&self.grammar_message());
+        }
         if self.upkeep.timeline_changed && self.now >= self.upkeep.timeline_due {
             self.upkeep.timeline_changed = false;
             let change = self.told_timeline.change_to(&self.timeline);
@@ -234,7 +244,8 @@ impl Session {
     /// Tells those of whose commands nothing is left to do, once they have been told what came of them (`CM11`).
     fn tell_who_is_done(&mut self) {
         let upkeep = &self.upkeep;
-        if upkeep.state_changed || upkeep.widths_changed || upkeep.design_changed || upkeep.timeline_changed {
+        let settings_changed = upkeep.widths_changed || upkeep.design_changed || upkeep.grammar_changed;
+        if upkeep.state_changed || settings_changed || upkeep.timeline_changed {
             return;
         }
         let done = self.done.min(self.journal.durable());
@@ -302,6 +313,7 @@ impl Session {
         let timeline = upkeep.timeline_changed.then_some(upkeep.timeline_due);
         let widths = upkeep.widths_changed.then_some(upkeep.widths_due);
         let design = upkeep.design_changed.then_some(upkeep.design_due);
+        let grammar = upkeep.grammar_changed.then_some(upkeep.grammar_due);
         // What waits in the journal cannot be kept yet.
         let applied = self.home.as_ref().map_or(0, |work| work.applied);
         let unkept = applied > upkeep.snapshotted && !upkeep.snapshot_asked;
@@ -310,7 +322,7 @@ impl Session {
         let absence = upkeep.absences.front().map(|(due, _)| *due);
         let memory = self.pausing.due.filter(|_| self.home.is_some());
         let room = self.room_due();
-        let earliest = [state, timeline, widths, design, pause, hello, absence, memory, room]
+        let earliest = [state, timeline, widths, design, grammar, pause, hello, absence, memory, room]
             .into_iter()
             .flatten()
             .min();

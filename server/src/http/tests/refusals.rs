@@ -26,6 +26,11 @@ pub(super) fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
         ("POST /api/v1/sessions", vec![], json!({ "tree": "ash", "version": 1, "template": true })),
         ("POST /api/v1/sessions", vec![], json!({ "seed": 1 })),
         ("POST /api/v1/schematic", every, parameters),
+        (
+            "POST /api/v1/grammars/check",
+            names(&["text"]),
+            json!({ "text": "axiom: F", "values": [], "seed": 1, "sizes": true }),
+        ),
         ("POST /api/v1/redeem", names(&["secret"]), json!({ "secret": "x" })),
         (
             "POST /api/v1/grow",

@@ -12,6 +12,7 @@ import {
   BrushIcon,
   CommentIcon,
   DownloadIcon,
+  GrammarIcon,
   HelpIcon,
   HideIcon,
   LeafIcon,
@@ -40,6 +41,7 @@ const PANEL_ICONS: Record<BarPanel, ComponentType> = {
   background: BackgroundIcon,
   wind: WindIcon,
   structure: StructureIcon,
+  grammars: GrammarIcon,
   scene: SceneIcon,
 };
 

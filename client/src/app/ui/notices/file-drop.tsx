@@ -1,6 +1,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
+import { isGrammarFile } from "../panels/grammars/grammar-endings";
 import { takeFiles } from "../sheets/library/open-file";
 
 /** Takes files that are dropped anywhere on the page into the library, which it opens. */
@@ -28,6 +29,13 @@ export function FileDrop({ studio }: { readonly studio: Studio }) {
         if (carriesFiles(event)) {
           event.preventDefault();
           show(false);
+          const files = [...(event.dataTransfer?.files ?? [])];
+          const grammar = files.find(isGrammarFile);
+          if (grammar) {
+            studio.layout.panel.value = "grammars";
+            void import("../panels/grammars/dropped").then(({ takeGrammar }) => takeGrammar(studio, grammar));
+            return;
+          }
           studio.layout.section.value = "trees";
           studio.layout.sheet.value = "library";
           void takeFiles(studio, event.dataTransfer?.files ?? null);

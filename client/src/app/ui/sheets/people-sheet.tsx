@@ -110,6 +110,9 @@ function doing(studio: Studio, { state, tool, follows }: Device): string {
     const person = people.find(({ devices }) => devices.some(({ device }) => device === follows));
     return say("together.follows", { name: person ? nameOf(person) : "" });
   }
+  if (tool === "grammar") {
+    return say("together.here.writes");
+  }
   const known = TOOL_NAMES.find((name) => name === tool);
   return known ? say("together.here.tool", { tool: say(descriptorOf(known).label) }) : say("together.here");
 }

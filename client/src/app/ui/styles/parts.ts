@@ -20,5 +20,6 @@ import "./recent.css";
 import "./vain.css";
 import "./together.css";
 import "./structure.css";
+import "./grammars.css";
 import "./comments.css";
 import "./wind.css";

@@ -1,7 +1,7 @@
 import type { ComponentType } from "preact";
 import type { OperationKind } from "../../../wire/generated";
 import type { Key } from "../../words/say";
-import { BoxIcon, GrowthIcon, Icon, LassoIcon, NewIcon, RedoIcon, SeedIcon, UndoIcon } from "../icons";
+import { BoxIcon, GrammarIcon, GrowthIcon, Icon, LassoIcon, NewIcon, RedoIcon, SeedIcon, UndoIcon } from "../icons";
 import { BendIcon, GraftIcon, PruneIcon, TurnIcon, WidthIcon } from "../shaping-icons";
 
 /** A stroke with the brush at its end. */
@@ -48,6 +48,7 @@ const SORTS: Record<OperationKind, Sort> = {
   graft: { name: "operations.kind.graft", Icon: GraftIcon },
   taken_back: { name: "operations.kind.taken_back", Icon: UndoIcon },
   design: { name: "operations.kind.design", Icon: DesignIcon },
+  grammar: { name: "operations.kind.grammar", Icon: GrammarIcon },
   brought_back: { name: "operations.kind.brought_back", Icon: RedoIcon },
 };
 

@@ -5,6 +5,7 @@ import { clusters, peopleOf } from "../../document/timeline/timeline";
 import type { Studio } from "../../studio";
 import type { PeopleHere } from "../../together/together";
 import { say } from "../../words/say";
+import { DepthStepper } from "./depth-stepper";
 import { isWorthShowing } from "./has-timeline";
 import { stepsOf } from "./step-count";
 import { Forks } from "./timeline-forks";
@@ -73,6 +74,7 @@ export function TimelineStrip({ studio }: { studio: Studio }) {
       >
         <ForthIcon />
       </button>
+      {studio.grammar.inForce.value !== null && <DepthStepper studio={studio} />}
     </section>
   );
 }

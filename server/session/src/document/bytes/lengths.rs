@@ -5,7 +5,7 @@ use espalier_proto::version::{MAX_BEND_TOUCHES, MAX_OBSTACLES};
 
 use crate::{
     author::MAX_AUTHORS,
-    document::{bending, designing, futures, history::MAX_SETS, obstacles, strokes, widths},
+    document::{bending, designing, futures, grammars, history::MAX_SETS, obstacles, strokes, widths},
 };
 
 /// The largest metamer budget that a session can begin with (`LM4`).
@@ -63,6 +63,9 @@ pub(super) const SWEEPS: u64 = FEW + strokes::MAX_OPEN as u64 * STROKE;
 pub(super) const PARAMETERS: u64 = FEW + MAX_SETS as u64 * SET;
 /// A programme has many stages, each of which sets few parameters; and ages follow.
 pub(super) const PROGRAMMES: u64 = PARAMETERS + OPERATIONS * 12;
+/// Names and rows, answers, texts, and which of them each state has.
+pub(super) const GRAMMARS: u64 =
+    FEW + OPERATIONS * 5 + (grammars::MAX_HELD as u64 + METAMERS) * 12 + grammars::MAX_HELD_TEXT as u64;
 pub(super) const LOOKS: u64 = PARAMETERS;
 pub(super) const OBSTACLES: u64 =
     FEW + obstacles::MAX_HELD_TRIANGLES as u64 * TRIANGLE + MAX_SETS as u64 * OBSTACLES_OF_SET;

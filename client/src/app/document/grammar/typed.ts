@@ -1,0 +1,40 @@
+/** What devices make of `-->` and `--` while they are typed, and arrows that can be typed at once. */
+const MEANT: readonly (readonly [RegExp, string])[] = [
+  [/[—–]+>|-[—–]>|[→⟶]/g, "-->"],
+  [/—/g, "--"],
+];
+/** Lines in which words stand, where a dash is a dash. */
+const WORDS = /^[ \t]*(?:title|about|author|lsystem)[ \t]*:|^[ \t]*(?:\/\/|\/\*|#)/i;
+
+/** A text as it was typed, with the signs that were meant, and where the caret then stands. */
+export function asMeant(text: string, caret: number): { text: string; caret: number } {
+  let [at, moved] = [0, 0];
+  const lines = text.split("\n").map((line) => {
+    let meant = line;
+    for (const [found, sign] of WORDS.test(line) ? [] : MEANT) {
+      meant = meant.replace(found, (typed, place: number) => {
+        moved += at + place < caret ? sign.length - typed.length : 0;
+        return sign;
+      });
+    }
+    at += line.length + 1;
+    return meant;
+  });
+  const meant = lines.join("\n");
+  return { text: meant, caret: meant === text ? caret : caret + moved };
+}
+
+/** Whether a text says how deep it is to be derived. */
+export function saysDepth(text: string): boolean {
+  return /^[ \t]*(?:derivation[ \t]+length|depth)[ \t]*:/im.test(text);
+}
+
+/** Whether a text leaves anything to chance. */
+export function hasChance(text: string): boolean {
+  return /\bn?ran\s*\(|-->.*:\s*[\d.]+\s*$|-->\s*\(\s*[\d.]+\s*\)/m.test(text);
+}
+
+/** What a text calls itself. */
+export function titleOf(text: string): string | null {
+  return /^[ \t]*(?:title|lsystem)[ \t]*:[ \t]*(\S.*)$/im.exec(text)?.[1]?.trim() ?? null;
+}

@@ -1,0 +1,336 @@
+//! The grammar in force (`GR`): what it has written, and how it goes on. Each step of derivation is one of growth, so its
+//! depth is time, and what it wrote is wood like any other.
+//!
+//! Words are not kept: they follow from the text, its values, its seed and what surroundings answered. What is kept for
+//! each depth is which row each name of the word has, so that what goes on stays what it was.
+
+mod commands;
+mod depths;
+mod origins;
+mod surroundings;
+mod telling;
+
+use std::sync::Arc;
+
+use espalier_grammar::{BadValue, Derivation, Grammar, Limits, Place, Program, Slider, Stop, WoodOptions};
+use espalier_growth::{
+    Drawn, EditError, Envelope, Parameters, Plane, Rewriting, Rewritten, Scene, WORLD_EXTENT,
+};
+use espalier_plant::hash::StableHash;
+use espalier_proto::{GrammarBody, GrammarSlider, Problem, Reason};
+use glam::{Vec2, Vec3};
+
+pub(super) use self::commands::Planting;
+use self::surroundings::{Asking, Told};
+pub(crate) use self::telling::GrammarMark;
+
+/// Names with their rows, and answers, that all lines of time may keep.
+pub(super) const MAX_HELD: usize = 8_000_000;
+/// Bytes of texts that they may.
+pub(super) const MAX_HELD_TEXT: usize = 32 << 20;
+
+/// What one derivation may take: a step of it is made in one go.
+const LIMITS: Limits = Limits { modules: 2_000_000, parameters: 4_000_000, nesting: 512, work: 500_000_000 };
+
+/// A grammar with its values, and where it stands.
+#[derive(Clone, Debug)]
+pub(crate) struct Source {
+    pub(super) text: String,
+    pub(super) values: Vec<(String, f64)>,
+    pub(super) seed: u32,
+    pub(super) at: Vec3,
+    pub(super) within: Option<(GrammarBody, Arc<Envelope>)>,
+    title: Option<String>,
+    sliders: Vec<GrammarSlider>,
+    axiom_at: Place,
+    program: Arc<Program>,
+    asks: bool,
+}
+
+impl PartialEq for Source {
+    fn eq(&self, other: &Self) -> bool {
+        let body = |source: &Self| source.within.as_ref().map(|(body, _)| body.clone());
+        self.text == other.text
+            && self.values == other.values
+            && self.seed == other.seed
+            && self.at == other.at
+            && body(self) == body(other)
+    }
+}
+
+/// What a grammar has written up to a depth.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Written {
+    pub(super) source: Arc<Source>,
+    pub(super) depth: u32,
+    /// What surroundings answered in each step of derivation; empty for grammars that do not ask.
+    pub(super) answers: Vec<Arc<[f64]>>,
+    /// The rows that names have, in order of the names.
+    pub(super) rows: Vec<(u64, u32)>,
+    /// The step of the plants that it led to.
+    pub(super) step: u32,
+    /// Whether others have changed the plants since the grammar began.
+    pub(super) is_edited: bool,
+    /// The step that the grammar was set in.
+    pub(super) begun: u32,
+}
+
+/// The grammar in force, if one is; the same one is found equal at once.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct InForce(pub(super) Option<Arc<Written>>);
+
+impl PartialEq for InForce {
+    fn eq(&self, other: &Self) -> bool {
+        match (&self.0, &other.0) {
+            (Some(one), Some(other)) => Arc::ptr_eq(one, other) || one == other,
+            (None, None) => true,
+            _ => false,
+        }
+    }
+}
+
+/// What a grammar is to do in a step.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Write {
+    /// It goes on by a step of derivation.
+    Derive,
+    /// A grammar begins, or the one in force goes on with other values, at a depth.
+    Set { source: Arc<Source>, depth: u32, is_new: bool },
+}
+
+impl Write {
+    /// Bytes of the text that it brings.
+    fn text_bytes(&self) -> usize {
+        match self {
+            Self::Derive => 0,
+            Self::Set { source, .. } => source.text.len(),
+        }
+    }
+}
+
+/// A grammar cannot write a step.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub(crate) enum WriteError {
+    #[error(transparent)]
+    Stop(#[from] Stop),
+    #[error(transparent)]
+    Edit(#[from] EditError),
+    #[error("no grammar is in force")]
+    NoGrammar,
+}
+
+/// What grammars keep that follows from the rest.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Grammars {
+    /// The word of the grammar in force, so that it need not be derived again.
+    at_hand: Option<(Arc<Written>, Arc<Derivation>)>,
+    /// Why the last step could not be written.
+    pub(super) refusal: Option<WriteError>,
+    /// Metamers that the last step moved.
+    pub(super) moved: usize,
+}
+
+impl InForce {
+    pub(super) fn hash(&self, hash: &mut StableHash) {
+        let Some(written) = &self.0 else { return };
+        let Source { text, values, seed, at, .. } = &*written.source;
+        for chunk in text.as_bytes().chunks(8) {
+            hash.word(chunk.iter().fold(0, |word, &byte| word << 8 | u64::from(byte)));
+        }
+        values.iter().for_each(|(_, value)| hash.word(value.to_bits()));
+        hash.vector(*at);
+        hash.word(u64::from(*seed) | u64::from(written.depth) << 32);
+        for &(key, row) in &written.rows {
+            hash.word(key);
+            hash.word(row.into());
+        }
+    }
+}
+
+impl Grammars {
+    /// Writes a step; what is in force then, or nothing where it cannot.
+    pub(super) fn write(
+        &mut self,
+        scene: &mut Scene,
+        parameters: &Parameters,
+        now: &InForce,
+        write: &Write,
+    ) -> Option<InForce> {
+        match self.try_write(scene, parameters, now.0.as_ref(), write) {
+            Ok(written) => {
+                self.refusal = None;
+                Some(InForce(Some(written)))
+            }
+            Err(error) => {
+                (self.refusal, self.moved) = (Some(error), 0);
+                None
+            }
+        }
+    }
+
+    /// Bytes of the word at hand.
+    pub(super) fn bytes(&self) -> usize {
+        self.at_hand.as_ref().map_or(0, |(_, derivation)| derivation.bytes())
+    }
+
+    fn try_write(
+        &mut self,
+        scene: &mut Scene,
+        parameters: &Parameters,
+        now: Option<&Arc<Written>>,
+        write: &Write,
+    ) -> Result<Arc<Written>, WriteError> {
+        let options = options(scene, parameters);
+        let asking = |source: &Arc<Source>| Asking::new(scene, Arc::clone(source));
+        let (source, mut derivation, mut answers, former) = match write {
+            Write::Derive => {
+                let now = now.ok_or(WriteError::NoGrammar)?;
+                let derivation = self.derivation(now)?;
+                (&now.source, derivation, now.answers.clone(), Some(now))
+            }
+            Write::Set { source, is_new, .. } => {
+                let derivation = Derivation::new(Arc::clone(&source.program), source.seed, LIMITS)?;
+                (source, derivation, Vec::new(), now.filter(|_| !is_new))
+            }
+        };
+        let surroundings = asking(source);
+        // What was drawn last, where hands have moved it since.
+        let is_edited = former.is_some_and(|now| now.is_edited || now.step != scene.plant().step());
+        let before = match former.filter(|_| is_edited) {
+            Some(now) => {
+                let last =
+                    if matches!(write, Write::Derive) { derivation.clone() } else { self.derivation(now)? };
+                let keys = now.rows.iter().map(|&(key, _)| key).collect();
+                Some(last.draw_on(&asking(&now.source), options, keys)?)
+            }
+            None => None,
+        };
+        let depth = match write {
+            Write::Derive => derivation.depth() + 1,
+            Write::Set { depth, .. } => *depth,
+        };
+        while derivation.depth() < depth {
+            derivation.step(&surroundings)?;
+            if source.asks {
+                answers.push(surroundings.answers());
+            }
+        }
+        let keys = |now: &Arc<Written>| now.rows.iter().map(|&(key, _)| key).collect();
+        let drawn = match former {
+            Some(now) => derivation.draw_on(&surroundings, options, keys(now))?,
+            None => derivation.draw(&surroundings, options)?,
+        };
+        drop(surroundings);
+        let rewriting = Rewriting {
+            now: Drawn { wood: &drawn.wood, keys: &drawn.keys },
+            before: before.as_ref().map(|drawn| Drawn { wood: &drawn.wood, keys: &drawn.keys }),
+            rows: former.map_or(&[], |now| now.rows.as_slice()),
+            at: source.at,
+        };
+        rewriting.check(scene)?;
+        let step = scene.plant().step();
+        let Rewritten { rows, moved } = match write {
+            Write::Derive => scene.record_growth(|step| rewriting.write(step, parameters)),
+            Write::Set { is_new: false, .. } => scene.record_edit(|step| rewriting.write(step, parameters)),
+            Write::Set { .. } => scene.record_growth(|step| rewriting.write(step, parameters)),
+        }?;
+        let written = Arc::new(Written {
+            source: Arc::clone(source),
+            depth,
+            answers,
+            rows,
+            step: scene.plant().step(),
+            is_edited,
+            begun: former.map_or(step, |now| now.begun),
+        });
+        self.moved = moved;
+        self.at_hand = Some((Arc::clone(&written), Arc::new(derivation)));
+        Ok(written)
+    }
+
+    /// The word of what was written: the one at hand, or derived again.
+    fn derivation(&mut self, written: &Arc<Written>) -> Result<Derivation, Stop> {
+        let found = self.at_hand.take_if(|(of, _)| Arc::ptr_eq(of, written));
+        if let Some((_, derivation)) = found {
+            return Ok(Arc::unwrap_or_clone(derivation));
+        }
+        let source = &written.source;
+        let mut derivation = Derivation::new(Arc::clone(&source.program), source.seed, LIMITS)?;
+        for step in 0..written.depth as usize {
+            let answers = written.answers.get(step).cloned().unwrap_or_default();
+            derivation.step(&Told::new(answers))?;
+        }
+        Ok(derivation)
+    }
+}
+
+/// What bounds the wood of a grammar in a scene.
+fn options(scene: &Scene, parameters: &Parameters) -> WoodOptions {
+    WoodOptions {
+        nodes: scene.metamer_budget() as usize,
+        extent: WORLD_EXTENT as u32,
+        twig_radius: f64::from(parameters.twig_diameter) / 2.0,
+    }
+}
+
+impl Source {
+    /// Reads a grammar.
+    pub(super) fn new(
+        text: &str,
+        values: Vec<(String, f64)>,
+        seed: u32,
+        at: Vec3,
+        within: Option<&GrammarBody>,
+    ) -> Result<Self, Problem> {
+        let grammar = Grammar::read(text).map_err(|diagnostics| {
+            let cause = diagnostics.iter().map(ToString::to_string).next().unwrap_or_default();
+            let problem = Problem::new(Reason::NotAGrammar, format!("the text is no grammar: {cause}"))
+                .at("text", "a grammar without errors");
+            Problem { cause: Some(cause), ..problem }
+        })?;
+        let set: Vec<(&str, f64)> = values.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        let program = grammar.program(&set).map_err(|error| bad_value(&grammar, &error))?;
+        let within =
+            within.map(|body| Ok::<_, Problem>((body.clone(), Arc::new(inflated(body)?)))).transpose()?;
+        Ok(Self {
+            text: text.to_owned(),
+            values,
+            seed,
+            at,
+            within,
+            title: grammar.title().map(str::to_owned),
+            sliders: sliders_of(&grammar),
+            axiom_at: grammar.axiom_place(),
+            asks: grammar.asks_places(),
+            program: Arc::new(program),
+        })
+    }
+}
+
+/// The problem with a value that a grammar does not allow.
+pub(crate) fn bad_value(grammar: &Grammar, error: &BadValue) -> Problem {
+    let sliders = grammar.sliders();
+    let allowed: Vec<String> = sliders
+        .iter()
+        .map(|slider| format!("{} from {} to {}", slider.name, slider.from, slider.to))
+        .collect();
+    let allowed =
+        if allowed.is_empty() { "no values: the text has no sliders".into() } else { allowed.join(", ") };
+    Problem::out_of_range("values", error.to_string(), allowed)
+}
+
+/// The sliders of a grammar, as they travel.
+pub(crate) fn sliders_of(grammar: &Grammar) -> Vec<GrammarSlider> {
+    let slider = |Slider { name, value, from, to }| GrammarSlider { name, from, to, value };
+    grammar.sliders().into_iter().map(slider).collect()
+}
+
+fn inflated(body: &GrammarBody) -> Result<Envelope, Problem> {
+    let outline: Vec<Vec2> = body.outline.iter().map(|point| point.get()).collect();
+    let (right, up) = body.plane.axes();
+    let plane = Plane { origin: body.plane.origin(), right, up };
+    Envelope::inflate(&outline, plane, body.depth.get(), 0.0).map_err(|error| {
+        Problem::new(Reason::NoRoom, format!("nothing can grow into this: {error}"))
+            .at("within", "an outline around some room")
+    })
+}

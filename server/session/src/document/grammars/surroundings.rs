@@ -1,0 +1,109 @@
+//! What a scene answers to grammars, and what it has answered.
+
+use std::{
+    cell::{Cell, RefCell},
+    sync::Arc,
+};
+
+use espalier_grammar::{Environment, Stand};
+use espalier_growth::Scene;
+use glam::{DVec3, Vec3};
+
+use super::Source;
+
+/// A scene that is asked, and notes what it answers.
+pub(super) struct Asking<'a> {
+    scene: &'a Scene,
+    source: Arc<Source>,
+    answers: RefCell<Vec<f64>>,
+}
+
+impl<'a> Asking<'a> {
+    pub(super) fn new(scene: &'a Scene, source: Arc<Source>) -> Self {
+        Self { scene, source, answers: RefCell::default() }
+    }
+
+    /// What it has answered since this was asked last.
+    pub(super) fn answers(&self) -> Arc<[f64]> {
+        self.answers.take().into()
+    }
+
+    fn place(&self, stand: &Stand) -> Vec3 {
+        stand.place.as_vec3() + self.source.at
+    }
+
+    fn note(&self, answer: f64) -> f64 {
+        if self.source.asks {
+            self.answers.borrow_mut().push(answer);
+        }
+        answer
+    }
+}
+
+impl Environment for Asking<'_> {
+    fn light(&self, stand: &Stand) -> f64 {
+        self.note(self.scene.exposure(self.place(stand)).into())
+    }
+
+    fn brighter(&self, stand: &Stand) -> DVec3 {
+        let way = self.scene.towards_light(self.place(stand)).unwrap_or_default().as_dvec3();
+        DVec3::from(way.to_array().map(|part| self.note(part)))
+    }
+
+    fn is_free(&self, stand: &Stand, radius: f64) -> bool {
+        let radius = radius.clamp(0.0, 100.0) as f32;
+        self.note(f64::from(u8::from(self.scene.is_free_of_others(self.place(stand), radius)))) > 0.0
+    }
+
+    fn is_inside(&self, stand: &Stand, body: u32) -> bool {
+        let place = self.place(stand);
+        let is_inside = match body.checked_sub(1) {
+            None => self.source.within.as_ref().is_some_and(|(_, body)| body.contains(place)),
+            Some(number) => self.scene.is_in_obstacle(number as usize, place),
+        };
+        self.note(f64::from(u8::from(is_inside))) > 0.0
+    }
+
+    fn vigor(&self, stand: &Stand) -> f64 {
+        self.light(stand)
+    }
+}
+
+/// What was answered before, told again in the same order.
+pub(super) struct Told {
+    answers: Arc<[f64]>,
+    told: Cell<usize>,
+}
+
+impl Told {
+    pub(super) fn new(answers: Arc<[f64]>) -> Self {
+        Self { answers, told: Cell::new(0) }
+    }
+
+    fn next(&self) -> f64 {
+        let at = self.told.replace(self.told.get() + 1);
+        self.answers.get(at).copied().unwrap_or_default()
+    }
+}
+
+impl Environment for Told {
+    fn light(&self, _: &Stand) -> f64 {
+        self.next()
+    }
+
+    fn brighter(&self, _: &Stand) -> DVec3 {
+        DVec3::new(self.next(), self.next(), self.next())
+    }
+
+    fn is_free(&self, _: &Stand, _: f64) -> bool {
+        self.next() > 0.0
+    }
+
+    fn is_inside(&self, _: &Stand, _: u32) -> bool {
+        self.next() > 0.0
+    }
+
+    fn vigor(&self, _: &Stand) -> f64 {
+        self.next()
+    }
+}

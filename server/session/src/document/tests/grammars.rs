@@ -1,0 +1,354 @@
+//! Grammars in documents: depth is time, rows go on from depth to depth, and hands may do anything between.
+
+use espalier_grammar::SHIPPED;
+use espalier_plant::checks;
+use espalier_proto::{GrammarValue, Reason};
+
+use super::*;
+
+fn set(text: &str, depth: u32) -> Command {
+    plain(Action::SetGrammar {
+        text: text.to_owned(),
+        values: list(vec![]),
+        seed: None,
+        position: None,
+        depth: (depth > 0).then(|| Steps::nearest(depth)),
+        within: None,
+    })
+}
+
+fn derive(steps: u32) -> Command {
+    plain(Action::Derive { steps: Steps::nearest(steps) })
+}
+
+fn values(gesture: u32, name: &str, value: f64) -> Command {
+    let values = list(vec![GrammarValue { name: name.to_owned(), value }]);
+    in_gesture(gesture, Action::SetGrammarValues { values })
+}
+
+fn shipped(name: &str) -> &'static str {
+    SHIPPED.iter().find(|one| one.name == name).expect("it is shipped").text
+}
+
+fn depth(document: &Document) -> u32 {
+    document.grammar_depth().expect("a grammar is in force").0
+}
+
+fn living(document: &Document) -> Vec<u32> {
+    let plant = document.plant();
+    let rows = (0..plant.metamer_count()).map(MetamerId::new);
+    rows.filter(|&id| plant.is_alive(id) && !plant.is_seed(id)).map(MetamerId::raw).collect()
+}
+
+#[test]
+fn each_depth_is_a_step_that_time_goes_back_to() {
+    for name in ["barron-binary", "ternary-wind", "sympodial", "bush-bracketed", "topiary-box"] {
+        let text = shipped(name);
+        let mut document = Document::new(7);
+        apply(&mut document, &set(text, 1));
+        let mut hashes = vec![(document.plant().step(), document.plant().hash())];
+        for _ in 1..4 {
+            apply(&mut document, &derive(1));
+            assert_eq!(checks::all(document.plant()), Ok(()), "{name}");
+            hashes.push((document.plant().step(), document.plant().hash()));
+        }
+        assert!(document.metamers() > 3, "{name}");
+        for &(step, hash) in hashes.iter().rev() {
+            apply(&mut document, &plain(Action::GoTo { step }));
+            assert_eq!(document.plant().hash(), hash, "{name} at step {step}");
+        }
+        // At once it is the same plant as step by step.
+        let mut whole = Document::new(7);
+        apply(&mut whole, &set(text, 4));
+        assert_eq!(hashes.last().map(|last| last.1), Some(whole.plant().hash()), "{name}");
+        apply(&mut whole, &plain(Action::Undo {}));
+        assert_eq!((whole.metamers(), whole.grammar_depth()), (0, None), "{name}");
+        apply(&mut whole, &plain(Action::Redo {}));
+        assert_eq!((hashes.last().map(|last| last.1), depth(&whole)), (Some(whole.plant().hash()), 4));
+    }
+}
+
+#[test]
+fn wood_that_lengthens_moves_and_is_not_born_again() {
+    let mut document = Document::new(1);
+    apply(&mut document, &set(shipped("ternary-wind"), 2));
+    for _ in 2..7 {
+        let before = living(&document);
+        apply(&mut document, &derive(1));
+        let after = living(&document);
+        assert!(before.iter().all(|row| after.contains(row)), "a row is gone");
+        assert_eq!(document.metamers() as usize + 1, document.plant().metamer_count(), "nothing has died");
+    }
+    assert_eq!(checks::all(document.plant()), Ok(()));
+}
+
+#[test]
+fn hands_and_grammars_take_turns() {
+    let mut document = Document::new(3);
+    let mut stops = vec![document.hash()];
+    let text = shipped("monopodial");
+    apply(&mut document, &set(text, 5));
+    stops.push(document.hash());
+    let cut = laterals(&document)[1];
+    apply(&mut document, &plain(Action::Prune { rows: list(vec![cut.raw()]) }));
+    stops.push(document.hash());
+    let turned = laterals(&document)[0].raw();
+    let rotation = UnitRotation::nearest(Quat::from_rotation_y(0.7));
+    apply(&mut document, &plain(Action::TurnBranch { row: turned, rotation }));
+    let heading = document.plant().heading(MetamerId::new(turned as usize));
+    let before = document.metamers();
+    apply(&mut document, &derive(2));
+    assert_eq!(checks::all(document.plant()), Ok(()));
+    assert!(document.metamers() > before, "it goes on where its buds stand");
+    assert!(!document.plant().is_alive(cut), "what was cut stays away");
+    let now = document.plant().heading(MetamerId::new(turned as usize));
+    assert!(now.dot(heading) > 0.999, "what was turned stays turned: {heading} {now}");
+    stroke(&mut document, 1);
+    let drawn = document.metamers();
+    apply(&mut document, &derive(1));
+    assert!(document.metamers() >= drawn);
+    assert_eq!(checks::all(document.plant()), Ok(()));
+    // All of it is read again, and goes on alike.
+    let mut read = Document::from_bytes(&document.to_bytes()).expect("it was written");
+    assert_eq!((read.hash(), read.to_bytes()), (document.hash(), document.to_bytes()));
+    apply(&mut document, &derive(1));
+    apply(&mut read, &derive(1));
+    assert_eq!((read.hash(), read.plant().hash()), (document.hash(), document.plant().hash()));
+    while document.figures().can_undo {
+        apply(&mut document, &plain(Action::Undo {}));
+    }
+    assert_eq!(document.metamers(), 0);
+    assert!(document.grammar_depth().is_none());
+}
+
+#[test]
+fn surroundings_answer_and_their_answers_are_kept() {
+    for name in ["light-seeker", "topiary-box"] {
+        let mut document = Document::new(2);
+        apply(&mut document, &set(shipped(name), 5));
+        let mut read = Document::from_bytes(&document.to_bytes()).expect("it was written");
+        apply(&mut document, &derive(2));
+        apply(&mut read, &derive(2));
+        assert_eq!(read.plant().hash(), document.plant().hash(), "{name}");
+    }
+}
+
+#[test]
+fn a_body_is_filled_and_walls_are_known() {
+    let text = "axiom: F(1)A?P\nA > ?P(x,y,z) : inside(0) && !inside(1) --> F[&(60)F]/(137.5)A?P\n";
+    let Action::Lasso { outline, plane, depth, .. } = lasso(3.0, 5.0).action else { panic!("it is one") };
+    let body = espalier_proto::GrammarBody { outline, plane, depth };
+    let command = plain(Action::SetGrammar {
+        text: text.to_owned(),
+        values: list(vec![]),
+        seed: None,
+        position: None,
+        depth: Some(Steps::nearest(12)),
+        within: Some(body),
+    });
+    let mut document = Document::new(1);
+    apply(&mut document, &command);
+    let plant = document.plant();
+    let heights =
+        living(&document).into_iter().map(|row| plant.metamers().end(MetamerId::new(row as usize)).y);
+    let highest = heights.fold(0.0, f32::max);
+    assert!((3.0..7.0).contains(&highest), "it ends where the body does: {highest}");
+}
+
+#[test]
+fn limits_refuse_before_they_cost() {
+    let mut document = Document::new(1);
+    let error = problem(&mut document, &set("axiom: A\nA --> F[+A\n", 1));
+    assert_eq!((error.reason, error.field.as_deref()), (Reason::NotAGrammar, Some("text")));
+    assert!(error.cause.is_some_and(|cause| cause.starts_with("line 2")), "it says where");
+    assert_eq!(problem(&mut document, &derive(1)).reason, Reason::NoGrammar);
+    assert_eq!(problem(&mut document, &values(1, "a", 1.0)).reason, Reason::NoGrammar);
+    // Eight times as much with each step: what was derived before stays.
+    apply(&mut document, &set("axiom: F\nscale: 0.3\nF --> F[+F][-F][&F]F[^F]FF\n", 9));
+    let (reached, why) = document.grammar_depth().expect("it is in force");
+    assert!((5..9).contains(&reached) && why.is_some(), "{reached} {why:?}");
+    let stopped = problem(&mut document, &derive(1));
+    assert_eq!(stopped.reason, Reason::GrammarEnds);
+    apply(&mut document, &set("axiom: A(1)\nA(x) --> F(1/(3-x))A(x+1)\n", 1));
+    apply(&mut document, &derive(3));
+    let (reached, why) = document.grammar_depth().expect("it is in force");
+    assert_eq!(reached, 2, "it goes as far as it can");
+    assert!(why.is_some_and(|why| why.contains("line 2, column 1")), "a division by zero has its place");
+    assert_eq!(problem(&mut document, &derive(3)).reason, Reason::GrammarEnds);
+}
+
+#[test]
+fn sliders_move_the_plant_in_one_step() {
+    let mut document = Document::new(1);
+    apply(&mut document, &set(shipped("barron-binary"), 5));
+    let (before, step) = (living(&document), document.plant().step());
+    let hash = document.plant().hash();
+    for angle in [20.0, 35.0, 50.0] {
+        apply(&mut document, &values(4, "a", angle));
+        assert_eq!(document.plant().step(), step + 1, "one step for the whole gesture");
+        assert_eq!(living(&document), before, "rows stay");
+        assert_eq!(checks::all(document.plant()), Ok(()));
+    }
+    assert_ne!(document.plant().hash(), hash);
+    assert_eq!(problem(&mut document, &values(5, "a", 1000.0)).field.as_deref(), Some("values"));
+    apply(&mut document, &plain(Action::Undo {}));
+    assert_eq!(document.plant().hash(), hash);
+}
+
+#[test]
+fn a_value_that_cannot_be_leaves_that_of_before() {
+    let text = "slider: n 1 10\nn = 2\naxiom: A\nA --> F(1/(5-n))[+(40)F]A\n";
+    let mut document = Document::new(1);
+    apply(&mut document, &set(text, 3));
+    let untouched = document.plant().hash();
+    apply(&mut document, &values(4, "n", 3.0));
+    let (hash, step) = (document.plant().hash(), document.plant().step());
+    let refused = problem(&mut document, &values(4, "n", 5.0));
+    assert_eq!(refused.reason, Reason::GrammarEnds);
+    assert_eq!((document.plant().hash(), document.plant().step()), (hash, step), "what was set before stays");
+    let told = document.grammar_told().expect("it is in force");
+    assert_eq!(told.values, [GrammarValue { name: "n".into(), value: 3.0 }]);
+    // The gesture goes on, in the very same step.
+    apply(&mut document, &values(4, "n", 4.0));
+    assert_eq!(document.plant().step(), step);
+    assert_ne!(document.plant().hash(), hash);
+    // Back where it began, the value is what it was, and so is the plant.
+    apply(&mut document, &values(4, "n", 2.0));
+    assert_eq!(checks::all(document.plant()), Ok(()));
+    apply(&mut document, &plain(Action::Undo {}));
+    assert_eq!(document.plant().hash(), untouched);
+    assert!(document.grammar_told().is_some_and(|told| told.values.is_empty()));
+}
+
+#[test]
+fn another_text_takes_the_place_of_the_one_in_force() {
+    let mut document = Document::new(1);
+    apply(&mut document, &set("axiom: A\nA --> F[+(30)F]A\n", 4));
+    let (hash, step) = (document.plant().hash(), document.plant().step());
+    let trunk = living(&document);
+    apply(&mut document, &set("axiom: A\nA --> F[+(60)F][-(60)F]A\n", 0));
+    assert_eq!(
+        (depth(&document), document.plant().step()),
+        (4, step + 1),
+        "it has the depth of the one before"
+    );
+    assert_eq!(checks::all(document.plant()), Ok(()));
+    assert!(living(&document).iter().filter(|row| trunk.contains(row)).count() >= 4, "what is alike stays");
+    assert_eq!(document.metamers(), 12);
+    apply(&mut document, &derive(1));
+    assert_eq!(document.metamers(), 15);
+    apply(&mut document, &plain(Action::Undo {}));
+    apply(&mut document, &plain(Action::Undo {}));
+    assert_eq!((document.plant().hash(), document.plant().step()), (hash, step));
+    // Elsewhere it is another plant, and the first one stays.
+    let Action::SetGrammar { text, values, seed, depth, within, .. } = set("axiom: F(2)\n", 0).action else {
+        panic!("it is one")
+    };
+    let position = Some(Position::nearest(Vec3::new(4.0, 0.0, 0.0)));
+    apply(&mut document, &plain(Action::SetGrammar { text, values, seed, position, depth, within }));
+    assert_eq!(document.metamers(), 8 + 2);
+}
+
+#[test]
+fn what_one_person_planted_is_taken_back_where_another_has_grown_on() {
+    let mut document = Document::new(1);
+    apply(&mut document, &set("axiom: A\nA --> F[+(30)F]A\n", 3));
+    let seed = Action::PlantSeed { position: Position::nearest(Vec3::new(5.0, 0.0, 0.0)) };
+    document.apply(&who("bob"), &plain(seed)).expect("there is room");
+    apply(&mut document, &derive(2));
+    let before = document.metamers();
+    apply(&mut document, &plain(Action::TakeBack {}));
+    assert_eq!((document.metamers(), depth(&document)), (before - 4, 3), "two depths fall");
+    apply(&mut document, &plain(Action::BringBack {}));
+    assert_eq!((document.metamers(), depth(&document)), (before, 5));
+    apply(&mut document, &plain(Action::TakeBack {}));
+    apply(&mut document, &derive(1));
+    assert_eq!((document.metamers(), depth(&document)), (before - 2, 4), "it goes on from there");
+    assert_eq!(checks::all(document.plant()), Ok(()));
+    for _ in 0..2 {
+        apply(&mut document, &plain(Action::TakeBack {}));
+    }
+    assert!(document.grammar_depth().is_none(), "what was planted is taken back");
+    assert_eq!(document.metamers(), 0);
+    let read = Document::from_bytes(&document.to_bytes()).expect("it was written");
+    assert_eq!(read.hash(), document.hash());
+}
+
+#[test]
+fn gr8_rules_know_their_rows() {
+    let text = "axiom: F(1)A\nA --> I[+(40)B]A\nB --> F(1)F(1)\nhomomorphism:\nI --> F(1)\n";
+    let mut document = Document::new(1);
+    assert_eq!(document.grammar_origins(), None);
+    apply(&mut document, &set(text, 4));
+    let cut = laterals(&document)[0];
+    apply(&mut document, &plain(Action::Prune { rows: list(vec![cut.raw()]) }));
+    let origins = document.grammar_origins().expect("it is in force");
+    let lines: Vec<u32> = origins.rules.iter().map(|rule| rule.line).collect();
+    assert_eq!(lines, [1, 2, 3], "the axiom, then rules that made something");
+    assert_eq!(origins.rows, living(&document));
+    let count = |rule: u16| origins.by.iter().filter(|&&by| by == rule).count();
+    // One internode of the axiom; four of the trunk, by way of the homomorphism; two of each branch but the one cut.
+    assert_eq!((count(0), count(1), count(2)), (1, 4, 4));
+    let read = Document::from_bytes(&document.to_bytes()).expect("it was written");
+    assert_eq!(read.grammar_origins(), Some(origins));
+}
+
+#[test]
+fn bombs_are_refused_and_leave_the_document_as_it_was() {
+    let texts = [
+        // More modules than a step may have, in one step.
+        "axiom: A\nA --> BBBBBBBBBBBBBBBBBBBBBBBBBBBBBBBBBBBBBBBB\nB --> AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA\n",
+        // Rules that go on within a step.
+        "axiom: A\nA --> B\ndecomposition:\nB --> BB\n",
+        // Brackets within brackets.
+        "axiom: A\nA --> [A]\n",
+        // Wood that leaves the world.
+        "axiom: F(1)A\nA --> F(100)A\n",
+        // More internodes than the document may hold.
+        "axiom: A\nA --> F(1)[+A][-A][&A][^A]A\n",
+        // Numbers that grow beyond all.
+        "axiom: A(2)\nA(x) --> A(x^x)\n",
+    ];
+    for text in texts {
+        let mut document = Document::new(1);
+        document.set_metamer_budget(50_000);
+        // What was derived before stays, where anything could be.
+        if document.apply(&who("ann"), &set(text, 1000)).is_ok() {
+            let (reached, why) = document.grammar_depth().expect("it is in force");
+            assert!(reached < 1000 && why.is_some(), "{text}: {reached} {why:?}");
+        }
+        assert!(document.plant().metamer_count() <= 50_000, "{text}");
+        assert_eq!(checks::all(document.plant()), Ok(()), "{text}");
+        let mut again = Document::from_bytes(&document.to_bytes()).expect("it was written");
+        if document.grammar_depth().is_some() {
+            let reasons = [&mut document, &mut again].map(|one| problem(one, &derive(1)).reason);
+            assert!(
+                reasons.iter().all(|reason| matches!(reason, Reason::GrammarEnds | Reason::TreeFull)),
+                "{text}"
+            );
+        }
+    }
+}
+
+#[test]
+fn gr5_depths_that_time_leads_through_are_told() {
+    let mut document = Document::new(3);
+    apply(&mut document, &set(shipped("barron-binary"), 4));
+    let around = |document: &Document| {
+        let told = document.grammar_told().expect("a grammar is in force");
+        (told.depth, told.earlier, told.later)
+    };
+    assert_eq!(around(&document), (4, 4, 0));
+    let step = document.plant().step();
+    apply(&mut document, &plain(Action::GoTo { step: step - 3 }));
+    assert_eq!(around(&document), (1, 1, 3));
+    apply(&mut document, &plain(Action::GoTo { step }));
+    apply(&mut document, &derive(1));
+    assert_eq!(around(&document), (5, 5, 0));
+    apply(&mut document, &values(4, "a", 40.0));
+    assert_eq!(around(&document), (5, 0, 0), "the step before has another angle");
+    apply(&mut document, &derive(2));
+    assert_eq!(around(&document), (7, 2, 0));
+    let opened = Document::from_bytes(&document.to_bytes()).expect("it opens");
+    assert_eq!(around(&opened), (7, 2, 0));
+}

@@ -1,0 +1,180 @@
+//! Grammars that are looked at before they are planted (`GR6`), and those that come with the program (`GR7`).
+
+use std::sync::Arc;
+
+use espalier_grammar::{
+    Derivation, Diagnostic, Grammar, Limits, OpenSky, Program, SHIPPED, Severity, Shipped, Stop, WoodOptions,
+};
+use espalier_growth::WORLD_EXTENT;
+use espalier_proto::{
+    Action, CheckGrammar, GrammarDiagnostic, GrammarReport, GrammarSeverity, GrammarSize, List, Problem,
+    ShippedGrammar, Steps,
+};
+
+use crate::document::{bad_value, sliders_of};
+
+/// What looking at sizes may take.
+const LIMITS: Limits = Limits { modules: 400_000, parameters: 800_000, nesting: 512, work: 40_000_000 };
+/// Internodes that are counted in one plant.
+const MOST_INTERNODES: usize = 400_000;
+/// Modules and internodes that are looked at in all.
+const MOST_IN_ALL: usize = 1_000_000;
+/// The deepest that is looked at.
+const DEEPEST: u32 = 64;
+
+/// What there is to say of a text.
+///
+/// # Errors
+/// Where values are set that it does not allow.
+pub fn check_grammar(wanted: &CheckGrammar) -> Result<GrammarReport, Problem> {
+    let checked = Grammar::check(&wanted.text);
+    let mut report = GrammarReport {
+        diagnostics: checked.diagnostics.iter().map(wire).collect(),
+        title: None,
+        about: None,
+        author: None,
+        depth: None,
+        sliders: Vec::new(),
+        sizes: Vec::new(),
+        ends: None,
+    };
+    let Some(grammar) = checked.grammar else { return Ok(report) };
+    let set: Vec<_> = wanted.values.iter().map(|value| (value.name.as_str(), value.value)).collect();
+    let program = grammar.program(&set).map_err(|error| bad_value(&grammar, &error))?;
+    report.title = grammar.title().map(str::to_owned);
+    report.about = grammar.about().map(str::to_owned);
+    report.author = grammar.author().map(str::to_owned);
+    report.depth = Some(program.depth());
+    report.sliders = sliders_of(&grammar);
+    if wanted.sizes {
+        let ends = measure(program, wanted.seed.unwrap_or(1), &mut report.sizes).err();
+        report.ends = ends.map(|stop| match stop {
+            Stop::Modules(_) | Stop::Parameters(_) | Stop::Work(_) | Stop::Nodes(_) => {
+                format!("what is deeper is too large to be counted: {stop}")
+            }
+            stop => stop.to_string(),
+        });
+    }
+    Ok(report)
+}
+
+/// Notes how large a plant is at each depth, as far as that can be found out.
+fn measure(program: Program, seed: u32, sizes: &mut Vec<GrammarSize>) -> Result<(), Stop> {
+    let deepest = program.depth().max(DEEPEST);
+    let options = WoodOptions { nodes: MOST_INTERNODES, extent: WORLD_EXTENT as u32, twig_radius: 0.05 };
+    let mut derivation = Derivation::new(Arc::new(program), seed, LIMITS)?;
+    let mut looked_at = 0;
+    loop {
+        let wood = derivation.draw(&OpenSky, options)?.wood;
+        let internodes = wood.nodes.iter().filter(|node| node.parent.is_some()).count();
+        let modules = derivation.word().len();
+        sizes.push(GrammarSize { modules: modules as u32, internodes: internodes as u32 });
+        looked_at += modules + internodes;
+        if derivation.depth() >= deepest {
+            return Ok(());
+        }
+        if looked_at > MOST_IN_ALL {
+            return Err(Stop::Modules(LIMITS.modules));
+        }
+        derivation.step(&OpenSky)?;
+    }
+}
+
+fn wire(found: &Diagnostic) -> GrammarDiagnostic {
+    let severity = match found.severity {
+        Severity::Error => GrammarSeverity::Error,
+        Severity::Warning => GrammarSeverity::Warning,
+    };
+    GrammarDiagnostic {
+        severity,
+        line: found.line,
+        column: found.column,
+        length: found.length,
+        code: found.code.to_owned(),
+        message: found.message.clone(),
+        hint: found.hint.clone(),
+    }
+}
+
+/// A grammar that comes with the program, as lists have it; its picture is found at an address.
+pub fn wire_grammar(shipped: &Shipped, picture: String) -> ShippedGrammar {
+    let grammar = Grammar::check(shipped.text).grammar;
+    let program = grammar.as_ref().and_then(|grammar| grammar.program(&[]).ok());
+    ShippedGrammar {
+        name: shipped.name.to_owned(),
+        title: grammar.as_ref().and_then(Grammar::title).unwrap_or(shipped.name).to_owned(),
+        about: grammar.as_ref().and_then(Grammar::about).unwrap_or_default().to_owned(),
+        depth: program.as_ref().map_or(0, Program::depth),
+        sliders: grammar.as_ref().map(sliders_of).unwrap_or_default(),
+        text: shipped.text.to_owned(),
+        picture,
+    }
+}
+
+/// The grammar with a name that comes with the program.
+pub fn shipped_grammar(name: &str) -> Option<&'static Shipped> {
+    SHIPPED.iter().find(|shipped| shipped.name == name)
+}
+
+/// What plants a text, derived as deep as it says or as is wanted.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn grammar_script(text: &str, depth: Option<Steps>) -> Result<Action, Vec<Diagnostic>> {
+    let grammar = Grammar::read(text)?;
+    let own = grammar.program(&[]).ok().and_then(|program| Steps::try_from(program.depth()).ok());
+    Ok(Action::SetGrammar {
+        text: text.to_owned(),
+        values: List::default(),
+        seed: None,
+        position: None,
+        depth: depth.or(own),
+        within: None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn checked(text: &str) -> GrammarReport {
+        let wanted = CheckGrammar { text: text.to_owned(), values: List::default(), seed: None, sizes: true };
+        check_grammar(&wanted).unwrap_or_else(|problem| panic!("{problem}"))
+    }
+
+    #[test]
+    fn gr6_a_text_is_looked_at() {
+        let report = checked("title: Fork\nslider: a 10 60\na = 30\naxiom: A\nA --> F[+(a)A][-(a)A]\n");
+        assert_eq!((report.title.as_deref(), report.diagnostics.len()), (Some("Fork"), 0));
+        let slider = &report.sliders[0];
+        assert_eq!((slider.name.as_str(), slider.from, slider.value, slider.to), ("a", 10.0, 30.0, 60.0));
+        let internodes: Vec<u32> = report.sizes.iter().take(5).map(|size| size.internodes).collect();
+        assert_eq!(internodes, [0, 1, 3, 7, 15]);
+        assert!(report.sizes.len() > 10 && report.sizes.len() < 30, "a tree that doubles is soon too large");
+        assert!(report.ends.is_some_and(|why| why.contains("too large")));
+
+        let report = checked("axiom: A\nA --> F[+A\nB --> sni(3)\n");
+        let found = &report.diagnostics[0];
+        assert_eq!((found.severity, found.line), (GrammarSeverity::Error, 2));
+        assert!(!found.code.is_empty() && report.sizes.is_empty() && report.depth.is_none());
+
+        let report = checked("axiom: A(3)\nA(n) --> F(1/n)A(n-1)\n");
+        assert_eq!(report.sizes.len(), 4);
+        assert!(report.ends.is_some_and(|why| why.starts_with("line 2")), "a division by zero has its place");
+
+        let values = vec![espalier_proto::GrammarValue { name: "b".into(), value: 1.0 }];
+        let values = List::try_from(values).unwrap_or_else(|_| panic!("not too many"));
+        let wanted = CheckGrammar { text: "axiom: F\n".into(), values, seed: None, sizes: false };
+        assert_eq!(check_grammar(&wanted).err().and_then(|problem| problem.field).as_deref(), Some("values"));
+    }
+
+    #[test]
+    fn gr7_what_is_shipped_says_what_it_is() {
+        for shipped in SHIPPED {
+            let listed = wire_grammar(shipped, String::new());
+            assert!(listed.title != shipped.name && listed.about.ends_with('.'), "{}", shipped.name);
+            assert!(listed.depth > 0 && !listed.sliders.is_empty(), "{}", shipped.name);
+            assert!(grammar_script(shipped.text, None).is_ok());
+        }
+    }
+}
