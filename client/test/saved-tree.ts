@@ -16,6 +16,7 @@ export function savedTree(fields: Partial<SavedTree> = {}): SavedTree {
     favourite: false,
     people: 0,
     revision: 1,
+    thumbnail: "/api/v1/trees/t1/versions/1/thumbnail",
     ...fields,
   };
 }

@@ -166,10 +166,9 @@ pub struct SavedTree {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub species: Option<String>,
-    /// Where its picture is, if it has one. What is there never changes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[ts(optional)]
-    pub thumbnail: Option<String>,
+    /// Where its picture is: the one that was saved with it, or else one that the server draws when it is first asked
+    /// for. What is there never changes.
+    pub thumbnail: String,
     /// When its first version was saved.
     pub created_at: String,
     /// Whether new trees are begun with it.
@@ -263,10 +262,9 @@ pub struct TreeVersion {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub restored: Option<u32>,
-    /// Where its picture is, if it has one. What is there never changes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[ts(optional)]
-    pub thumbnail: Option<String>,
+    /// Where its picture is: the one that was saved with it, or else one that the server draws when it is first asked
+    /// for. What is there never changes.
+    pub thumbnail: String,
     /// Where its document is. What is there never changes.
     pub document: String,
 }

@@ -9,11 +9,14 @@ use espalier_growth::{
     species::{self, Species, Stage},
 };
 use espalier_mesh::Style;
-use espalier_proto::{library::ExportFormat, text::Name};
+use espalier_proto::{library::ExportFormat, text::Name, thumbnail::MAX_THUMBNAIL_BYTES};
 use espalier_session::{Document, DocumentError, style_options};
 use espalier_settings::{Appearance, ParameterValues};
 
-use crate::export_options::{ExportOptions, Size, option};
+use crate::{
+    export_options::{ExportOptions, Size, option},
+    memory,
+};
 
 /// Pixels of a picture across and down.
 const PICTURE: Size = Size(1000, 1000);
@@ -47,6 +50,8 @@ pub enum Format {
     Obj,
     /// USD as text.
     Usda,
+    /// The same in binary.
+    Usdc,
     /// The same with its textures.
     Usdz,
     /// The skeleton as JSON.
@@ -89,6 +94,17 @@ pub struct FormatRow {
     pub bytes: [f64; 3],
 }
 
+impl FormatRow {
+    /// What such a file of a document of so many bytes takes of memory while it is made.
+    pub fn weight(&self, bytes: usize) -> u64 {
+        match self.format {
+            Format::Picture | Format::Sway => memory::picture(bytes),
+            Format::Usdc => memory::held_export(bytes),
+            _ => memory::export(bytes),
+        }
+    }
+}
+
 const fn row(
     format: Format,
     [ending, what, media_type]: [&'static str; 3],
@@ -98,6 +114,9 @@ const fn row(
 ) -> FormatRow {
     FormatRow { format, ending, what, media_type, label, text, options, bytes }
 }
+
+/// Pixels of a thumbnail across and down: the first whose file is not too large to be kept.
+const THUMBNAILS: [usize; 3] = [512, 384, 256];
 
 /// Every format.
 pub const FORMATS: &[FormatRow] = &[
@@ -150,6 +169,19 @@ pub const FORMATS: &[FormatRow] = &[
         ],
         option::SCENES,
         [4e3, 3300.0, 1800.0],
+    ),
+    row(
+        Format::Usdc,
+        ["usdc", "triangles as USD, in binary", "model/vnd.usdc"],
+        [
+            ["Scene (USD, binary)", "Szene (USD, binär)"],
+            [
+                "The same scene in a quarter of the bytes, which film programs open many times as fast.",
+                "Dieselbe Szene in einem Viertel der Bytes, die Filmprogramme um ein Vielfaches schneller öffnen.",
+            ],
+        ],
+        option::SCENES,
+        [4e3, 1000.0, 600.0],
     ),
     row(
         Format::Usdz,
@@ -325,6 +357,21 @@ impl FormatRow {
 #[derive(Debug)]
 pub struct Stored(Document);
 
+/// A picture of the plants of a document, as pages make them; the last one where all are too large to be kept.
+pub fn thumbnail(document: &mut Document) -> Vec<u8> {
+    let (parameters, appearance) = (document.parameters(), *document.appearance());
+    let stand = species_of(&parameters, &appearance).map(|species| species.stand).unwrap_or_default();
+    let style = Style::new(style_options(&parameters));
+    let mut png = Vec::new();
+    for side in THUMBNAILS {
+        png = picture::draw(document.portrait(), &style, &Look { appearance, stand }, side, side).png();
+        if png.len() <= MAX_THUMBNAIL_BYTES {
+            break;
+        }
+    }
+    png
+}
+
 impl Stored {
     /// # Errors
     /// Where the bytes are no document.
@@ -340,6 +387,11 @@ impl Stored {
         let look = Look { appearance, stand: species.map(|species| species.stand).unwrap_or_default() };
         let style = Style::new(style_options(&parameters));
         picture::strip(document.portrait(), &style, &look, side, frames).png()
+    }
+
+    /// A picture of it as pages make them.
+    pub fn thumbnail(&mut self) -> Vec<u8> {
+        thumbnail(&mut self.0)
     }
 
     /// About how many bytes its file has.
@@ -399,6 +451,7 @@ pub fn write(
         Format::Glb => espalier_export::glb(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Obj => espalier_export::obj(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Usda => espalier_export::usda(document.portrait(), &style, &appearance, &about, &model, out),
+        Format::Usdc => espalier_export::usdc(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Usdz => espalier_export::usdz(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Skeleton => espalier_export::skeleton_json(document.portrait(), &style, &origin, out),
         Format::Mtg => espalier_export::mtg(document.plant(), &style, &origin, out),

@@ -9,8 +9,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde_json::Value;
 
-/// The most pixels of a picture: each takes some 170 bytes while it is drawn.
-const MOST_PIXELS: usize = 4_000_000;
+/// The most pixels of a picture: four times those of a large screen.
+const MOST_PIXELS: usize = 16_000_000;
 /// Texels along a side of a light map, as engines have them.
 const FEWEST_TEXELS: u32 = 64;
 const MOST_TEXELS: u32 = 8192;

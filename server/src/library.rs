@@ -3,12 +3,12 @@
 use std::{
     collections::BTreeMap,
     fs,
-    io::{self, Cursor, Write},
+    io::{self, Write},
     path::PathBuf,
 };
 
 use espalier_growth::DEFAULT_METAMER_BUDGET;
-use espalier_proto::{Problem, text, thumbnail::MAX_THUMBNAIL_BYTES};
+use espalier_proto::{Problem, text};
 use espalier_session::{Document, DocumentError, Principal};
 use serde::Serialize;
 
@@ -20,7 +20,7 @@ use crate::{
         },
     },
     document::{self, FORMATS, Format, Stored},
-    export_options::{ExportOptions, NotOfFormat, Size},
+    export_options::NotOfFormat,
     import::{self, ImportNote, Imported},
     name,
     output::{OutputError, Target},
@@ -33,9 +33,6 @@ use crate::{
     },
     time::now,
 };
-
-/// Pixels of a picture across and down, as pages make them: the first whose file is not too large.
-const PICTURES: [usize; 3] = [512, 384, 256];
 
 /// It could not be done; each message is one sentence.
 #[derive(Debug, thiserror::Error)]
@@ -287,10 +284,11 @@ async fn put(options: &Put) -> Result<(), LibraryError> {
     let bar = Bar::turning("making a tree of the file");
     let Imported { mut document, notes } = import::document(&bytes, &import)
         .map_err(|cause| LibraryError::Import { path: path.clone(), cause })?;
-    let thumbnail = picture(&mut document);
+    let png = document::thumbnail(&mut document);
     drop(bar);
     notes.iter().for_each(ImportNote::print);
-    let saved = Saved { thumbnail, ..Saved::of(&document) };
+    let thumbnail = Picture { media_type: "image/png".into(), bytes: png };
+    let saved = Saved { thumbnail: Some(thumbnail), ..Saved::of(&document) };
     let version = new_version(note, Contents::New(Box::new(saved)));
     let tree = match &options.to {
         Some(tree) => Some(found(&LibraryFile::open(&options.database.path).await?, tree).await?),
@@ -323,17 +321,6 @@ async fn restore(options: &RestoreVersion) -> Result<(), LibraryError> {
     })?;
     say(&format!("{tree} has version {newest}, which is as version {number}."));
     Ok(())
-}
-
-/// A picture of a tree as pages make them. A tree is saved without one rather than not at all.
-fn picture(document: &mut Document) -> Option<Picture> {
-    PICTURES.into_iter().find_map(|size| {
-        let options = ExportOptions { size: Some(Size(size, size)), ..ExportOptions::default() };
-        let mut file = Cursor::new(Vec::new());
-        document::write(document, None, Format::Picture, &options, &mut file).ok()?;
-        let bytes = file.into_inner();
-        (bytes.len() <= MAX_THUMBNAIL_BYTES).then(|| Picture { media_type: "image/png".into(), bytes })
-    })
 }
 
 fn new_version(note: String, contents: Contents) -> NewVersion {

@@ -5,6 +5,7 @@ mod announce;
 mod care;
 mod cli;
 mod document;
+mod drawn;
 mod export_options;
 mod figures;
 mod headless;

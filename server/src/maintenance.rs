@@ -6,7 +6,10 @@ use std::{
 };
 
 use espalier_proto::version::KEPT_DAYS;
-use tokio::time::{interval, sleep};
+use tokio::{
+    sync::Notify,
+    time::{interval, sleep},
+};
 use tokio_util::sync::CancellationToken;
 
 use crate::{
@@ -30,12 +33,16 @@ const EVENTS: Duration = Duration::from_hours(365 * 24);
 const STEP: u32 = 8;
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// Runs until the server stops. A session that is not saved is kept for `unsaved` after somebody was in it.
-pub async fn run(store: Arc<AnyStore>, unsaved: Duration, stop: CancellationToken) {
+/// Runs until the server stops, at times and when told. A session that is not saved is kept for `unsaved` after somebody
+/// was in it.
+pub async fn run(store: Arc<AnyStore>, unsaved: Duration, told: Arc<Notify>, stop: CancellationToken) {
     let mut ticks = interval(PERIOD);
     let work = async {
         loop {
-            ticks.tick().await;
+            tokio::select! {
+                _ = ticks.tick() => {}
+                () = told.notified() => {}
+            }
             if let Err(error) = once(&store, unsaved, SystemTime::now()).await {
                 tracing::warn!(%error, "the database could not be looked after; it is tried again later");
             }

@@ -8,7 +8,7 @@ use std::{
     time::{Duration, SystemTime},
 };
 
-use tokio::{net::TcpListener, signal, time::timeout};
+use tokio::{net::TcpListener, signal, sync::Notify, time::timeout};
 use tokio_util::sync::CancellationToken;
 use tracing_subscriber::EnvFilter;
 
@@ -16,6 +16,7 @@ use crate::{
     access::admission::{self, Invite},
     announce::{self, Medium, OpenTo},
     cli,
+    drawn::DrawnPictures,
     hosts::Hosts,
     http::{self, Shared},
     jobs::Jobs,
@@ -106,6 +107,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     let jobs = Jobs::new(pool.clone(), memory.clone(), stop.clone());
     let under_way = http::UnderWay::new(stop.clone());
     let proxies = http::Proxies::new(&options.trusted_proxies);
+    let tidying = Arc::<Notify>::default();
     let shared = Shared {
         jobs: jobs.clone(),
         store: Arc::clone(&store),
@@ -115,6 +117,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         requests: http::Requests::logged(options.access_log),
         metamer_budget: options.metamer_budget,
         portraits: Portraits::default(),
+        drawn: DrawnPictures::default(),
         hosts: Hosts::new(&options.host_names),
         progresses: http::Progresses::default(),
         under_way: under_way.clone(),
@@ -128,10 +131,11 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         logins: Arc::default(),
         passwords: Arc::default(),
         opening: Arc::default(),
+        tidying: Arc::clone(&tidying),
     };
     let growing = tokio::spawn(jobs.run(Arc::clone(&store)));
     let unsaved = Duration::from_hours(24 * u64::from(options.keep_unsaved));
-    let caring = tokio::spawn(maintenance::run(Arc::clone(&store), unsaved, stop.clone()));
+    let caring = tokio::spawn(maintenance::run(Arc::clone(&store), unsaved, tidying, stop.clone()));
     let watching = tokio::spawn(maintenance::watch(Arc::clone(&store), sessions.clone(), stop.clone()));
     let answers = Answers { crowded: http::crowded(&shared), all: http::router(shared) };
     let serving = tokio::spawn(listener::serve(

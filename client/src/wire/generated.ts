@@ -2607,9 +2607,10 @@ author?: string,
  */
 species?: string, 
 /**
- * Where its picture is, if it has one. What is there never changes.
+ * Where its picture is: the one that was saved with it, or else one that the server draws when it is first asked
+ * for. What is there never changes.
  */
-thumbnail?: string, 
+thumbnail: string, 
 /**
  * When its first version was saved.
  */
@@ -2687,9 +2688,10 @@ species?: string,
  */
 restored?: number, 
 /**
- * Where its picture is, if it has one. What is there never changes.
+ * Where its picture is: the one that was saved with it, or else one that the server draws when it is first asked
+ * for. What is there never changes.
  */
-thumbnail?: string, 
+thumbnail: string, 
 /**
  * Where its document is. What is there never changes.
  */

@@ -1,4 +1,5 @@
-//! Materials of formats that do not multiply a texture by the colours of vertices: a material has the mean of these.
+//! Materials of formats that do not multiply a texture by the colours of vertices: the texture is multiplied by the mean
+//! of these, for not all readers multiply it by a colour of the material either.
 
 use glam::Vec3;
 
@@ -14,7 +15,7 @@ pub(crate) struct MeanMaterials(pub Vec<MeanMaterial>);
 /// One material.
 pub(crate) struct MeanMaterial {
     pub name: String,
-    /// What is multiplied by its mean colour, and how deep its relief is.
+    /// What is multiplied by the mean colour, and how deep its relief is.
     pub texture: Option<(Texture, f32)>,
     /// Whether the texture has nothing in places.
     pub is_cut_out: bool,
@@ -75,8 +76,10 @@ impl MeanMaterial {
     pub(crate) fn pictures(&self) -> Vec<(String, Vec<u8>)> {
         let Some((texture, _)) = &self.texture else { return Vec::new() };
         let depth = texture.depth_png().map(|png| (self.picture("depth"), png));
-        let both =
-            [(self.picture("colour"), texture.colour_png()), (self.picture("normal"), texture.normal_png())];
+        let both = [
+            (self.picture("colour"), texture.colour_png(self.mean())),
+            (self.picture("normal"), texture.normal_png()),
+        ];
         both.into_iter().chain(depth).collect()
     }
 

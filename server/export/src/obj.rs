@@ -56,7 +56,9 @@ pub fn obj(
 /// A material as the library of materials has it.
 fn library(material: &MeanMaterial, metres: f32) -> String {
     let name = &material.name;
-    let [r, g, b] = encoded(material.mean()).map(|part| f32::from(part) / 255.0);
+    // Some readers multiply the picture by it, others take the picture alone.
+    let plain = if material.texture.is_some() { Vec3::ONE } else { material.mean() };
+    let [r, g, b] = encoded(plain).map(|part| f32::from(part) / 255.0);
     let mut text = format!("newmtl {name}\nKd {r:.4} {g:.4} {b:.4}\nKs 0 0 0\nillum 1\n");
     if let Some((texture, relief)) = &material.texture {
         let [colour, normal] = ["colour", "normal"].map(|kind| material.picture(kind));

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use espalier_plant::{AxisId, Carried, Internode, MetamerId, Plant, Wood};
+use espalier_plant::{AxisId, Carried, DormantBuds, Internode, MetamerId, Plant, Wood};
 use glam::{Mat3, Quat, Vec3};
 
 use crate::{
@@ -376,7 +376,7 @@ impl<'a> Writer<'a> {
         let laterals = &self.borne[from..to];
         let mut directions: Vec<Vec3> =
             laterals.iter().map(|&(_, lateral)| self.direction(lateral as usize, number, heading)).collect();
-        if !self.wood().has_buds {
+        if self.wood().buds != DormantBuds::Known {
             let (sin, cos) = self.parameters.branching;
             let buds = self.parameters.buds_per_node as usize;
             for &around in self.parameters.whorl.iter().take(buds).skip(directions.len()) {

@@ -233,6 +233,7 @@ pub(super) fn routes() -> Vec<Route> {
         route("GET /api/v1/trees/{tree}", Action::SeeTree, get(trees::find), About::new("One tree; one that was deleted as well, with its `deleted_at`.").gives::<SavedTree>(200)),
         route("PATCH /api/v1/trees/{tree}", Action::ChangeTree, patch(trees::change), About::new("Change what is said of a tree.").takes::<ChangeTree>().gives::<SavedTree>(200).revised()).up_to(MAX_SAID_BODY),
         route("DELETE /api/v1/trees/{tree}", Action::DeleteTree, delete(trees::delete), About::new(format!("Delete a tree; it can be taken back for {KEPT_DAYS} days (LB6).")).gives_nothing().revised()).noted("delete"),
+        route("DELETE /api/v1/trees/{tree}/for-good", Action::DeleteTree, delete(trees::delete_for_good), About::new("Delete a tree that was deleted, with all of its versions, so that it cannot be taken back (LB6).").gives_nothing().revised()).noted("delete-for-good"),
         route("POST /api/v1/trees/{tree}/undelete", Action::DeleteTree, post(trees::undelete), About::new("Take a deleted tree back.").gives::<SavedTree>(200).revised()).noted("undelete"),
         route("POST /api/v1/trees/{tree}/copies", Action::OpenTree, post(trees::copy), About::new("Duplicate a tree, or branch from a version; the answer is the new tree.").takes::<CopyTree>().gives::<SavedTree>(201)).up_to(MAX_SAID_BODY),
         route("GET /api/v1/trees/{tree}/links", Action::ShareTree, get(links::list), About::new("Who was invited to this tree alone, newest first (AC12).").gives::<Vec<TreeLink>>(200)),

@@ -34,7 +34,7 @@ use super::{
 use crate::{
     document::{FORMATS, FileError, FormatRow, Stored},
     export_options::{ExportOptions, NotOfFormat},
-    memory::{self, Use},
+    memory::Use,
     spool::Spool,
 };
 
@@ -162,11 +162,15 @@ impl Wanted {
         asked: &HeaderMap,
     ) -> Result<Response, Failure> {
         let Self { row, options, progress, held } = self;
-        let claim = shared.memory.take_soon(Use::Export, memory::export(bytes.as_ref().len())).await?;
+        let claim = shared.memory.take_soon(Use::Export, row.weight(bytes.as_ref().len())).await?;
         // The same program makes the same file of the same document.
         let said = format!("{options:?}");
         let program = env!("CARGO_PKG_VERSION");
         let tag = ranges::tag(&[program.as_bytes(), row.ending.as_bytes(), said.as_bytes(), bytes.as_ref()]);
+        let headers = headers(row, &format!("tree.{}", row.ending));
+        if ranges::is_known(asked, &tag) {
+            return Ok(ranges::not_modified(headers, &tag));
+        }
         // Whoever goes away takes this along, and with it what is being made.
         let stop = CancellationToken::new();
         let gone = stop.clone().drop_guard();
@@ -189,7 +193,6 @@ impl Wanted {
             }
             Err(_) => return Err(crate::pool::Panicked.into()),
         };
-        let headers = headers(row, &format!("tree.{}", row.ending));
         drop(gone.disarm());
         ranges::answer(asked, headers, &tag, file, length)
     }

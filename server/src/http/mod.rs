@@ -41,7 +41,7 @@ use axum::{
     routing::{MethodRouter, any, get},
 };
 use espalier_proto::Reason;
-use tokio::sync::Mutex;
+use tokio::sync::{Mutex, Notify};
 use tower::ServiceBuilder;
 
 pub(crate) use self::comments::Said as SaidComment;
@@ -63,6 +63,7 @@ use self::{
 };
 use crate::{
     access::{SecretHash, Tries, password::Passwords},
+    drawn::DrawnPictures,
     hosts::Hosts,
     jobs::Jobs,
     live::Sessions,
@@ -92,6 +93,8 @@ pub struct Shared {
     pub metamer_budget: u32,
     /// Pictures of the species.
     pub portraits: Portraits,
+    /// Pictures of versions that were saved without one.
+    pub drawn: DrawnPictures,
     /// The names that requests may come under.
     pub hosts: Hosts,
     /// Where other machines reach the server, where they do: the likeliest first.
@@ -114,6 +117,8 @@ pub struct Shared {
     pub passwords: Arc<Passwords>,
     /// Held by whoever opens a tree.
     pub opening: Arc<Mutex<()>>,
+    /// Told where there is something to give back to the disk.
+    pub tidying: Arc<Notify>,
     /// How far exports are.
     pub progresses: Progresses,
     /// Trees that are grown on request.

@@ -40,6 +40,9 @@ pub(super) fn answer(
     mut file: impl Read + Seek + Send + 'static,
     length: u64,
 ) -> Result<Response, Failure> {
+    if is_known(asked, tag) {
+        return Ok(not_modified(said, tag));
+    }
     let Ok(part) = wanted(asked, tag, length) else { return Ok(beyond(length)) };
     let status = if part.is_some() { StatusCode::PARTIAL_CONTENT } else { StatusCode::OK };
     let place = part
@@ -66,6 +69,18 @@ pub(super) fn answer_with(
 ) -> Result<Response, Failure> {
     let (tag, length) = (tag(&[&bytes]), bytes.len() as u64);
     answer(asked, said, &tag, Cursor::new(bytes), length)
+}
+
+/// Whether whoever asks has the file of this tag already (`If-None-Match`).
+pub(super) fn is_known(asked: &HeaderMap, tag: &str) -> bool {
+    let tags = asked.get_all(header::IF_NONE_MATCH).iter().filter_map(|tags| tags.to_str().ok());
+    let bare = |tag: &str| tag.trim().trim_start_matches("W/").to_owned();
+    tags.flat_map(|tags| tags.split(',')).any(|one| one.trim() == "*" || bare(one) == bare(tag))
+}
+
+/// Says that the file is still the one that whoever asks has.
+pub(super) fn not_modified(said: impl IntoResponseParts, tag: &str) -> Response {
+    (StatusCode::NOT_MODIFIED, said, [(header::ETAG, tag.to_owned())]).into_response()
 }
 
 fn beyond(length: u64) -> Response {
@@ -104,6 +119,25 @@ mod tests {
             assert_eq!(condition(other), Ok(None), "{other}");
         }
         assert_eq!(asked(&[(header::RANGE, "bytes=10-")]), Err(Beyond));
+    }
+
+    #[test]
+    fn rg2_who_has_a_file_is_not_sent_it_again() {
+        for (tags, expected) in [
+            (&[][..], false),
+            (&["\"x\""], true),
+            (&["W/\"x\""], true),
+            (&["\"y\", \"x\""], true),
+            (&["\"y\"", "*"], true),
+            (&["\"xy\"", "x"], false),
+        ] {
+            let asked = tags.iter().map(|tag| (header::IF_NONE_MATCH, tag.parse().unwrap()));
+            let mut headers = HeaderMap::new();
+            for (name, value) in asked {
+                headers.append(name, value);
+            }
+            assert_eq!(is_known(&headers, "\"x\""), expected, "{tags:?}");
+        }
     }
 
     #[tokio::test]

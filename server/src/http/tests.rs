@@ -26,6 +26,7 @@ use super::*;
 use crate::{
     access::{Caller, Peer, Reach, Secret, admission::TOKEN},
     document::FORMATS,
+    drawn::DrawnPictures,
     export_options::ExportOptions,
     jobs::Order,
     name,
@@ -65,6 +66,7 @@ async fn shared() -> Shared {
         pool,
         metamer_budget: 1000,
         portraits: Portraits::default(),
+        drawn: DrawnPictures::default(),
         hosts: Hosts::new(&[]),
         addresses: Arc::new([AT.into()]),
         proxies: Proxies::new(&[IpAddr::from(PROXY).into()]),
@@ -76,6 +78,7 @@ async fn shared() -> Shared {
         logins: Arc::default(),
         passwords: Arc::default(),
         opening: Arc::default(),
+        tidying: Arc::default(),
         progresses: Progresses::default(),
         under_way: UnderWay::default(),
     }

@@ -31,8 +31,8 @@ use crate::{
     name,
     similar::similar,
     store::{
-        Contents, Deletion, Finding, Library, NewTree, NewVersion, Sort, StoreError, StoredTree, TreeChange,
-        TreePlace, TreeQuery,
+        Contents, Deletion, Finding, Library, NOT_SO_LONG_AGO, NewTree, NewVersion, Sort, StoreError,
+        StoredTree, TreeChange, TreePlace, TreeQuery,
     },
     time::{Time, now},
 };
@@ -275,6 +275,19 @@ pub(super) async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
+/// A tree that was deleted goes at once; its room on the disk follows.
+pub(super) async fn delete_for_good(
+    State(shared): State<Shared>,
+    Path(id): Path<String>,
+    Expected(expected): Expected,
+) -> Result<StatusCode, Failure> {
+    let deletion = Some(Deletion::ForGood);
+    shared.store.change_tree(&id, expected, TreeChange { deletion, ..TreeChange::default() }).await?;
+    shared.store.purge(NOT_SO_LONG_AGO, 1).await?;
+    shared.tidying.notify_one();
+    Ok(StatusCode::NO_CONTENT)
+}
+
 pub(super) async fn undelete(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
@@ -342,7 +355,7 @@ async fn to_proto(
     let people = people_on(shared, &tree).await?;
     let head = tree.head;
     Ok(SavedTree {
-        thumbnail: versions::thumbnail_of(&tree.id, &head),
+        thumbnail: versions::thumbnail_of(&tree.id, head.number),
         favourite: favourites.contains(&tree.id),
         id: tree.id,
         name: tree.name,

@@ -12,7 +12,7 @@ use espalier_proto::{
     thumbnail,
     version::TURNTABLE_PICTURES,
 };
-use espalier_session::{DocumentError, Principal};
+use espalier_session::Principal;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -28,8 +28,8 @@ use super::{
 use crate::{
     SIMULATION_VERSION,
     access::{Action, Caller},
-    document::Stored,
-    pool::Class,
+    drawn::{DrawError, Kind},
+    pool::Panicked,
     store::{Contents, Library, NewVersion, Saved, StoredVersion, TreeChange, TreeDocument},
     time::now,
 };
@@ -181,17 +181,18 @@ pub(super) async fn document(
     ranges::answer_with(&asked, said, document.bytes)
 }
 
+/// The picture that was saved with a version, or else one that is drawn (`LB1`).
 pub(super) async fn thumbnail(
     State(shared): State<Shared>,
+    caller: Caller,
     Path((tree, number)): Path<(String, u32)>,
     asked: HeaderMap,
 ) -> Result<Response, Failure> {
-    let Some(picture) = shared.store.thumbnail(&tree, number).await? else {
-        trees::stored(&shared, &tree).await?;
-        return Err(Failure::none_such("picture", "version", "the number of a version that has a picture"));
-    };
-    let headers = [(header::CONTENT_TYPE, picture.media_type), (FOR_GOOD.0, FOR_GOOD.1.to_owned())];
-    ranges::answer_with(&asked, headers, picture.bytes)
+    if let Some(picture) = shared.store.thumbnail(&tree, number).await? {
+        let headers = [(header::CONTENT_TYPE, picture.media_type), (FOR_GOOD.0, FOR_GOOD.1.to_owned())];
+        return ranges::answer_with(&asked, headers, picture.bytes);
+    }
+    drawn(&shared, &caller, tree, number, Kind::Thumbnail, &asked).await
 }
 
 /// Pictures of a version from all around, side by side (`LB9`).
@@ -201,22 +202,47 @@ pub(super) async fn turntable(
     Path((tree, number)): Path<(String, u32)>,
     asked: HeaderMap,
 ) -> Result<Response, Failure> {
-    let saved = sessions::saved_document(&shared, &tree, number).await?;
-    let drawn = shared.pool.run(Class::Whole, caller.person().into(), move |_| {
-        Ok::<_, DocumentError>(Stored::read(&saved.bytes)?.strip(TURNTABLE_SIDE, TURNTABLE_PICTURES))
-    });
-    let png = drawn.await?.map_err(|error| sessions::unreadable(&tree, &error))?;
-    ranges::answer_with(&asked, [(header::CONTENT_TYPE, "image/png"), FOR_GOOD], png)
+    let kind = Kind::Turntable { side: TURNTABLE_SIDE, count: TURNTABLE_PICTURES };
+    drawn(&shared, &caller, tree, number, kind, &asked).await
 }
 
-/// Where the picture of a version is, if it has one.
-pub(super) fn thumbnail_of(tree: &str, version: &StoredVersion) -> Option<String> {
-    version.has_thumbnail.then(|| format!("/api/v1/trees/{tree}/versions/{}/thumbnail", version.number))
+/// A picture that the server draws. Whoever goes away leaves it to those who come after.
+async fn drawn(
+    shared: &Shared,
+    caller: &Caller,
+    tree: String,
+    number: u32,
+    kind: Kind,
+    asked: &HeaderMap,
+) -> Result<Response, Failure> {
+    let png = match shared.drawn.kept(&tree, number, kind) {
+        Some(png) => png,
+        None => {
+            let saved = sessions::saved_document(shared, &tree, number).await?;
+            let (shared, person, key) =
+                (shared.clone(), caller.person().into(), (tree.clone(), number, kind));
+            let drawing = tokio::spawn(async move {
+                shared.drawn.of(key, saved, (&shared.memory, &shared.pool), person).await
+            });
+            match drawing.await.map_err(|_| Panicked)? {
+                Ok(png) => png,
+                Err(DrawError::Document(error)) => return Err(sessions::unreadable(&tree, &error)),
+                Err(DrawError::Full(full)) => return Err(full.into()),
+                Err(DrawError::Panicked(panicked)) => return Err(panicked.into()),
+            }
+        }
+    };
+    ranges::answer_with(asked, [(header::CONTENT_TYPE, "image/png"), FOR_GOOD], png.to_vec())
+}
+
+/// Where the picture of a version is.
+pub(super) fn thumbnail_of(tree: &str, version: u32) -> String {
+    format!("/api/v1/trees/{tree}/versions/{version}/thumbnail")
 }
 
 fn to_proto(tree: &str, version: StoredVersion) -> TreeVersion {
     TreeVersion {
-        thumbnail: thumbnail_of(tree, &version),
+        thumbnail: thumbnail_of(tree, version.number),
         document: format!("/api/v1/trees/{tree}/versions/{}/document", version.number),
         number: version.number,
         saved_at: version.saved_at,

@@ -1,5 +1,6 @@
 //! How texts are compared when trees are sorted and searched.
 
+use espalier_growth::species;
 use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};
 
 /// A text without the difference of large and small letters, and without accents.
@@ -15,10 +16,25 @@ pub(super) fn searched(name: &str, tags: &[String], note: &str, species: Option<
     folded(&parts.collect::<Vec<_>>().join("\n"))
 }
 
-/// What a searched word is found by, folded: itself, or any of its parts between bars.
+/// What a searched word is found by, folded: itself, or any of its parts between bars; a part of a species' common or
+/// botanical name by the species' short name as well.
 pub(super) fn alternatives(word: &str) -> Vec<String> {
-    let parts: Vec<String> = word.split('|').filter(|part| !part.is_empty()).map(folded).collect();
-    if parts.is_empty() { vec![folded(word)] } else { parts }
+    let mut parts: Vec<String> = word.split('|').filter(|part| !part.is_empty()).map(folded).collect();
+    if parts.is_empty() {
+        parts.push(folded(word));
+    }
+    let is_named = |name: &str| {
+        let name = folded(name);
+        parts.iter().any(|part| part.chars().count() >= 3 && name.contains(part))
+    };
+    let named = species::all().iter().filter(|one| is_named(one.name) || is_named(one.botanical));
+    let slugs: Vec<String> = named.map(|one| folded(one.slug)).collect();
+    for slug in slugs {
+        if !parts.contains(&slug) {
+            parts.push(slug);
+        }
+    }
+    parts
 }
 
 #[cfg(test)]
@@ -27,9 +43,13 @@ mod tests {
 
     #[test]
     fn bars_part_what_a_word_is_found_by() {
-        for (word, expected) in
-            [("Oak", vec!["oak"]), ("Eiche|Öl|", vec!["eiche", "ol"]), ("|", vec!["|"]), ("||", vec!["||"])]
-        {
+        for (word, expected) in [
+            ("Oak", vec!["oak"]),
+            ("querc", vec!["querc", "oak"]),
+            ("Eiche|Öl|", vec!["eiche", "ol"]),
+            ("|", vec!["|"]),
+            ("||", vec!["||"]),
+        ] {
             assert_eq!(alternatives(word), expected, "{word}");
         }
     }

@@ -168,8 +168,22 @@ pub struct TreeChange {
 pub enum Deletion {
     /// It is deleted, at a time.
     Deleted(String),
+    /// One that was deleted can be taken back no longer.
+    ForGood,
     /// It is there again.
     Undeleted,
+}
+
+/// When what is deleted for good was deleted: before anything else was.
+pub const LONG_AGO: &str = "0000-01-01T00:00:00.000Z";
+/// Before this, and after [`LONG_AGO`].
+pub const NOT_SO_LONG_AGO: &str = "0001";
+
+impl Deletion {
+    /// Whether it is for what is deleted already.
+    pub fn is_of_deleted(&self) -> bool {
+        !matches!(self, Self::Deleted(_))
+    }
 }
 
 /// One tree of the library.

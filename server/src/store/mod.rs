@@ -40,8 +40,8 @@ pub use self::{
     groups::{Group, Groups},
     lease::Lease,
     library::{
-        Contents, Deletion, Library, NewTree, NewVersion, Picture, Saved, SessionTree, StoredTree,
-        StoredVersion, TreeChange, TreeDocument,
+        Contents, Deletion, LONG_AGO, Library, NOT_SO_LONG_AGO, NewTree, NewVersion, Picture, Saved,
+        SessionTree, StoredTree, StoredVersion, TreeChange, TreeDocument,
     },
     locks::Locks,
     passes::{Pass, PassKind, Passes},
@@ -201,7 +201,15 @@ impl Missing {
     }
 }
 
+/// What [`StoreError::in_words`] says where the disk is.
+const FULL_DISK: &str = "the disk is full";
+
 impl StoreError {
+    /// Whether there is no room on the disk.
+    pub fn is_full_disk(&self) -> bool {
+        matches!(self, Self::Failed { words, .. } if *words == FULL_DISK)
+    }
+
     /// What can be told to a client: half a sentence.
     pub fn in_words(&self) -> &'static str {
         match self {

@@ -81,6 +81,24 @@ async fn a_thumbnail_comes_back_as_it_was() {
 }
 
 #[tokio::test]
+async fn lb10_a_version_without_a_picture_is_drawn() {
+    let library = Library::new().await;
+    let body = json!({"session": library.client.session, "name": "Plain"});
+    let tree = library.ask("POST", "/api/v1/trees", Some(body)).json();
+    let link = tree["thumbnail"].as_str().expect("each tree has a picture");
+    let picture = library.ask("GET", link, None);
+    assert_eq!((picture.status, picture.header("content-type")), (200, Some("image/png")));
+    let number = |at: usize| u32::from_be_bytes(picture.body[at..at + 4].try_into().expect("four bytes"));
+    assert!(number(16) >= 256 && number(16) == number(20), "{} by {}", number(16), number(20));
+    assert!(picture.body == library.ask("GET", link, None).body, "it is the same again");
+    let known = picture.header("etag").expect("a tag").to_owned();
+    let headers = format!("if-none-match: {known}\r\n");
+    let again = http::send_with(library.server.port(), "GET", link, &headers, &[]).expect("an answer");
+    assert_eq!((again.status, again.body.len()), (304, 0));
+    assert_eq!(library.ask("GET", &link.replace("versions/1", "versions/7"), None).status, 404);
+}
+
+#[tokio::test]
 async fn lb9_a_version_is_seen_from_all_around() {
     let library = Library::new().await;
     let tree = library.save("Round");

@@ -224,6 +224,19 @@ async fn lb6_a_deleted_tree_is_taken_back_whole() {
 }
 
 #[tokio::test]
+async fn lb6_a_deleted_tree_goes_for_good_when_told() {
+    let library = Library::new().await;
+    let path = path_of(&library.save("Pear"));
+    let for_good = format!("{path}/for-good");
+    assert_eq!(library.ask("DELETE", &for_good, None).status, 404, "only one that is deleted");
+    assert_eq!(library.ask("DELETE", &path, None).status, 204);
+    assert_eq!(library.ask("DELETE", &for_good, None).status, 204);
+    assert_eq!(library.ask("POST", &format!("{path}/undelete"), Some(json!({}))).status, 404);
+    assert_eq!(library.ask("GET", &path, None).status, 404);
+    assert_eq!(library.get("/api/v1/trees?deleted=true")["trees"], json!([]));
+}
+
+#[tokio::test]
 async fn lb5_what_is_said_is_plain_text() {
     let library = Library::new().await;
     let path = path_of(&library.save("Pear"));

@@ -58,6 +58,11 @@ export async function deleteTree(id: string): Promise<void> {
   await ask<undefined>("DELETE", pathOf(id));
 }
 
+/** Deletes one that was deleted, so that it cannot be taken back. */
+export async function deleteTreeForGood(id: string): Promise<void> {
+  await ask<undefined>("DELETE", `${pathOf(id)}/for-good`);
+}
+
 export function undeleteTree(id: string): Promise<SavedTree> {
   return ask<SavedTree>("POST", `${pathOf(id)}/undelete`);
 }

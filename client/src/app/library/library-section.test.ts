@@ -25,6 +25,7 @@ async function section(name: SectionName = "trees", wanted: Wanted = ANYTHING) {
       changeTree: async (id, change) => ({ ...answer("change", id), ...change }),
       copyTree: async (id, { name }) => ({ ...answer("copy", id), id: `${id}2`, name }),
       deleteTree: async (id) => void answer("delete", id),
+      deleteTreeForGood: async (id) => void answer("for good", id),
       undeleteTree: async (id) => answer("undelete", id),
       setFavourite: async (id, favourite) => void answer(favourite ? "star" : "unstar", id),
     },
@@ -122,6 +123,13 @@ describe("a section", () => {
     await here.move(all.slice(0, 2), { id: "wood", name: "Wood" });
     expect([ids(), said[0]?.text]).toEqual([["a", "b", "c"], "2 trees lie in “Wood” now"]);
     expect(here.pages.items.value?.[0]?.collection).toBe("wood");
+  });
+
+  it("what is deleted for good leaves the section of deleted trees", async () => {
+    const { section: here, all, asked, said, ids } = await section("deleted");
+    await here.removeForGood(all[0]!);
+    expect([ids(), asked, said.map(({ text }) => text)]).toEqual([["b", "c"], ["for good a"], ["“A” is gone for good"]]);
+    expect(said[0]?.action).toBeUndefined();
   });
 
   it("what is taken back leaves the section of deleted trees", async () => {

@@ -21,7 +21,7 @@ export interface SectionOptions {
   readonly name: SectionName;
   readonly api: Pick<
     typeof api,
-    "listTrees" | "changeTree" | "copyTree" | "deleteTree" | "undeleteTree" | "setFavourite"
+    "listTrees" | "changeTree" | "copyTree" | "deleteTree" | "deleteTreeForGood" | "undeleteTree" | "setFavourite"
   >;
   readonly wanted: () => Wanted;
   /** Those that the server is known to have. */
@@ -141,6 +141,18 @@ export class LibrarySection {
     }
   }
 
+  /** Deletes one that was deleted, so that it cannot be taken back. */
+  async removeForGood(tree: SavedTree): Promise<void> {
+    const { api, show } = this.#options;
+    const done = await this.#each([tree], async ({ id }) => {
+      await api.deleteTreeForGood(id);
+      this.pages.replace(id, null);
+    });
+    if (done.length > 0) {
+      show(outcome("gone", done));
+    }
+  }
+
   /** Takes deleted trees back. */
   async takeBack(trees: readonly SavedTree[]): Promise<void> {
     const done = await this.#each(trees, async ({ id }) => this.#returned(await this.#options.api.undeleteTree(id)));
@@ -202,7 +214,7 @@ export class LibrarySection {
 const undo = (act: () => Promise<void>): ToastAction => ({ label: say("library.undo"), act: () => void act() });
 
 function outcome(
-  what: "template" | "no-template" | "duplicated" | "deleted" | "back" | "moved" | "moved-out",
+  what: "template" | "no-template" | "duplicated" | "deleted" | "gone" | "back" | "moved" | "moved-out",
   trees: readonly SavedTree[],
   values: Readonly<Record<string, string>> = {},
 ): string {

@@ -23,7 +23,8 @@ impl Writer<'_> {
             Surface::Thin(_, texture) => {
                 let mut material = plain(name, Vec3::ONE, 0.7);
                 let pbr = &mut material.pbr_metallic_roughness;
-                pbr.base_color_texture = Some(self.texture(format!("{name} colour"), &texture.colour_png())?);
+                pbr.base_color_texture =
+                    Some(self.texture(format!("{name} colour"), &texture.colour_png(Vec3::ONE))?);
                 material.normal_texture = Some(self.normals(name, texture, 1.0)?);
                 material.alpha_mode = Some("MASK");
                 material.double_sided = true;
@@ -38,7 +39,8 @@ impl Writer<'_> {
                     None => None,
                 };
                 let pbr = &mut material.pbr_metallic_roughness;
-                pbr.base_color_texture = Some(self.texture(format!("{name} colour"), &texture.colour_png())?);
+                pbr.base_color_texture =
+                    Some(self.texture(format!("{name} colour"), &texture.colour_png(Vec3::ONE))?);
                 pbr.metallic_roughness_texture = exposure;
                 material.occlusion_texture = exposure;
                 material.normal_texture = Some(self.normals(name, texture, *relief)?);

@@ -23,6 +23,11 @@ impl View {
         Self { axes: [right, eye.cross(right), eye], scale, origin }
     }
 
+    /// The same view without its first rows.
+    pub(crate) fn below_row(&self, first: f32) -> Self {
+        Self { origin: self.origin - Vec2::new(0.0, first), ..*self }
+    }
+
     /// The unit vector to the eye.
     pub(crate) fn eye(&self) -> Vec3 {
         self.axes[2]

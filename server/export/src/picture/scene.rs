@@ -37,6 +37,8 @@ impl From<&Species> for Look {
 
 /// Samples across a pixel.
 const SAMPLES: usize = 3;
+/// Pixels that are drawn at once.
+const MOST_AT_ONCE: usize = 1_100_000;
 /// Share of a picture's height below the foot of the plant.
 const FOOT: f32 = 0.1;
 /// Share of a picture's width and height that the plant may take.
@@ -72,40 +74,57 @@ impl Default for Framing {
 /// A plant on what it stands on, ready for pictures.
 pub(super) struct Stage {
     scene: Scene,
-    points: Vec<Vec3>,
+    /// Corners beside those of the meshes that a picture has room for.
+    room: Vec<Vec3>,
     base: f32,
 }
 
 impl Stage {
     pub(super) fn of(plant: &Plant, style: &Style, look: &Look) -> Self {
-        Self::on(Meshes::of(plant, style, &look.appearance, None), look.stand, &[])
+        Self::on(Meshes::of(plant, style, &look.appearance, None), look.stand, Vec::new())
     }
 
     /// Meshes on what they stand on, framed with room for more corners than theirs.
-    pub(super) fn on(Meshes(mut meshes): Meshes, under: Stand, room: &[Vec3]) -> Self {
-        let (points, reach) = extent(&meshes);
+    pub(super) fn on(Meshes(mut meshes): Meshes, under: Stand, room: Vec<Vec3>) -> Self {
+        let reach = corners(&meshes).map(Vec3::length).fold(1.0, f32::max);
         let base = stand(&mut meshes, under, reach);
-        // What it stands on is to be seen as well.
-        let (mut points, _) = if base < 0.0 { extent(&meshes) } else { (points, reach) };
-        points.extend(room);
         ground(&mut meshes, base, reach);
-        let sun = Sun::new(&meshes, &points);
-        Self { scene: Scene { sun, meshes, reach }, points, base }
+        let sun = Sun::new(&meshes, corners(&meshes).chain(room.iter().copied()));
+        Self { scene: Scene { sun, meshes, reach }, room, base }
     }
 
     /// The view from a direction in which all of it fits above the foot line.
     pub(super) fn framed(&self, eye: Vec3, size: [usize; 2], framing: &Framing) -> View {
-        framed(&self.points, eye, self.base, samples(size), framing)
+        framed(
+            corners(&self.scene.meshes).chain(self.room.iter().copied()),
+            eye,
+            self.base,
+            samples(size),
+            framing,
+        )
+    }
+
+    fn lawn(&self, view: &View, size: [usize; 2]) -> Lawn {
+        let size = samples(size);
+        Lawn {
+            reach: Vec2::new(0.5 * size.x, FOOT * size.y / view.eye().y) / view.scale(),
+            middle: (0.5 * size.x - view.project(Vec3::ZERO).x) / view.scale(),
+        }
     }
 
     pub(super) fn seen(&self, view: &View, size: [usize; 2]) -> Canvas {
         let [width, height] = size;
-        let size = samples(size);
-        let lawn = Lawn {
-            reach: Vec2::new(0.5 * size.x, FOOT * size.y / view.eye().y) / view.scale(),
-            middle: (0.5 * size.x - view.project(Vec3::ZERO).x) / view.scale(),
-        };
-        self.scene.paint(view, &lawn, width * SAMPLES, height * SAMPLES).reduced(SAMPLES)
+        let lawn = self.lawn(view, size);
+        // A large picture is drawn in bands, since a sample takes far more than what is kept of it.
+        let rows = (MOST_AT_ONCE / width.max(1)).clamp(1, height.max(1));
+        let mut canvas = Canvas::new(width, height, Vec3::ZERO);
+        for top in (0..height).step_by(rows) {
+            let rows = rows.min(height - top);
+            let view = view.below_row((top * SAMPLES) as f32);
+            let band = self.scene.paint(&view, &lawn, width * SAMPLES, rows * SAMPLES);
+            canvas.paste(&band.reduced(SAMPLES), 0, top);
+        }
+        canvas
     }
 }
 
@@ -113,18 +132,17 @@ fn samples([width, height]: [usize; 2]) -> Vec2 {
     Vec2::new((width * SAMPLES) as f32, (height * SAMPLES) as f32)
 }
 
-/// All corners, and how far the plant reaches from where it stands.
-fn extent(meshes: &[(Skin, Painted)]) -> (Vec<Vec3>, f32) {
-    let points: Vec<Vec3> = meshes.iter().flat_map(|(_, painted)| painted.mesh.positions.clone()).collect();
-    let reach = points.iter().map(|p| p.length()).fold(1.0, f32::max);
-    (points, reach)
+/// All corners of the plant and of what it stands on, but for the ground.
+fn corners(meshes: &[(Skin, Painted)]) -> impl Iterator<Item = Vec3> {
+    let standing = meshes.iter().filter(|(skin, _)| *skin != Skin::Ground);
+    standing.flat_map(|(_, painted)| painted.mesh.positions.iter().copied())
 }
 
 /// A view in which all points fit above the foot line, which shows the height `base`.
-fn framed(points: &[Vec3], eye: Vec3, base: f32, size: Vec2, framing: &Framing) -> View {
+fn framed(points: impl Iterator<Item = Vec3>, eye: Vec3, base: f32, size: Vec2, framing: &Framing) -> View {
     let plain = View::new(eye, 1.0, Vec2::ZERO);
     let foot = plain.project(Vec3::Y * base).y;
-    let seen = points.iter().map(|&point| plain.project(point));
+    let seen = points.map(|point| plain.project(point));
     let (mut low, mut high) = (Vec3::new(-0.5, -1.0, 0.0), Vec3::new(0.5, 0.0, 0.0));
     for point in seen {
         (low, high) = (low.min(point), high.max(point));
@@ -217,6 +235,22 @@ mod tests {
         };
         let [ground, tray, pot] = [Stand::Ground, Stand::Tray, Stand::Pot].map(lowest_wood);
         assert!(ground > tray && tray > pot, "{ground:?}, {tray:?}, {pot:?}");
+    }
+
+    #[test]
+    fn a_picture_in_bands_is_whole() {
+        let plant = pole(6);
+        let stage = Stage::of(&plant, &Style::default(), &Look::default());
+        let view = stage.framed(Vec3::new(0.0, EYE_HEIGHT, 1.0).normalize(), [64, 48], &Framing::default());
+        let whole = stage.seen(&view, [64, 48]);
+        for top in [0, 16, 32] {
+            let lawn = stage.lawn(&view, [64, 48]);
+            let rows = view.below_row((top * SAMPLES) as f32);
+            let band = stage.scene.paint(&rows, &lawn, 64 * SAMPLES, 16 * SAMPLES).reduced(SAMPLES);
+            for (x, y) in (0..16).flat_map(|y| (0..64).map(move |x| (x, y))) {
+                assert!((band.get(x, y) - whole.get(x, top + y)).length() < 0.02, "{x}, {}", top + y);
+            }
+        }
     }
 
     #[test]

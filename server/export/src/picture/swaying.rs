@@ -45,7 +45,7 @@ pub fn swaying(
     let steady = Framing { is_steady: true, ..Framing::default() };
     let pictures = (0..frames).map(|frame| {
         let posed = Posed::at(&motion, metres, f32::from(frame) / f32::from(frames));
-        let stage = Stage::on(meshes.moved(&posed), look.stand, &room);
+        let stage = Stage::on(meshes.moved(&posed), look.stand, room.clone());
         stage.seen(&stage.framed(eye, size, &steady), size).pixels()
     });
     png::animated(size, [LOOP as u16, frames], pictures, out)

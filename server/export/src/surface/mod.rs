@@ -43,13 +43,13 @@ impl Depth {
 }
 
 impl Texture {
-    /// The colours as a PNG file, with cover where there is nothing in places.
-    pub(crate) fn colour_png(&self) -> Vec<u8> {
+    /// The colours times a tint as a PNG file, with cover where there is nothing in places.
+    pub(crate) fn colour_png(&self, tint: Vec3) -> Vec<u8> {
         if self.cover.iter().all(|&cover| cover == 255) {
-            return self.png(|texel| encoded(self.colours[texel]));
+            return self.png(|texel| encoded(self.colours[texel] * tint));
         }
         self.png(|texel| {
-            let [r, g, b] = encoded(self.colours[texel]);
+            let [r, g, b] = encoded(self.colours[texel] * tint);
             [r, g, b, self.cover[texel]]
         })
     }

@@ -228,7 +228,7 @@ async fn ik3_a_panic_frees_its_key() {
 #[tokio::test]
 async fn ik3_a_server_that_stops_waits_for_what_it_does_also_where_nobody_else_does() {
     let shared = shared().await;
-    let go_on = Arc::new(tokio::sync::Notify::new());
+    let go_on = Arc::new(Notify::new());
     let waiting = Arc::clone(&go_on);
     let server = alone(&shared, move || {
         let waiting = Arc::clone(&waiting);

@@ -2,8 +2,8 @@
 
 use super::{
     super::{
-        Contents, Deletion, Library, Missing, NewTree, NewVersion, Picture, Saved, SessionTree, StoreError,
-        StoredTree, StoredVersion, TreeChange, TreeDocument, TreeQuery,
+        Contents, Deletion, LONG_AGO, Library, Missing, NewTree, NewVersion, Picture, Saved, SessionTree,
+        StoreError, StoredTree, StoredVersion, TreeChange, TreeDocument, TreeQuery,
         seal::{document_hash, tree_sum, version_sum},
     },
     Kept, MemoryStore, finding,
@@ -183,7 +183,7 @@ impl Library for MemoryStore {
         let has_collection = change.collection.iter().flatten().all(is_known);
         let tree = kept.tree(id, expected)?;
         let TreeChange { name, note, is_template, version_note, tags, collection, deletion } = change;
-        if tree.deleted_at.is_some() != (deletion == Some(Deletion::Undeleted)) {
+        if tree.deleted_at.is_some() != deletion.as_ref().is_some_and(Deletion::is_of_deleted) {
             return Err(StoreError::NotFound(Missing::Tree));
         }
         if !has_collection {
@@ -206,6 +206,7 @@ impl Library for MemoryStore {
         tree.tags.dedup();
         tree.deleted_at = match deletion {
             Some(Deletion::Deleted(at)) => Some(at),
+            Some(Deletion::ForGood) => Some(LONG_AGO.into()),
             Some(Deletion::Undeleted) | None => None,
         };
         tree.revision += 1;

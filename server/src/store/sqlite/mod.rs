@@ -14,6 +14,7 @@ mod packing;
 mod parts;
 mod passes;
 mod place;
+mod reserve;
 mod sessions;
 mod shrinking;
 mod tree_writes;
@@ -310,7 +311,7 @@ fn in_words(error: &sqlx::Error) -> Option<&'static str> {
         8 => "it is read-only",
         10 => "the disk cannot be read or written",
         11 => "it is damaged",
-        13 => "the disk is full",
+        13 => super::FULL_DISK,
         14 => "it cannot be opened; does the folder exist, and may you write there?",
         23 => "access to it is denied",
         26 => "it is not a database",

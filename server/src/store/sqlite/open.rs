@@ -16,7 +16,9 @@ use sqlx::{
     },
 };
 
-use super::{finding, identity, in_words, parts::Keeping, place::Place, shrinking, writer::Writer};
+use super::{
+    finding, identity, in_words, parts::Keeping, place::Place, reserve::Reserve, shrinking, writer::Writer,
+};
 
 /// The schema: one file of `migrations/` for each change, in order.
 const MIGRATIONS: &[(&str, &str)] = &[
@@ -105,7 +107,7 @@ impl SqliteStore {
         let options = common_options(path).read_only(true);
         let readers = SqlitePoolOptions::new().max_connections(1).connect_with(options).await;
         let readers = readers.map_err(|error| sentence(&error))?;
-        let writer = Writer::start(connection, Arc::clone(&place));
+        let writer = Writer::start(connection, Arc::clone(&place), Reserve::beside(path));
         Ok(Self { readers, writer, keeping: Keeping::default(), place })
     }
 
@@ -151,7 +153,9 @@ impl SqliteStore {
             let readers = readers.clone();
             tokio::spawn(async move { check_beside(&readers).await });
         }
-        let writer = Writer::start(connection, Arc::clone(&place));
+        let reserve = Reserve::beside(path);
+        reserve.fill();
+        let writer = Writer::start(connection, Arc::clone(&place), reserve);
         Ok(Self { readers, writer, keeping: Keeping::default(), place })
     }
 

@@ -32,6 +32,13 @@ pub(super) enum SessionWrite {
     },
 }
 
+impl SessionWrite {
+    /// Whether less is kept afterwards.
+    pub(super) const fn frees(&self) -> bool {
+        matches!(self, Self::Purge { .. })
+    }
+}
+
 pub(super) async fn exists(readers: &SqlitePool, name: &str) -> Result<bool, StoreError> {
     let found: i64 = sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM sessions WHERE name = ?)")
         .bind(name)

@@ -4,7 +4,7 @@ use sqlx::{Row, sqlite::SqliteConnection};
 
 use super::{
     super::{
-        Contents, Deletion, Missing, NewTree, NewVersion, Saved, StoreError, TreeChange,
+        Contents, Deletion, LONG_AGO, Missing, NewTree, NewVersion, Saved, StoreError, TreeChange,
         seal::{tree_sum, version_sum},
     },
     finding,
@@ -33,6 +33,17 @@ pub(super) enum TreeWrite {
 }
 
 impl TreeWrite {
+    /// Whether less is kept afterwards.
+    pub(super) const fn frees(&self) -> bool {
+        match self {
+            Self::Change { change, .. } => {
+                matches!(change.deletion, Some(Deletion::Deleted(_) | Deletion::ForGood))
+            }
+            Self::Purge { .. } => true,
+            Self::Add(..) | Self::AddVersion { .. } => false,
+        }
+    }
+
     /// Answers with the number of the version that was made, or of rows changed.
     pub(super) async fn apply(&self, connection: &mut SqliteConnection) -> Result<u64, StoreError> {
         match self {
@@ -262,8 +273,7 @@ async fn change_tree(
 ) -> Result<u64, StoreError> {
     let TreeChange { name, note, is_template, version_note, tags, collection, deletion } = change;
     let tree = Tree::at(connection, key, expected).await?;
-    let is_undeleted = *deletion == Some(Deletion::Undeleted);
-    if tree.deleted_at.is_some() != is_undeleted {
+    if tree.deleted_at.is_some() != deletion.as_ref().is_some_and(Deletion::is_of_deleted) {
         return Err(StoreError::NotFound(Missing::Tree));
     }
     if let Some((number, note)) = version_note {
@@ -286,7 +296,8 @@ async fn change_tree(
         query.execute(&mut *connection).await?;
     }
     let deleted_at = match deletion {
-        Some(Deletion::Deleted(at)) => Some(at),
+        Some(Deletion::Deleted(at)) => Some(at.as_str()),
+        Some(Deletion::ForGood) => Some(LONG_AGO),
         Some(Deletion::Undeleted) | None => None,
     };
     let changed = sqlx::query(

@@ -27,6 +27,7 @@ use super::{
     parts::{self, Orphans, Part},
     passes::PassWrite,
     place::Place,
+    reserve::Reserve,
     sessions::SessionWrite,
     shrinking,
     tree_writes::TreeWrite,
@@ -63,6 +64,16 @@ pub(super) enum Write {
 }
 
 impl Write {
+    /// Whether the disk has more room afterwards, or will have once the database has shrunk.
+    const fn frees(&self) -> bool {
+        match self {
+            Self::Tree(write) => write.frees(),
+            Self::Session(write) => write.frees(),
+            Self::Orphans(..) | Self::Shrink => true,
+            _ => false,
+        }
+    }
+
     /// Answers with the number of rows changed, or of the version made.
     async fn apply(&self, connection: &mut SqliteConnection, leases: &Leases) -> Result<u64, StoreError> {
         match self {
@@ -113,12 +124,14 @@ pub(super) struct Writer {
 }
 
 impl Writer {
-    pub(super) fn start(connection: SqliteConnection, place: Arc<Place>) -> Self {
+    /// Room is kept for deleting, or what is kept already may be given up.
+    pub(super) fn start(connection: SqliteConnection, place: Arc<Place>, reserve: Reserve) -> Self {
         let (requests, receiver) = mpsc::channel(QUEUE);
         let closing = CancellationToken::new();
         let (leases, counts) = (Arc::new(Leases::default()), Arc::<Counts>::default());
         let (of_task, counted) = (Arc::clone(&leases), Arc::clone(&counts));
-        let task = tokio::spawn(run(connection, place, receiver, of_task, counted, closing.clone()));
+        let task =
+            tokio::spawn(run(connection, (place, reserve), receiver, of_task, counted, closing.clone()));
         Self { requests, leases, counts, closing, task: Mutex::new(Some(task)) }
     }
 
@@ -157,7 +170,7 @@ impl Writer {
 
 async fn run(
     mut connection: SqliteConnection,
-    place: Arc<Place>,
+    (place, reserve): (Arc<Place>, Reserve),
     mut requests: mpsc::Receiver<Request>,
     leases: Arc<Leases>,
     counts: Arc<Counts>,
@@ -185,7 +198,7 @@ async fn run(
         match place.missing() {
             None => {
                 let begun = Instant::now();
-                commit(&mut connection, &leases, &counts, group).await;
+                commit(&mut connection, &reserve, &leases, &counts, group).await;
                 let took = u64::try_from(begun.elapsed().as_micros()).unwrap_or(u64::MAX);
                 counts.micros.fetch_add(took, Ordering::Relaxed);
             }
@@ -202,7 +215,13 @@ async fn run(
 }
 
 /// A group is committed as one; if that fails, each write is tried alone, so that one cannot spoil the others.
-async fn commit(connection: &mut SqliteConnection, leases: &Leases, counts: &Counts, group: Vec<Request>) {
+async fn commit(
+    connection: &mut SqliteConnection,
+    reserve: &Reserve,
+    leases: &Leases,
+    counts: &Counts,
+    group: Vec<Request>,
+) {
     counts.writes.fetch_add(group.len() as u64, Ordering::Relaxed);
     if group.len() > 1 {
         let writes: Vec<&Write> = group.iter().map(|request| &request.write).collect();
@@ -219,7 +238,17 @@ async fn commit(connection: &mut SqliteConnection, leases: &Leases, counts: &Cou
         }
     }
     for request in group {
-        let result = commit_together(connection, leases, &[&request.write]).await;
+        let mut result = commit_together(connection, leases, &[&request.write]).await;
+        let is_full = result.as_ref().is_err_and(StoreError::is_full_disk);
+        if is_full && request.write.frees() && reserve.give_up() {
+            tracing::warn!("the disk is full; what was kept for that is given up, so that deleting works");
+            result = commit_together(connection, leases, &[&request.write]).await;
+        }
+        if matches!(request.write, Write::Shrink)
+            && matches!(&result, Ok(more) if more.iter().sum::<u64>() == 0)
+        {
+            reserve.fill();
+        }
         let count = if result.is_ok() { &counts.commits } else { &counts.failed };
         count.fetch_add(1, Ordering::Relaxed);
         let _ = request.answer.send(result.map(|changed| changed.into_iter().sum()));

@@ -102,14 +102,29 @@ fn wooden(plant: &Plant, style: &Style, look: &Appearance, motion: Option<&Swayi
     }
     for (wood, riders) in plants.into_values() {
         let colours = wood.radii.iter().map(|&radius| bark.tint(radius)).collect();
-        let cut = TriangleMesh { indices: wood.cuts, ..wood.surface.clone() };
-        let colour_of_cuts = vec![CUT; cut.positions.len()];
-        let (colours_of_all, texture) = (colours, Some(bark.texture.clone()));
-        let cuts = Painted { mesh: cut, colours: colour_of_cuts, texture: None, riders: riders.clone() };
-        meshes.push((Skin::Bark, cuts));
-        meshes.push((Skin::Bark, Painted { mesh: wood.surface, colours: colours_of_all, texture, riders }));
+        meshes.push((Skin::Bark, cuts(&wood, &riders)));
+        let texture = Some(bark.texture.clone());
+        meshes.push((Skin::Bark, Painted { mesh: wood.surface, colours, texture, riders }));
     }
     meshes
+}
+
+/// The faces of cuts, with the corners that they have.
+fn cuts(wood: &Wood, riders: &[Rider]) -> Painted {
+    let mut cuts = Painted::default();
+    let mut numbers = BTreeMap::new();
+    for &corner in &wood.cuts {
+        let next = numbers.len() as u32;
+        let number = *numbers.entry(corner).or_insert(next);
+        if number == next {
+            let (at, surface) = (corner as usize, &wood.surface);
+            cuts.mesh.vertex(surface.positions[at], surface.normals[at], surface.uvs[at]);
+            cuts.colours.push(CUT);
+            cuts.riders.extend(riders.get(at));
+        }
+        cuts.mesh.indices.push(number);
+    }
+    cuts
 }
 
 /// Leaves, flowers and fruits.

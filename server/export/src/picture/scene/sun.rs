@@ -22,10 +22,9 @@ impl Sun {
         Vec3::new(-0.5, 0.8, 0.5).normalize()
     }
 
-    pub(super) fn new(meshes: &[(Skin, Painted)], points: &[Vec3]) -> Self {
-        let (low, high) = points
-            .iter()
-            .fold((Vec3::ZERO, Vec3::Y), |(low, high), &point| (low.min(point), high.max(point)));
+    pub(super) fn new(meshes: &[(Skin, Painted)], points: impl Iterator<Item = Vec3>) -> Self {
+        let (low, high) =
+            points.fold((Vec3::ZERO, Vec3::Y), |(low, high), point| (low.min(point), high.max(point)));
         let (middle, size) = (0.5 * (low + high), SHADOW_MAP as f32);
         let scale = size / (1.5 * (high - low).length());
         let plain = View::new(Self::direction(), scale, Vec2::ZERO);
