@@ -50,8 +50,6 @@ pub enum Format {
     Obj,
     /// USD as text.
     Usda,
-    /// The same in binary.
-    Usdc,
     /// The same with its textures.
     Usdz,
     /// The skeleton as JSON.
@@ -99,7 +97,6 @@ impl FormatRow {
     pub fn weight(&self, bytes: usize) -> u64 {
         match self.format {
             Format::Picture | Format::Sway => memory::picture(bytes),
-            Format::Usdc => memory::held_export(bytes),
             _ => memory::export(bytes),
         }
     }
@@ -169,19 +166,6 @@ pub const FORMATS: &[FormatRow] = &[
         ],
         option::SCENES,
         [4e3, 3300.0, 1800.0],
-    ),
-    row(
-        Format::Usdc,
-        ["usdc", "triangles as USD, in binary", "model/vnd.usdc"],
-        [
-            ["Scene (USD, binary)", "Szene (USD, binär)"],
-            [
-                "The same scene in a quarter of the bytes, which film programs open many times as fast.",
-                "Dieselbe Szene in einem Viertel der Bytes, die Filmprogramme um ein Vielfaches schneller öffnen.",
-            ],
-        ],
-        option::SCENES,
-        [4e3, 1000.0, 600.0],
     ),
     row(
         Format::Usdz,
@@ -451,7 +435,6 @@ pub fn write(
         Format::Glb => espalier_export::glb(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Obj => espalier_export::obj(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Usda => espalier_export::usda(document.portrait(), &style, &appearance, &about, &model, out),
-        Format::Usdc => espalier_export::usdc(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Usdz => espalier_export::usdz(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Skeleton => espalier_export::skeleton_json(document.portrait(), &style, &origin, out),
         Format::Mtg => espalier_export::mtg(document.plant(), &style, &origin, out),

@@ -8,7 +8,6 @@ READERS = {
     ".glb": lambda path: bpy.ops.import_scene.gltf(filepath=path),
     ".obj": lambda path: bpy.ops.wm.obj_import(filepath=path),
     ".usda": lambda path: bpy.ops.wm.usd_import(filepath=path),
-    ".usdc": lambda path: bpy.ops.wm.usd_import(filepath=path),
     ".usdz": lambda path: bpy.ops.wm.usd_import(filepath=path),
 }
 
@@ -36,7 +35,7 @@ for path in sys.argv[1:]:
     pictures = [image for image in bpy.data.images if image.size[0] > 0]
     assert triangles > 0, f"{path}: nothing is seen"
     # A layer of USD alone has no textures with it.
-    assert pictures or ending in (".usda", ".usdc"), f"{path}: no texture was found"
+    assert pictures or ending == ".usda", f"{path}: no texture was found"
     size = [round(b - a, 3) for a, b in zip(low, high)]
     print(
         f"{path}: {objects} objects and {instances} instances, {triangles} triangles, "

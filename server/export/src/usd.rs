@@ -1,26 +1,17 @@
-//! USD as text (`.usda`), in binary (`.usdc`), and with its textures in one file (`.usdz`), in metres, Y up.
+//! USD as text (`.usda`), and with its textures in one file (`.usdz`), in metres, Y up.
 
-mod binary;
-mod layer;
+mod arrays;
 mod materials;
-mod text;
 
-use std::io::Write;
+use std::io::{self, Write};
 
 use espalier_mesh::{Style, TriangleMesh};
 use espalier_plant::Plant;
 use espalier_settings::Appearance;
 use glam::Vec3;
-use serde_json::{Map, Value as Json};
+use serde_json::Value;
 
-use self::{
-    binary::Binary,
-    layer::{
-        Done, Head, Layer, Prim, Row, Value,
-        Variability::{Uniform, Varying},
-    },
-    text::Text,
-};
+use self::arrays::{Array, joined};
 use crate::{
     About, Detail, ExportError, Model, Sink,
     assembly::{Assembly, Builder, Part, Scatter},
@@ -31,8 +22,6 @@ use crate::{
 
 /// The prim that holds all others.
 const ROOT: &str = "Plants";
-/// What a prim needs that has a material.
-const BINDING: &[&str] = &["MaterialBindingAPI"];
 
 /// The present of `plant` as USD in text, whose materials have one colour each; see `docs/formats.md`.
 ///
@@ -47,26 +36,8 @@ pub fn usda(
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
     let assembly = Assembly::of(plant, style, appearance, about.species, model);
-    text(&assembly, about, model, false, out)?;
+    layer(&assembly, about, model, false, out)?;
     Ok(())
-}
-
-/// The same in binary, which others read in a fraction of the time. All of it is held in memory while it is made.
-///
-/// # Errors
-/// Those of [`usda`].
-pub fn usdc(
-    plant: &Plant,
-    style: &Style,
-    appearance: &Appearance,
-    about: &About<'_>,
-    model: &Model,
-    out: &mut dyn Sink,
-) -> Result<(), ExportError> {
-    let assembly = Assembly::of(plant, style, appearance, about.species, model);
-    let mut layer = head(about, |head| Ok(Binary::begin(head)))?;
-    scene(&assembly, about, model, false, &mut layer)?;
-    layer.write(out)
 }
 
 /// The same in a package with its textures, as tablets show it.
@@ -85,7 +56,7 @@ pub fn usdz(
     let mut zip = Zip::new(out);
     let mut materials = MeanMaterials::default();
     zip.add("tree.usda", |out| {
-        materials = text(&assembly, about, model, true, out)?;
+        materials = layer(&assembly, about, model, true, out)?;
         Ok(())
     })?;
     for (name, png) in materials.0.iter().flat_map(MeanMaterial::pictures) {
@@ -94,47 +65,34 @@ pub fn usdz(
     zip.finish()
 }
 
-fn text(
+fn layer(
     assembly: &Assembly<'_>,
     about: &About<'_>,
     model: &Model,
     has_pictures: bool,
     out: &mut dyn Write,
 ) -> Result<MeanMaterials, ExportError> {
-    let mut layer = head(about, |head| Ok(Text::begin(head, out)?))?;
-    scene(assembly, about, model, has_pictures, &mut layer)
-}
-
-/// What is said of the layer as a whole.
-fn head<T>(
-    about: &About<'_>,
-    begin: impl FnOnce(&Head<'_>) -> Result<T, ExportError>,
-) -> Result<T, ExportError> {
-    let (extras, copyright) = (about.extras().to_string(), about.copyright());
-    begin(&Head { program: about.program, extras: &extras, copyright: copyright.as_deref() })
-}
-
-/// All that stands in the scene, with its materials.
-fn scene(
-    assembly: &Assembly<'_>,
-    about: &About<'_>,
-    model: &Model,
-    has_pictures: bool,
-    layer: &mut dyn Layer,
-) -> Result<MeanMaterials, ExportError> {
     let scale = about.scale()?;
-    layer.begin(Prim { type_name: "Xform", name: ROOT, is_group: true, ..Prim::default() })?;
-    let mut writer =
-        Writer { layer: &mut *layer, scale, model, open: Vec::new(), materials: MeanMaterials::default() };
+    let quoted = |text: &str| Value::from(text.replace(['\n', '\r'], " ")).to_string();
+    let said = quoted(&about.extras().to_string());
+    let doc = about.copyright().map(|said| format!("    doc = {}\n", quoted(&said))).unwrap_or_default();
+    write!(
+        out,
+        "#usda 1.0\n(\n{doc}    customLayerData = {{\n        string creator = {}\n        string espalier = {said}\n    }}\n    \
+         defaultPrim = \"{ROOT}\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n)\n\n\
+         def Xform \"{ROOT}\" (\n    kind = \"group\"\n)\n{{\n",
+        quoted(about.program)
+    )?;
+    let mut writer = Writer { out, scale, model, open: Vec::new(), materials: MeanMaterials::default() };
     assembly.build(&mut writer)?;
-    let materials = writer.materials;
-    materials::write(&materials, has_pictures, scale, layer)?;
-    layer.end()?;
+    let Writer { out, materials, .. } = writer;
+    materials::write(&materials, has_pictures, scale, out)?;
+    writeln!(out, "}}")?;
     Ok(materials)
 }
 
 struct Writer<'a> {
-    layer: &'a mut dyn Layer,
+    out: &'a mut dyn Write,
     scale: f32,
     model: &'a Model,
     /// The names of the nodes that are open, and where they stand, in internodes.
@@ -153,58 +111,68 @@ impl Writer<'_> {
         format!("/{ROOT}/{}", all.join("/"))
     }
 
-    fn bound(&mut self, material: &str) -> Done {
-        self.layer.related("material:binding", &[format!("/{ROOT}/Looks/{material}")], false)
+    fn array<T>(
+        &mut self,
+        name: &str,
+        suffix: &str,
+        fill: impl FnOnce(&mut Array<'_>) -> Result<T, ExportError>,
+    ) -> Result<T, ExportError> {
+        let mut array = Array::begin(&mut *self.out, name)?;
+        let result = fill(&mut array)?;
+        array.end(suffix)?;
+        Ok(result)
+    }
+
+    fn bound(&mut self, material: &str) -> io::Result<()> {
+        writeln!(self.out, "rel material:binding = </{ROOT}/Looks/{material}>")
     }
 
     /// The arrays that all meshes have.
-    fn triangles(&mut self, mesh: &TriangleMesh, place: impl Fn(Vec3) -> Vec3) -> Done {
+    fn triangles(&mut self, mesh: &TriangleMesh, place: impl Fn(Vec3) -> Vec3) -> Result<(), ExportError> {
         let corners = mesh.indices.as_chunks::<3>().0;
-        self.layer.numbers("faceVertexCounts", &mut |put| corners.iter().try_for_each(|_| put(3)))?;
-        self.layer
-            .numbers("faceVertexIndices", &mut |put| mesh.indices.iter().try_for_each(|&index| put(index)))?;
-        self.layer.rows(Row::Point, "points", false, &mut |put| {
-            mesh.positions.iter().try_for_each(|&position| put(&place(position).to_array()))
+        self.array("int[] faceVertexCounts", "", |array| corners.iter().try_for_each(|_| array.put(3)))?;
+        self.array("int[] faceVertexIndices", "", |array| {
+            mesh.indices.iter().try_for_each(|index| array.put(index))
         })?;
-        self.layer.rows(Row::Normal, "normals", true, &mut |put| {
-            mesh.normals.iter().try_for_each(|normal| put(&normal.to_array()))
+        self.array("point3f[] points", "", |array| {
+            mesh.positions.iter().try_for_each(|&position| array.vector(&place(position).to_array()))
+        })?;
+        self.array("normal3f[] normals", " (\ninterpolation = \"vertex\"\n)", |array| {
+            mesh.normals.iter().try_for_each(|normal| array.vector(&normal.to_array()))
         })
     }
 }
 
 impl Builder<'_> for Writer<'_> {
-    fn begin(&mut self, name: &str, place: Vec3, extras: Option<Json>) -> Done {
-        let way = ((place - self.origin()) * self.scale).to_array();
+    fn begin(&mut self, name: &str, place: Vec3, extras: Option<Value>) -> Result<(), ExportError> {
+        let [x, y, z] = ((place - self.origin()) * self.scale).to_array();
         let name = identifier(name);
+        writeln!(self.out, "def Xform \"{name}\" (\nkind = \"group\"\n")?;
         let lod = extras.as_ref().and_then(|extras| extras["lod"].as_u64());
-        let mut data = match extras {
-            Some(Json::Object(data)) => data,
-            _ => Map::new(),
-        };
-        data.retain(|_, value| value.is_u64());
-        self.layer.begin(Prim {
-            type_name: "Xform",
-            name: &name,
-            is_group: true,
-            data,
-            ..Prim::default()
-        })?;
-        self.layer.value(Varying, "xformOp:translate", &Value::Double3(way))?;
-        self.layer.value(Uniform, "xformOpOrder", &Value::Tokens(&["xformOp:translate"]))?;
+        if let Some(Value::Object(extras)) = &extras {
+            writeln!(self.out, "customData = {{")?;
+            for (name, value) in extras.iter().filter(|(_, value)| value.is_u64()) {
+                writeln!(self.out, "int {name} = {value}")?;
+            }
+            writeln!(self.out, "}}")?;
+        }
+        writeln!(self.out, ")\n{{")?;
+        writeln!(self.out, "double3 xformOp:translate = ({x}, {y}, {z})")?;
+        writeln!(self.out, "uniform token[] xformOpOrder = [\"xformOp:translate\"]")?;
         if self.model.detail == Detail::Set && lod.is_some_and(|level| level > 0) {
             // All levels stand at the same place; who wants another shows it.
-            self.layer.value(Varying, "visibility", &Value::Token("invisible"))?;
+            writeln!(self.out, "token visibility = \"invisible\"")?;
         }
         self.open.push((name, place));
         Ok(())
     }
 
-    fn end(&mut self) -> Done {
+    fn end(&mut self) -> Result<(), ExportError> {
         self.open.pop();
-        self.layer.end()
+        Ok(writeln!(self.out, "}}")?)
     }
 
-    fn part(&mut self, part: &Part<'_>) -> Done {
+    fn part(&mut self, part: &Part<'_>) -> Result<(), ExportError> {
         let (origin, scale) = (self.origin(), self.scale);
         let [mut low, mut high] = [Vec3::MAX, Vec3::MIN];
         let mut triangles = [0, 0];
@@ -228,76 +196,88 @@ impl Builder<'_> for Writer<'_> {
         if !(low.is_finite() && high.is_finite()) {
             return Err(ExportError::NotFinite);
         }
-        let (Ok(first), Ok(all)) = (u32::try_from(triangles[0]), u32::try_from(triangles[0] + triangles[1]))
-        else {
-            return Err(ExportError::TooLarge);
-        };
-        let mut data = Map::new();
-        if let Some(map) = part.lightmap {
-            data.insert("lightmap".into(), map.about(scale));
+        writeln!(self.out, "def Mesh \"{}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]", part.name)?;
+        if let Some(Value::Object(about)) = part.lightmap.map(|map| map.about(self.scale)) {
+            writeln!(self.out, "customData = {{\ndictionary lightmap = {{")?;
+            for (name, value) in &about {
+                let kind = if value.is_u64() { "int" } else { "double" };
+                writeln!(self.out, "{kind} {name} = {value}")?;
+            }
+            writeln!(self.out, "}}\n}}")?;
         }
-        let layer = &mut *self.layer;
-        layer.begin(Prim { type_name: "Mesh", name: part.name, apis: BINDING, data, ..Prim::default() })?;
-        layer.value(Uniform, "subdivisionScheme", &Value::Token("none"))?;
+        writeln!(self.out, ")\n{{")?;
+        writeln!(self.out, "uniform token subdivisionScheme = \"none\"")?;
         if part.surfaces.len() == 1 {
-            layer.value(Uniform, "doubleSided", &Value::Bool(true))?;
+            writeln!(self.out, "uniform bool doubleSided = 1")?;
         }
-        layer.value(Varying, "extent", &Value::Float3s(&[low.to_array(), high.to_array()]))?;
-        layer.numbers("faceVertexCounts", &mut |put| (0..all).try_for_each(|_| put(3)))?;
-        layer.numbers("faceVertexIndices", &mut |put| {
+        writeln!(self.out, "float3[] extent = [{}, {}]", joined(&low.to_array()), joined(&high.to_array()))?;
+        self.array("int[] faceVertexCounts", "", |array| {
+            (0..triangles[0] + triangles[1]).try_for_each(|_| array.put(3))
+        })?;
+        self.array("int[] faceVertexIndices", "", |array| {
             // The triangles of the second surface stand behind all others, so that they can be told by their numbers.
             for second in [false, true] {
                 let mut first = 0;
                 (part.blocks)(&mut |block| {
                     let indices = if second { block.second } else { &block.mesh.indices };
-                    indices.iter().try_for_each(|index| put(first + index))?;
+                    indices.iter().try_for_each(|index| array.put(first + index))?;
                     first += block.mesh.positions.len() as u32;
                     Ok(())
                 })?;
             }
             Ok(())
         })?;
-        layer.rows(Row::Point, "points", false, &mut |put| {
+        let vertex = " (\ninterpolation = \"vertex\"\n)";
+        self.array("point3f[] points", "", |array| {
             (part.blocks)(&mut |block| {
                 let mut places = block.mesh.positions.iter().map(|&place| (place - origin) * scale);
-                places.try_for_each(|place| put(&place.to_array()))
+                places.try_for_each(|place| array.vector(&place.to_array()))
             })
         })?;
-        layer.rows(Row::Normal, "normals", true, &mut |put| {
-            (part.blocks)(&mut |block| block.mesh.normals.iter().try_for_each(|way| put(&way.to_array())))
+        self.array("normal3f[] normals", vertex, |array| {
+            (part.blocks)(&mut |block| {
+                block.mesh.normals.iter().try_for_each(|way| array.vector(&way.to_array()))
+            })
         })?;
-        layer.rows(Row::Place, "primvars:st", true, &mut |put| {
-            (part.blocks)(&mut |block| block.mesh.uvs.iter().try_for_each(|uv| put(&uv.to_array())))
+        self.array("texCoord2f[] primvars:st", vertex, |array| {
+            (part.blocks)(&mut |block| block.mesh.uvs.iter().try_for_each(|uv| array.vector(&uv.to_array())))
         })?;
         if part.lightmap.is_some() {
-            layer.rows(Row::Place, "primvars:st1", true, &mut |put| {
+            self.array("texCoord2f[] primvars:st1", vertex, |array| {
                 (part.blocks)(&mut |block| {
                     let mut places = block.places.into_iter().flatten();
-                    places.try_for_each(|place| put(&place.to_array()))
+                    places.try_for_each(|place| array.vector(&place.to_array()))
                 })
             })?;
         }
-        layer.rows(Row::Colour, "primvars:displayColor", true, &mut |put| {
-            (part.blocks)(&mut |block| block.colours.iter().try_for_each(|colour| put(&colour.to_array())))
+        self.array("color3f[] primvars:displayColor", vertex, |array| {
+            (part.blocks)(&mut |block| {
+                block.colours.iter().try_for_each(|colour| array.vector(&colour.to_array()))
+            })
         })?;
-        let [wood, cut] =
+        let [first, second] =
             [part.surfaces.first(), part.surfaces.get(1)].map(|one| one.map_or("", |one| one.name()));
-        self.bound(wood)?;
-        if all > first {
-            let layer = &mut *self.layer;
-            let family = "subsetFamily:materialBind:familyType";
-            layer.value(Uniform, family, &Value::Token("nonOverlapping"))?;
-            layer.begin(Prim { type_name: "GeomSubset", name: cut, apis: BINDING, ..Prim::default() })?;
-            layer.value(Uniform, "elementType", &Value::Token("face"))?;
-            layer.value(Uniform, "familyName", &Value::Token("materialBind"))?;
-            layer.numbers("indices", &mut |put| (first..all).try_for_each(&mut *put))?;
-            self.bound(cut)?;
-            self.layer.end()?;
+        self.bound(first)?;
+        if triangles[1] > 0 {
+            writeln!(self.out, "uniform token subsetFamily:materialBind:familyType = \"nonOverlapping\"")?;
+            writeln!(
+                self.out,
+                "def GeomSubset \"{second}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n{{"
+            )?;
+            writeln!(
+                self.out,
+                "uniform token elementType = \"face\"\nuniform token familyName = \"materialBind\""
+            )?;
+            self.array("int[] indices", "", |array| {
+                (triangles[0]..triangles[0] + triangles[1]).try_for_each(|face| array.put(face))
+            })?;
+            self.bound(second)?;
+            writeln!(self.out, "}}")?;
         }
-        self.layer.end()
+        Ok(writeln!(self.out, "}}")?)
     }
 
-    fn scatter(&mut self, scatter: &Scatter<'_>) -> Done {
+    fn scatter(&mut self, scatter: &Scatter<'_>) -> Result<(), ExportError> {
         let (origin, scale, each) = (self.origin(), self.scale, scatter.each);
         let (mut sum, mut count) = (Vec3::ZERO, 0);
         let mut is_finite = true;
@@ -313,54 +293,57 @@ impl Builder<'_> for Writer<'_> {
             return Err(ExportError::NotFinite);
         }
         self.materials.count(&scatter.surface, sum, count);
-        let leaf = |which: usize| format!("{}/Leaf{which}", self.path(scatter.name));
+        writeln!(self.out, "def PointInstancer \"{}\"\n{{", scatter.name)?;
+        let leaf = |which: usize| format!("<{}/Leaf{which}>", self.path(scatter.name));
         let prototypes: Vec<String> = (0..LeafForm::PROTOTYPES).map(leaf).collect();
-        let layer = &mut *self.layer;
-        layer.begin(Prim { type_name: "PointInstancer", name: scatter.name, ..Prim::default() })?;
-        layer.related("prototypes", &prototypes, true)?;
-        layer
-            .numbers("protoIndices", &mut |put| each(&mut |(instance, _)| put(instance.prototype as u32)))?;
-        layer.rows(Row::Point, "positions", false, &mut |put| {
-            each(&mut |(instance, _)| put(&((instance.place - origin) * scale).to_array()))
+        writeln!(self.out, "rel prototypes = [{}]", prototypes.join(", "))?;
+        self.array("int[] protoIndices", "", |array| {
+            each(&mut |(instance, _)| array.put(instance.prototype))
         })?;
-        layer.rows(Row::Rotation, "orientations", false, &mut |put| {
+        self.array("point3f[] positions", "", |array| {
+            each(&mut |(instance, _)| array.vector(&((instance.place - origin) * scale).to_array()))
+        })?;
+        self.array("quath[] orientations", "", |array| {
             each(&mut |(instance, _)| {
                 let [x, y, z, w] = instance.rotation.to_array();
-                put(&[w, x, y, z])
+                array.vector(&[w, x, y, z])
             })
         })?;
-        layer.rows(Row::Float3, "scales", false, &mut |put| {
-            each(&mut |(instance, _)| put(&[instance.scale * scale; 3]))
+        self.array("float3[] scales", "", |array| {
+            each(&mut |(instance, _)| array.vector(&[instance.scale * scale; 3]))
         })?;
-        layer.rows(Row::Colour, "primvars:displayColor", true, &mut |put| {
-            each(&mut |(_, hue)| put(&(hue * scatter.strength).to_array()))
+        self.array("color3f[] primvars:displayColor", " (\ninterpolation = \"vertex\"\n)", |array| {
+            each(&mut |(_, hue)| array.vector(&(hue * scatter.strength).to_array()))
         })?;
         for which in 0..LeafForm::PROTOTYPES {
             let mut cards = Cards::default();
             scatter.form.add_prototype(&mut cards, which);
-            let name = format!("Leaf{which}");
-            self.layer.begin(Prim { type_name: "Mesh", name: &name, apis: BINDING, ..Prim::default() })?;
-            self.layer.value(Uniform, "subdivisionScheme", &Value::Token("none"))?;
-            self.layer.value(Uniform, "doubleSided", &Value::Bool(true))?;
+            writeln!(
+                self.out,
+                "def Mesh \"Leaf{which}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n{{"
+            )?;
+            writeln!(self.out, "uniform token subdivisionScheme = \"none\"\nuniform bool doubleSided = 1")?;
             self.triangles(&cards.mesh, |place| place)?;
-            self.layer.rows(Row::Place, "primvars:st", true, &mut |put| {
-                cards.mesh.uvs.iter().try_for_each(|uv| put(&uv.to_array()))
+            self.array("texCoord2f[] primvars:st", " (\ninterpolation = \"vertex\"\n)", |array| {
+                cards.mesh.uvs.iter().try_for_each(|uv| array.vector(&uv.to_array()))
             })?;
             self.bound(scatter.surface.name())?;
-            self.layer.end()?;
+            writeln!(self.out, "}}")?;
         }
-        self.layer.end()
+        Ok(writeln!(self.out, "}}")?)
     }
 
-    fn hull(&mut self, name: &str, mesh: &TriangleMesh) -> Done {
+    fn hull(&mut self, name: &str, mesh: &TriangleMesh) -> Result<(), ExportError> {
         let (origin, scale) = (self.origin(), self.scale);
-        let apis = &["PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"];
-        self.layer.begin(Prim { type_name: "Mesh", name: &identifier(name), apis, ..Prim::default() })?;
-        self.layer.value(Uniform, "subdivisionScheme", &Value::Token("none"))?;
-        self.layer.value(Uniform, "purpose", &Value::Token("guide"))?;
-        self.layer.value(Uniform, "physics:approximation", &Value::Token("convexHull"))?;
+        writeln!(
+            self.out,
+            "def Mesh \"{}\" (\nprepend apiSchemas = [\"PhysicsCollisionAPI\", \"PhysicsMeshCollisionAPI\"]\n)\n{{\n\
+             uniform token subdivisionScheme = \"none\"\nuniform token purpose = \"guide\"\n\
+             uniform token physics:approximation = \"convexHull\"",
+            identifier(name)
+        )?;
         self.triangles(mesh, |place| (place - origin) * scale)?;
-        self.layer.end()
+        Ok(writeln!(self.out, "}}")?)
     }
 }
 

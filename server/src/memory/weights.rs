@@ -19,8 +19,6 @@ const EXPORTED_BYTE: u64 = 10;
 const PICTURE: u64 = 128 << 20;
 /// A byte of a document that is drawn: all its triangles at once.
 const DRAWN_BYTE: u64 = 30;
-/// A byte of a document that is exported by a library that holds the whole file.
-const HELD_BYTE: u64 = 30;
 /// A byte of a model that is read: its triangles while they are simplified.
 const MODEL_BYTE: u64 = 4;
 
@@ -50,11 +48,6 @@ pub fn export(bytes: usize) -> u64 {
 /// A picture of a document of so many bytes.
 pub fn picture(bytes: usize) -> u64 {
     PICTURE + (bytes as u64).saturating_mul(DRAWN_BYTE)
-}
-
-/// An export of a document of so many bytes into a file that is held whole.
-pub fn held_export(bytes: usize) -> u64 {
-    EXPORT + (bytes as u64).saturating_mul(HELD_BYTE)
 }
 
 /// A file of so many bytes that is read.

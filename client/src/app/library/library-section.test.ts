@@ -128,7 +128,11 @@ describe("a section", () => {
   it("what is deleted for good leaves the section of deleted trees", async () => {
     const { section: here, all, asked, said, ids } = await section("deleted");
     await here.removeForGood(all[0]!);
-    expect([ids(), asked, said.map(({ text }) => text)]).toEqual([["b", "c"], ["for good a"], ["“A” is gone for good"]]);
+    expect([ids(), asked, said.map(({ text }) => text)]).toEqual([
+      ["b", "c"],
+      ["for good a"],
+      ["“A” is gone for good"],
+    ]);
     expect(said[0]?.action).toBeUndefined();
   });
 

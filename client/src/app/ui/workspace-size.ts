@@ -6,6 +6,8 @@ const size = signal({ width: globalThis.innerWidth ?? 1024, height: globalThis.i
 
 /** The sizes below which the bars fold, in pixels: as they are, and with the names of their buttons. */
 const BARE = { toolBar: 948, width: 640, height: 560 };
+/** The width of a button with its name, with what lies between two. */
+const NAMED_TARGET = 70;
 const NAMED = { toolBar: 1336, width: 640, height: 780 };
 
 /** Whether the tool bar has no room for all its buttons. */
@@ -13,11 +15,11 @@ export function isToolBarFolded(names: boolean): boolean {
   return size.value.width < (names ? NAMED : BARE).toolBar;
 }
 
-/** How many buttons one row of the tool bar has room for, at the sizes of `bars.css`; with names it takes several rows. */
+/** How many buttons the tool bar has room for in one row, at the sizes of `bars.css`, and with names in two: a third would lie on the side bar of a phone. */
 export function roomOfToolBar(names: boolean): number {
   const { width } = size.value;
   const [target, around] = width < 440 ? [44, 25] : [48, 35];
-  return names ? Number.POSITIVE_INFINITY : Math.floor((width - around) / target);
+  return names ? 2 * Math.floor((width - around) / NAMED_TARGET) : Math.floor((width - around) / target);
 }
 
 /** Whether there is room for little more than the tree, as on a phone. */

@@ -1,98 +1,78 @@
 //! Materials of `UsdPreviewSurface`.
 
-use super::{
-    ROOT,
-    layer::{
-        Done, Layer, Prim, Value,
-        Variability::{Uniform, Varying},
-    },
-};
-use crate::mean_materials::{MeanMaterial, MeanMaterials};
+use std::io::{self, Write};
 
-/// A texture as it is read: its name in the material, what it holds, its space, and how what it holds is changed.
-struct Picture {
-    name: &'static str,
-    kind: &'static str,
-    space: &'static str,
-    /// What its colours are multiplied by, and what is added then.
-    change: Option<[[f32; 4]; 2]>,
-}
+use super::{ROOT, arrays::joined};
+use crate::mean_materials::{MeanMaterial, MeanMaterials};
 
 /// The scope of all materials.
 pub(super) fn write(
     materials: &MeanMaterials,
     has_pictures: bool,
     metres: f32,
-    layer: &mut dyn Layer,
-) -> Done {
-    layer.begin(Prim { type_name: "Scope", name: "Looks", ..Prim::default() })?;
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    writeln!(out, "def Scope \"Looks\"\n{{")?;
     for material in &materials.0 {
-        one(material, has_pictures && material.texture.is_some(), metres, layer)?;
+        one(material, has_pictures && material.texture.is_some(), metres, out)?;
     }
-    layer.end()
+    writeln!(out, "}}")
 }
 
-fn one(material: &MeanMaterial, has_pictures: bool, metres: f32, layer: &mut dyn Layer) -> Done {
+fn one(material: &MeanMaterial, has_pictures: bool, metres: f32, out: &mut dyn Write) -> io::Result<()> {
     let path = format!("/{ROOT}/Looks/{}", material.name);
-    layer.begin(Prim { type_name: "Material", name: &material.name, ..Prim::default() })?;
-    layer.connected("token", "outputs:surface", &format!("{path}/Surface.outputs:surface"))?;
-    shader(layer, "Surface", "UsdPreviewSurface")?;
-    layer.value(Varying, "inputs:roughness", &Value::Float(0.8))?;
+    writeln!(out, "def Material \"{}\"\n{{", material.name)?;
+    writeln!(out, "token outputs:surface.connect = <{path}/Surface.outputs:surface>")?;
+    writeln!(out, "def Shader \"Surface\"\n{{\nuniform token info:id = \"UsdPreviewSurface\"")?;
+    writeln!(out, "float inputs:roughness = 0.8")?;
     if has_pictures {
-        layer.connected("color3f", "inputs:diffuseColor", &format!("{path}/Colour.outputs:rgb"))?;
-        layer.connected("normal3f", "inputs:normal", &format!("{path}/Normal.outputs:rgb"))?;
+        writeln!(out, "color3f inputs:diffuseColor.connect = <{path}/Colour.outputs:rgb>")?;
+        writeln!(out, "normal3f inputs:normal.connect = <{path}/Normal.outputs:rgb>")?;
         if material.is_cut_out {
-            layer.connected("float", "inputs:opacity", &format!("{path}/Colour.outputs:a"))?;
-            layer.value(Varying, "inputs:opacityThreshold", &Value::Float(0.5))?;
+            writeln!(out, "float inputs:opacity.connect = <{path}/Colour.outputs:a>")?;
+            writeln!(out, "float inputs:opacityThreshold = 0.5")?;
         }
     } else {
-        layer.value(Varying, "inputs:diffuseColor", &Value::Colour(material.seen().to_array()))?;
+        writeln!(out, "color3f inputs:diffuseColor = {}", joined(&material.seen().to_array()))?;
     }
-    layer.declared("token", "outputs:surface")?;
-    layer.end()?;
+    writeln!(out, "token outputs:surface\n}}")?;
     if has_pictures {
-        shader(layer, "Place", "UsdPrimvarReader_float2")?;
-        layer.value(Varying, "inputs:varname", &Value::String("st"))?;
-        layer.declared("float2", "outputs:result")?;
-        layer.end()?;
-        for Picture { name, kind, space, change } in pictures(material, metres) {
-            shader(layer, name, "UsdUVTexture")?;
-            layer.value(Varying, "inputs:file", &Value::Asset(&material.picture(kind)))?;
-            layer.connected("float2", "inputs:st", &format!("{path}/Place.outputs:result"))?;
-            layer.value(Varying, "inputs:sourceColorSpace", &Value::Token(space))?;
-            // Never that of a picture whose alpha is read: not all programs keep it out of the change.
-            if let Some([scale, bias]) = change {
-                layer.value(Varying, "inputs:scale", &Value::Float4(scale))?;
-                layer.value(Varying, "inputs:bias", &Value::Float4(bias))?;
+        writeln!(out, "def Shader \"Place\"\n{{\nuniform token info:id = \"UsdPrimvarReader_float2\"")?;
+        writeln!(out, "string inputs:varname = \"st\"\nfloat2 outputs:result\n}}")?;
+        let relief = material.texture.as_ref().map_or(1.0, |(_, relief)| *relief);
+        // Textures of normals count from -1 to 1; the relief makes them steeper.
+        let (slope, rest) = (2.0 * relief, -relief);
+        // Nothing is moved by depths: whoever draws cards with them takes them from here, in metres.
+        let depth = material.texture.as_ref().and_then(|(texture, _)| texture.depth.as_ref()).map(|depth| {
+            let [(_, far), (_, near)] = depth.about(metres);
+            let gain = near - far;
+            let settings =
+                format!("float4 inputs:scale = ({gain}, {gain}, {gain}, 1)\nfloat4 inputs:bias = ({far}, {far}, {far}, 0)");
+            ("Depth", "depth", "raw", settings)
+        });
+        let both = [
+            // Never changed when it is read: not all programs keep alpha out of that.
+            ("Colour", "colour", "sRGB", String::new()),
+            (
+                "Normal",
+                "normal",
+                "raw",
+                format!(
+                    "float4 inputs:scale = ({slope}, {slope}, 2, 1)\nfloat4 inputs:bias = ({rest}, {rest}, -1, 0)"
+                ),
+            ),
+        ];
+        for (name, kind, space, settings) in both.into_iter().chain(depth) {
+            writeln!(out, "def Shader \"{name}\"\n{{\nuniform token info:id = \"UsdUVTexture\"")?;
+            writeln!(out, "asset inputs:file = @{}@", material.picture(kind))?;
+            writeln!(out, "float2 inputs:st.connect = <{path}/Place.outputs:result>")?;
+            writeln!(out, "token inputs:sourceColorSpace = \"{space}\"")?;
+            if !settings.is_empty() {
+                writeln!(out, "{settings}")?;
             }
-            layer.value(Varying, "inputs:wrapS", &Value::Token("repeat"))?;
-            layer.value(Varying, "inputs:wrapT", &Value::Token("repeat"))?;
-            layer.declared("float3", "outputs:rgb")?;
-            layer.declared("float", "outputs:a")?;
-            layer.end()?;
+            writeln!(out, "token inputs:wrapS = \"repeat\"\ntoken inputs:wrapT = \"repeat\"")?;
+            writeln!(out, "float3 outputs:rgb\nfloat outputs:a\n}}")?;
         }
     }
-    layer.end()
-}
-
-fn shader(layer: &mut dyn Layer, name: &str, id: &str) -> Done {
-    layer.begin(Prim { type_name: "Shader", name, ..Prim::default() })?;
-    layer.value(Uniform, "info:id", &Value::Token(id))
-}
-
-fn pictures(material: &MeanMaterial, metres: f32) -> impl Iterator<Item = Picture> {
-    let relief = material.texture.as_ref().map_or(1.0, |(_, relief)| *relief);
-    // Textures of normals count from -1 to 1; the relief makes them steeper.
-    let (slope, rest) = (2.0 * relief, -relief);
-    // Nothing is moved by depths: whoever draws cards with them takes them from here, in metres.
-    let depth = material.texture.as_ref().and_then(|(texture, _)| texture.depth.as_ref()).map(|depth| {
-        let [(_, far), (_, near)] = depth.about(metres);
-        let gain = near - far;
-        let change = Some([[gain, gain, gain, 1.0], [far, far, far, 0.0]]);
-        Picture { name: "Depth", kind: "depth", space: "raw", change }
-    });
-    let colour = Picture { name: "Colour", kind: "colour", space: "sRGB", change: None };
-    let change = Some([[slope, slope, 2.0, 1.0], [rest, rest, -1.0, 0.0]]);
-    let normal = Picture { name: "Normal", kind: "normal", space: "raw", change };
-    [colour, normal].into_iter().chain(depth)
+    writeln!(out, "}}")
 }

@@ -84,9 +84,6 @@ fn usd_has_the_triangles_of_the_glb_and_its_package_is_aligned() {
         assert_eq!(counts, meshes.iter().map(|mesh| mesh.indices.len() / 3).collect::<Vec<_>>());
         assert!(usd.contains("def Xform \"Sour__cherry_\""));
     }
-    let binary = file(espalier_export::usdc, &Model::default());
-    assert!(binary.starts_with(b"PXR-USDC") && binary.len() < plain.len() / 2, "{}", binary.len());
-    assert!(binary == file(espalier_export::usdc, &Model::default()), "the same plant, the same bytes");
     assert!(!plain.contains("primvars:st1"));
     let lit = Model { lightmap: Some(512), ..Model::default() };
     let lit = String::from_utf8(file(espalier_export::usda, &lit)).expect("text");

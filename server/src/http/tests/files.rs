@@ -76,7 +76,7 @@ fn refused() -> Vec<Refused> {
             QSM,
             &SCAN.replace("20,30,6,", "20,30,6e9,"),
             "line 2",
-            "up to 100 m, as far as 1000 internodes of 0.1 m reach",
+            "up to 1000 m, as far as 1000 internodes of 1 m reach",
         ),
         tree(VERSION, &SCAN.replace("0.02,0.5", "-0.02,0.5"), "line 3, column 10", "more than 0"),
         tree(MTG, "", "body", "a multiscale tree graph (.mtg)"),
@@ -142,7 +142,7 @@ async fn im2_a_file_becomes_the_newest_version_at_the_revision_that_was_seen() {
     let (status, version) = told(first).await;
     let found = ["number", "metamers", "note", "author"].map(|name| &version[name]);
     assert_eq!(status, StatusCode::CREATED, "{version}");
-    assert_eq!(found, [&json!(2), &json!(19), &json!("Scanned"), &json!("Ada")]);
+    assert_eq!(found, [&json!(2), &json!(4), &json!("Scanned"), &json!("Ada")]);
 
     let (status, problem) = told(send(&server, post("").header(header::IF_MATCH, "\"1\""), SCAN).await).await;
     assert_eq!((status, &problem["reason"]), (StatusCode::PRECONDITION_FAILED, &json!("stale")));

@@ -62,7 +62,9 @@ mod tests {
     #[test]
     fn room_is_given_up_once_and_taken_again() {
         let folder = Folder::new();
-        let reserve = Reserve::beside(&folder.database());
+        let database = folder.database();
+        fs::create_dir_all(database.parent().unwrap()).unwrap();
+        let reserve = Reserve::beside(&database);
         assert!(!reserve.give_up());
         reserve.fill();
         reserve.fill();
