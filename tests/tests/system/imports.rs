@@ -74,7 +74,7 @@ async fn im1_what_cannot_be_read_is_refused_and_not_kept() {
 async fn lm14_a_file_is_bounded_in_bytes_and_metamers() {
     let scratch = Scratch::new();
     let server = Server::start_with(&scratch.path("trees.db"), 0, &["--metamer-budget", "12"]);
-    let answer = post(&server, "name=Oak&format=csv", SCAN);
+    let answer = post(&server, "name=Oak&format=csv&internode_length=0.1", SCAN);
     assert_eq!((answer.status, &answer.json()["code"]), (400, &json!("too_many")), "{}", answer.text());
     // It is refused before it comes, so none of it is sent.
     let large = format!("content-length: {}\r\n", MAX_WOOD_BYTES + 1);
