@@ -87,7 +87,8 @@ impl Document {
         let plant = self.plant();
         let shared = self.futures.shared_with(anchor.line);
         let knot = anchor.knot;
-        let is_of_line = shared.is_some_and(|step| knot.born <= step);
+        // A line that is not known here may be the present one under an earlier number: files do not keep the others.
+        let is_of_line = shared.is_none_or(|step| knot.born <= step);
         if is_of_line && (plant.step() + 1..=plant.last_step()).contains(&knot.born) {
             let not_yet = Whereabouts::at(PinState::NotYet, self.living_below(anchor, shared));
             return Whereabouts { step: Some(knot.born), ..not_yet };
