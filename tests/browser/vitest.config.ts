@@ -11,6 +11,8 @@ export default defineConfig({
     maxWorkers: 2,
     testTimeout: 240_000,
     hookTimeout: 240_000,
+    // A page that has little of the processor can miss a moment: once more then, and the report names the test.
+    retry: 1,
     expect: { poll: { timeout: 60_000, interval: 50 } },
   },
 });

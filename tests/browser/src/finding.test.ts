@@ -41,9 +41,7 @@ async function library(screen: Screen, names: readonly string[]): Promise<Tablet
 }
 
 async function open(tablet: Tablet): Promise<void> {
-  const button = tablet.page.locator(".tool-bar").getByRole("button", { name: "Library", exact: true });
-  if ((await button.count()) === 0) await tablet.page.getByRole("button", { name: "More", exact: true }).click();
-  await button.click();
+  await tablet.tap("Library");
   await tablet.page.getByRole("dialog").waitFor();
   await tablet.untilSettled();
 }

@@ -29,6 +29,8 @@ export type Tool = keyof typeof TOOLS;
 
 /** The longest growth of a test ends sooner, in milliseconds, also on a machine that has much else to do. */
 const PATIENCE = 150_000;
+/** For what may be gone before it can be pressed. */
+const BRIEFLY = { timeout: 5000 };
 /** What narrow glass may have no button for but in its menu. */
 const FOLDING: ReadonlySet<string> = new Set([
   ...["Background", "Wind", "Structure", "Grammars", "Scene"],
@@ -148,10 +150,18 @@ export class Tablet extends Glass {
   async tap(label: string): Promise<void> {
     const inMenu = this.page.locator(".tool-bar").getByRole("button", { name: label, exact: true });
     const control = this.page.getByLabel(label, { exact: true }).or(inMenu);
+    await (FOLDING.has(label) ? this.pressInBar(control) : this.press(control.first()));
+  }
+
+  /** Presses a control that the bar may have folded into its menu. */
+  async pressInBar(control: Locator): Promise<void> {
     const more = this.page.getByRole("button", { name: "More", exact: true, expanded: false });
-    if (FOLDING.has(label) && (await control.count()) === 0 && (await more.count()) > 0) {
-      await this.press(more);
-    }
+    // The bar may get its room, and lose its menu, while a finger is on the way.
+    await until("the control is at hand", async () => {
+      if ((await control.count()) > 0) return true;
+      if ((await more.count()) > 0) await (this.touches ? more.tap(BRIEFLY) : more.click(BRIEFLY)).catch(() => {});
+      return false;
+    });
     await this.press(control.first());
   }
 

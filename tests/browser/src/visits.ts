@@ -131,10 +131,5 @@ async function under(tablet: Tablet, path: readonly Point[], look: () => Promise
 
 /** Presses a button of the tool bar, in its menu where it is folded. */
 export async function press(tablet: Tablet, name: string): Promise<void> {
-  const button = tablet.page.locator(".tool-bar").getByRole("button", { name, exact: true });
-  const more = tablet.page.getByRole("button", { name: "More", exact: true });
-  // Until the page knows who asks, the bar has little.
-  await button.or(more).first().waitFor();
-  if ((await button.count()) === 0) await tablet.press(more);
-  await tablet.press(button);
+  await tablet.pressInBar(tablet.page.locator(".tool-bar").getByRole("button", { name, exact: true }));
 }
