@@ -9,6 +9,7 @@ The rules are in proto/PROTOCOL.md, every message in proto/protocol.schema.json,
 import json
 import struct
 import sys
+import urllib.error
 import urllib.request
 from uuid import uuid4
 
@@ -16,11 +17,15 @@ from websockets.sync.client import connect
 
 
 def request(method, address, body=None):
-    """Asks the HTTP API; gives the answer's body."""
+    """Asks the HTTP API; gives the answer's body. What is refused comes as application/problem+json (ER1)."""
     data = None if body is None else json.dumps(body).encode()
     headers = {"Content-Type": "application/json"}
-    with urllib.request.urlopen(urllib.request.Request(address, data, headers, method=method)) as answer:
-        return answer.read()
+    try:
+        with urllib.request.urlopen(urllib.request.Request(address, data, headers, method=method)) as answer:
+            return answer.read()
+    except urllib.error.HTTPError as refusal:
+        problem = json.load(refusal)
+        raise SystemExit(f"{problem['detail']} ({problem['reason']})") from None
 
 
 class Session:

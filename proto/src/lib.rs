@@ -17,6 +17,7 @@ pub mod envelope;
 pub mod frame;
 pub mod ghost;
 pub mod grammar;
+pub mod http_problem;
 pub mod library;
 pub mod mesh;
 pub mod obstacle;
@@ -59,6 +60,7 @@ pub use grammar::{
     CheckGrammar, GrammarBody, GrammarDiagnostic, GrammarInForce, GrammarOrigins, GrammarReport, GrammarRule,
     GrammarSeverity, GrammarSize, GrammarSlider, GrammarValue, MAX_GRAMMAR_VALUES, ShippedGrammar,
 };
+pub use http_problem::{HttpProblem, PROBLEM_JSON};
 pub use mesh::{Mesh, MeshError};
 pub use obstacle::{
     MeshSize, Obstacle, PlacedObstacle, PlacedShape, Pose, Shape, SimpleShape, UploadedObstacle,

@@ -76,8 +76,7 @@ impl Problem {
 
     /// The reason of a close frame: the problem's own and its sentence (`HS6`).
     pub fn in_close(&self) -> String {
-        let reason = serde_json::to_value(self.reason).unwrap_or_default();
-        format!("{}: {}", reason.as_str().unwrap_or_default(), self.message)
+        format!("{}: {}", self.reason.name(), self.message)
     }
 
     /// The same problem with its field inside `outer`: `radius` becomes `samples[3].radius`.

@@ -18,11 +18,22 @@ macro_rules! reasons {
 
         impl Reason {
             /// All of them in their order, each with its sentence.
-            pub const ALL: &'static [(Self, &'static str)] = &[$($((Self::$reason, $sentence.trim_ascii()),)+)+];
+            pub const ALL: &'static [(Self, &'static str)] = &[$($((Self::$reason, Self::$reason.sentence()),)+)+];
+
+            /// What it says in general, as `PROTOCOL.md` does.
+            pub const fn sentence(self) -> &'static str {
+                match self { $($(Self::$reason => $sentence.trim_ascii(),)+)+ }
+            }
 
             /// The code of a problem with this reason.
             pub const fn code(self) -> ProblemCode {
                 match self { $($(Self::$reason)|+ => ProblemCode::$code,)+ }
+            }
+
+            /// Its name as programs know it.
+            pub fn name(self) -> String {
+                // A name without contents always has a JSON form, which is a text.
+                serde_json::to_value(self).ok().and_then(|name| Some(name.as_str()?.to_owned())).unwrap_or_default()
             }
         }
     };

@@ -28,6 +28,7 @@ mod people;
 mod places;
 mod pool;
 mod portrait;
+mod problem_json;
 mod progress;
 mod recipe;
 mod review;

@@ -5,6 +5,7 @@ use std::{
     net::TcpStream,
 };
 
+use espalier_proto::{HttpProblem, PROBLEM_JSON};
 use serde_json::Value;
 
 use crate::server::GUARD;
@@ -29,6 +30,17 @@ impl Answer {
     /// The body as JSON.
     pub fn json(&self) -> Value {
         serde_json::from_slice(&self.body).unwrap_or_else(|error| panic!("{error}: {}", self.text()))
+    }
+
+    /// Whatever is refused comes with a problem that says why (`ER1`).
+    fn assert_explains_itself(&self, method: &str, path: &str) {
+        if self.status >= 400 && method != "HEAD" {
+            let kind = self.header("content-type");
+            assert_eq!(kind, Some(PROBLEM_JSON), "{method} {path}: {}", self.text());
+            let problem: HttpProblem = serde_json::from_slice(&self.body)
+                .unwrap_or_else(|error| panic!("{method} {path}: {error} in {}", self.text()));
+            assert_eq!(problem.status, self.status, "{method} {path}");
+        }
     }
 
     /// The first header of this name.
@@ -78,7 +90,9 @@ pub fn send_with(port: u16, method: &str, path: &str, headers: &str, body: &[u8]
     stream.write_all(&request)?;
     let mut bytes = Vec::new();
     stream.read_to_end(&mut bytes)?;
-    parse(&bytes).ok_or_else(|| io::Error::other("the answer is not HTTP"))
+    let answer = parse(&bytes).ok_or_else(|| io::Error::other("the answer is not HTTP"))?;
+    answer.assert_explains_itself(method, path);
+    Ok(answer)
 }
 
 fn parse(bytes: &[u8]) -> Option<Answer> {

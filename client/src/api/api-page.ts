@@ -1,6 +1,7 @@
 import SwaggerUI from "swagger-ui-dist/swagger-ui-es-bundle.js";
 import "swagger-ui-dist/swagger-ui.css";
 import "./api-page.css";
+import { listOfReasons } from "./reasons";
 
 /** Where the server describes itself. */
 const DESCRIPTION = "/api/v1/openapi.json";
@@ -22,3 +23,11 @@ SwaggerUI({
   // Nothing is asked of any other server.
   validatorUrl: null,
 });
+
+// Where the `type` of a problem leads (`ER1`).
+const answer = await fetch(DESCRIPTION);
+if (answer.ok) {
+  document.body.append(listOfReasons(await answer.json()));
+  const at = location.hash.slice(1);
+  document.getElementById(at)?.scrollIntoView();
+}

@@ -3,7 +3,7 @@
 use std::{borrow::Cow, sync::LazyLock};
 
 use axum::{http::header, response::IntoResponse};
-use espalier_proto::Problem;
+use espalier_proto::{HttpProblem, PROBLEM_JSON};
 use schemars::{JsonSchema, SchemaGenerator, generate::SchemaSettings};
 use serde_json::{Map, Value, json};
 
@@ -136,7 +136,7 @@ fn document() -> String {
     let mut settings = SchemaSettings::draft2020_12();
     settings.definitions_path = "/components/schemas".into();
     let mut generator = settings.into_generator();
-    let problem = schema_of::<Problem>(&mut generator);
+    let problem = schema_of::<HttpProblem>(&mut generator);
     let mut paths = Map::new();
     for (address, _, about) in all() {
         let (method, path) = address.split_once(' ').unwrap_or(("GET", &address));
@@ -155,8 +155,8 @@ fn document() -> String {
         "components": {
             "schemas": generator.take_definitions(true),
             "responses": { "Problem": {
-                "description": "What is wrong: code, field, what is allowed there, and a sentence.",
-                "content": { "application/json": { "schema": problem } },
+                "description": "What is wrong, as RFC 9457 has it, with code, reason, field and what is allowed there (ER1).",
+                "content": { PROBLEM_JSON: { "schema": problem } },
             } },
             "securitySchemes": {
                 "device": {

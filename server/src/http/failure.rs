@@ -3,7 +3,7 @@
 use std::{fmt, time::Duration};
 
 use axum::{
-    Extension, Json,
+    Extension,
     body::Bytes,
     extract::{
         self, DefaultBodyLimit, FromRequest, FromRequestParts, Request, path::ErrorKind,
@@ -22,6 +22,7 @@ use crate::{
     live::{Ended, OpenError, Unread},
     memory::{AGAIN, Full},
     pool::Panicked,
+    problem_json,
     similar::asked_for,
     store::{Missing, StoreError},
 };
@@ -225,7 +226,7 @@ impl From<Panicked> for Failure {
 impl IntoResponse for Failure {
     fn into_response(self) -> Response {
         let is_no_tree = self.problem.reason == Reason::NoTree;
-        let mut response = (self.status, Json(self.problem)).into_response();
+        let mut response = problem_json::answer(self.status, self.problem);
         if is_no_tree {
             response.extensions_mut().insert(NoTree);
         }

@@ -6,7 +6,6 @@ use std::{
 };
 
 use axum::{
-    Json,
     http::{HeaderMap, StatusCode, header},
     response::{IntoResponse, IntoResponseParts, Response},
 };
@@ -17,6 +16,7 @@ use espalier_proto::{
 use sha2::{Digest, Sha256};
 
 use super::{exports, failure::Failure};
+use crate::problem_json;
 
 /// Bytes of the hash in a tag.
 const TAG_BYTES: usize = 16;
@@ -90,7 +90,7 @@ fn beyond(length: u64) -> Response {
         format!("bytes from 0 to {length}, without the last"),
     );
     let place = [(header::CONTENT_RANGE, format!("bytes */{length}"))];
-    (StatusCode::RANGE_NOT_SATISFIABLE, place, Json(problem)).into_response()
+    (place, problem_json::answer(StatusCode::RANGE_NOT_SATISFIABLE, problem)).into_response()
 }
 
 /// The part that the request asks for; the whole where it is for another file than the one of this tag (`If-Range`).
@@ -169,5 +169,6 @@ mod tests {
         let refused = answer(&asked, said, "\"x\"", Cursor::new("0123456789"), 10).unwrap();
         assert_eq!(refused.status(), StatusCode::RANGE_NOT_SATISFIABLE);
         assert_eq!(refused.headers()[header::CONTENT_RANGE], "bytes */10");
+        assert_eq!(refused.headers()[header::CONTENT_TYPE], espalier_proto::PROBLEM_JSON);
     }
 }

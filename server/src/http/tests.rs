@@ -326,7 +326,7 @@ async fn ac5_a_guest_whose_tree_is_deleted_is_told_of_no_other() {
         let answer = server.clone().oneshot(asked).await.unwrap();
         let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
         let problem: Value = serde_json::from_slice(&bytes).unwrap();
-        let message = problem["message"].as_str().unwrap();
+        let message = problem["detail"].as_str().unwrap();
         assert!(message.starts_with(expected), "{message}");
     }
 }
@@ -395,6 +395,8 @@ async fn lm17_whoever_begins_many_sessions_waits() {
 async fn reason(server: &Router, request: Builder) -> (StatusCode, Option<String>) {
     let answer = server.clone().oneshot(request.body(Body::empty()).unwrap()).await.unwrap();
     let status = answer.status();
+    let kind = answer.headers().get(header::CONTENT_TYPE).cloned();
+    assert!(status.is_success() || kind.is_some_and(|kind| kind == espalier_proto::PROBLEM_JSON), "{status}");
     let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
     let problem: Value = serde_json::from_slice(&bytes).unwrap_or_default();
     (status, problem["reason"].as_str().map(str::to_owned))

@@ -103,9 +103,9 @@ async fn requests_whose_head_cannot_be_read_are_told_why() {
         let (head, body) = heard.split_once("\r\n\r\n").unwrap();
         assert!(head.starts_with(&format!("HTTP/1.1 {status} ")), "{head}");
         assert!(head.contains(&format!("content-length: {}\r\n", body.len())), "{head}");
-        assert!(head.contains("content-type: application/json\r\n"), "{head}");
-        let problem: espalier_proto::Problem = serde_json::from_str(body).unwrap();
-        assert_eq!(problem.field.as_deref(), Some(field));
+        assert!(head.contains("content-type: application/problem+json\r\n"), "{head}");
+        let problem: espalier_proto::HttpProblem = serde_json::from_str(body).unwrap();
+        assert_eq!((problem.status, problem.field.as_deref()), (status, Some(field)));
         assert!(problem.allowed.is_some());
     }
 }

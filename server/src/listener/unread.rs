@@ -1,7 +1,10 @@
 //! Answers to requests whose head cannot be read. The library that reads HTTP gives them itself, without a body and
 //! before anything of ours is asked, so they are known by their bytes where these leave.
 
-use espalier_proto::{Problem, Reason};
+use axum::http::StatusCode;
+use espalier_proto::{PROBLEM_JSON, Problem, Reason};
+
+use crate::problem_json;
 
 /// The head of such an answer is short.
 const LONGEST: usize = 512;
@@ -13,7 +16,8 @@ pub(super) fn instead(written: &[u8]) -> Option<Vec<u8>> {
     let head = str::from_utf8(head).ok()?.strip_suffix("\r\n\r\n")?;
     let mut lines = head.split("\r\n");
     let status = lines.next()?;
-    let (field, allowed, sentence) = match status.split(' ').next()? {
+    let status_code = StatusCode::from_bytes(status.split(' ').next()?.as_bytes()).ok()?;
+    let (field, allowed, sentence) = match status_code.as_str() {
         "400" => ("request", "a request of HTTP/1.1", "The request cannot be read: it is none of HTTP/1.1."),
         "414" => ("path", "an address of at most 65534 bytes", "The address is too long."),
         "431" => (
@@ -29,14 +33,13 @@ pub(super) fn instead(written: &[u8]) -> Option<Vec<u8>> {
         return None;
     }
     let problem = Problem::new(Reason::Malformed, sentence).at(field, allowed);
-    let body = serde_json::to_string(&problem).ok()?;
+    let body = problem_json::body(status_code, problem);
     let mut answer =
-        format!("HTTP/1.1 {status}\r\ncontent-type: application/json\r\ncontent-length: {}\r\n", body.len());
+        format!("HTTP/1.1 {status}\r\ncontent-type: {PROBLEM_JSON}\r\ncontent-length: {}\r\n", body.len());
     for line in others {
         answer.push_str(line);
         answer.push_str("\r\n");
     }
     answer.push_str("\r\n");
-    answer.push_str(&body);
-    Some(answer.into_bytes())
+    Some([answer.into_bytes(), body].concat())
 }

@@ -94,7 +94,7 @@ async fn op1_hs6_what_needs_a_later_program_is_refused_whichever_way_it_comes() 
     let export = format!("/api/v1/sessions/{session}/tree.glb");
     let export = http::get(server.port(), &export).expect("the server answers");
     for answer in [open_first(&server), upload(&server, LATER), export] {
-        let sentence = answer.json()["message"].as_str().unwrap_or_default().to_owned();
+        let sentence = answer.json()["detail"].as_str().unwrap_or_default().to_owned();
         assert_eq!(answer.status, 409, "{}", answer.text());
         assert!(
             sentence.starts_with("A newer Espalier made this tree (") && sentence.contains(NEEDED),

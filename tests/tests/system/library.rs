@@ -172,9 +172,9 @@ async fn bad_requests_name_what_is_wrong() {
         let shown: String = body.to_string().chars().take(100).collect();
         let answer = library.ask(method, path, Some(body));
         assert_eq!(answer.status, status, "{path} {shown}: {}", answer.text());
-        let problem: espalier_proto::Problem = serde_json::from_slice(&answer.body)
+        let problem: espalier_proto::HttpProblem = serde_json::from_slice(&answer.body)
             .unwrap_or_else(|error| panic!("{shown}: {error} in {}", answer.text()));
-        let said = format!("{} {}", problem.field.unwrap_or_default(), problem.message);
+        let said = format!("{} {}", problem.field.unwrap_or_default(), problem.detail);
         assert!(said.contains(word), "{shown}: {said}");
     }
     assert_eq!(library.ask("GET", "/api/v1/sessions/nowhere", None).status, 404);

@@ -191,7 +191,7 @@ async fn ob6_what_is_no_mesh_is_refused_in_words() {
     for (file, words) in [(b"solid cube".as_slice(), "glTF"), (&cut, "cut short"), (&[0; 64], "glTF")] {
         let answer = upload(&server, &session, file);
         assert_eq!(answer.status, 400, "{}", answer.text());
-        let message = answer.json()["message"].as_str().expect("a problem has a sentence").to_owned();
+        let message = answer.json()["detail"].as_str().expect("a problem has a sentence").to_owned();
         assert!(message.contains(words), "{message}");
     }
     // It is refused before it comes, so none of it is sent.

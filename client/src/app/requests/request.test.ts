@@ -54,14 +54,14 @@ describe("requests", () => {
   });
 
   it("tells a missing session from a failing server", async () => {
-    answer(404, { code: "not_found", message: "No such session." });
+    answer(404, { code: "not_found", detail: "No such session." });
     expect(await findSession("elm")).toBeNull();
-    answer(503, { code: "unavailable", message: "The disk is full." });
+    answer(503, { code: "unavailable", detail: "The disk is full." });
     await expect(findSession("elm")).rejects.toThrow("The disk is full.");
   });
 
-  it("hands on the server's own sentence", async () => {
-    answer(400, { code: "out_of_range", field: "name", allowed: "1 to 80", message: "The name is too long." });
+  it("ER1: hands on the server's own sentence", async () => {
+    answer(400, { code: "out_of_range", field: "name", allowed: "1 to 80", detail: "The name is too long." });
     const failure = await changeTree("t", { name: "x".repeat(99) }).catch((error: unknown) => error);
     expect(failure).toBeInstanceOf(RequestFailed);
     expect(failure).toMatchObject({ status: 400, problem: { field: "name" }, message: "The name is too long." });

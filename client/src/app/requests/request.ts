@@ -88,9 +88,10 @@ export function silence(): RequestFailed {
   return new RequestFailed(0, { code: "unavailable", message: say("problems.silent") });
 }
 
+/** What the answer has besides `status`, `type` and `title` is the problem; its sentence is called `detail` (`ER1`). */
 function asProblem(json: unknown): Trouble | null {
-  const message = typeof json === "object" && json !== null && "message" in json ? json.message : null;
-  return typeof message === "string" ? (json as Trouble) : null;
+  const message = typeof json === "object" && json !== null && "detail" in json ? json.detail : null;
+  return typeof message === "string" ? { ...(json as Trouble), message } : null;
 }
 
 function unexplained(status: number): Trouble {

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use axum::http::HeaderMap;
+use espalier_proto::PROBLEM_JSON;
 use serde_json::{Value, json};
 
 use super::{refusals::bodies, *};
@@ -22,9 +23,12 @@ impl Answer {
     fn assert(&self, status: StatusCode, field: &str, asked: &str) {
         let Self { status: found, headers, problem } = self;
         assert_eq!((*found, problem["field"].as_str()), (status, Some(field)), "{asked}: {problem}");
-        assert_eq!(headers[header::CONTENT_TYPE], "application/json", "{asked}");
+        assert_eq!(headers[header::CONTENT_TYPE], PROBLEM_JSON, "{asked}");
+        assert_eq!(problem["status"], status.as_u16(), "{asked}");
         let said = |name: &str| problem[name].as_str().is_some_and(|text| !text.is_empty());
-        assert!(said("allowed") && said("message") && said("reason"), "{asked}: {problem}");
+        let reason = problem["reason"].as_str().unwrap();
+        assert_eq!(problem["type"], format!("/api#{reason}"), "{asked}");
+        assert!(said("allowed") && said("detail") && said("title"), "{asked}: {problem}");
     }
 }
 
@@ -63,7 +67,7 @@ fn filled_with(path: &str, part: &str, text: &str) -> String {
 }
 
 #[tokio::test]
-async fn a_path_that_cannot_be_read_is_a_problem() {
+async fn er1_a_path_that_cannot_be_read_is_a_problem() {
     let (server, _) = server().await;
     for address in addresses().into_iter().chain([SOCKET.to_owned()]) {
         let (method, path) = (method_of(&address), path_of(&address));
@@ -79,7 +83,7 @@ async fn a_path_that_cannot_be_read_is_a_problem() {
 }
 
 #[tokio::test]
-async fn a_wrong_method_is_a_problem_that_names_the_right_ones() {
+async fn er1_a_wrong_method_is_a_problem_that_names_the_right_ones() {
     let (server, _) = server().await;
     let mut taken: BTreeMap<String, Vec<Method>> = BTreeMap::new();
     for address in addresses().into_iter().chain([SOCKET.to_owned()]) {
@@ -107,7 +111,7 @@ async fn a_wrong_method_is_a_problem_that_names_the_right_ones() {
 }
 
 #[tokio::test]
-async fn an_address_that_is_none_says_so_to_every_method() {
+async fn er1_an_address_that_is_none_says_so_to_every_method() {
     let (server, _) = server().await;
     for method in [Method::GET, Method::POST, Method::PUT, Method::DELETE] {
         for path in ["/api/v1/shrubs", "/api/", "/nowhere.html"] {
@@ -139,7 +143,7 @@ async fn what_was_mistyped_is_told_what_may_have_been_meant() {
         (grow(json!({ "template": "triffid", "format": "glb" })), "There is no such species or saved tree."),
     ] {
         let answer = ask(&server, &method.parse().unwrap(), path, &body, None).await;
-        let message = answer.problem["message"].as_str().unwrap();
+        let message = answer.problem["detail"].as_str().unwrap();
         assert!(message.contains(said), "{method} {path} {body}: {message}");
     }
 }

@@ -221,7 +221,7 @@ fn assert_names(field: &str, (status, problem): &(StatusCode, Value), asked: &st
     let named = problem["field"].as_str().unwrap_or_default();
     let outermost = named.split(['[', '.']).next();
     assert!(named == field || outermost == Some(field), "{asked}, not {field}: {problem}");
-    let message = problem["message"].as_str().unwrap();
+    let message = problem["detail"].as_str().unwrap();
     let allowed = problem["allowed"].as_str().unwrap_or_else(|| panic!("{asked} names no range: {problem}"));
     assert!(!allowed.is_empty() && message.contains(field), "{asked}: {problem}");
 }

@@ -24,7 +24,7 @@ async fn sv1_a_server_lives_where_it_is_not_ready() {
     let all = shared.memory.take(Use::Job, Need::Other, left).unwrap();
     let (status, problem) = get("/ready").await;
     assert_eq!(status, StatusCode::SERVICE_UNAVAILABLE);
-    let problem: espalier_proto::Problem = serde_json::from_str(&problem).unwrap();
+    let problem: espalier_proto::HttpProblem = serde_json::from_str(&problem).unwrap();
     assert_eq!(problem.reason, Reason::MemoryFull);
     for path in ["/live", "/health"] {
         assert_eq!(get(path).await.0, StatusCode::OK, "{path}");
