@@ -162,7 +162,7 @@ describe("the session a page opens with", () => {
   });
 
   it("AC5: is said not to be had where a guest's tree is gone, and asked for again where nobody answers", async () => {
-    const refused = { code: "refused", reason: "forbidden", message: "You may not do this here." };
+    const refused = { code: "refused", reason: "forbidden", detail: "You may not do this here." };
     const rights = async () => ({ mayBegin: false, onlyTree: "ash" });
     vi.stubGlobal("fetch", async () => new Response(JSON.stringify(refused), { status: 403 }));
     const guest = setUp("/", { rights });

@@ -46,9 +46,9 @@ describe("an invitation", () => {
   });
 
   it("AC3: that was used leads whoever it let in to where it did before, and nobody else", async () => {
-    const used = { code: "refused", reason: "no-invitation", message: "No." };
+    const used = { code: "refused", reason: "no-invitation", detail: "No." };
     const me = { role: "viewer", way: "device", tree: "ash" };
-    const out = { code: "refused", reason: "not-let-in", message: "No." };
+    const out = { code: "refused", reason: "not-let-in", detail: "No." };
     const serve = (asked: Response) =>
       vi.stubGlobal("fetch", async (path: string) => {
         if (path === "/api/v1/me") {

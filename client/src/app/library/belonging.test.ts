@@ -11,11 +11,11 @@ function serve(tree: SavedTree, of = { id: tree.id, version: tree.version, saved
     asked.push(`${method} ${path}`);
     const answer = (status: number, body: unknown) => new Response(JSON.stringify(body), { status });
     if (path.startsWith("/api/v1/sessions/")) return answer(200, { session: "s", tree: of });
-    if (state.gone) return answer(404, { code: "not_found", message: "There is no such tree." });
+    if (state.gone) return answer(404, { code: "not_found", detail: "There is no such tree." });
     if (method === "GET") return answer(200, state.tree);
     state.meanwhile();
     if (new Headers(headers).get("if-match") !== `"${state.tree.revision}"`)
-      return answer(412, { code: "stale", message: "It has changed." });
+      return answer(412, { code: "stale", detail: "It has changed." });
     const { version, revision } = state.tree;
     state.tree = { ...state.tree, version: version + 1, revision: revision + 1 };
     return answer(201, { number: version + 1 });

@@ -13,7 +13,7 @@ describe("species", () => {
   });
 
   it("are none where the server knows of none", async () => {
-    answer({ code: "not_found", message: "there is nothing at this address" }, 404);
+    answer({ code: "not_found", detail: "there is nothing at this address" }, 404);
     expect(await listSpecies()).toEqual([]);
   });
 
@@ -25,7 +25,7 @@ describe("species", () => {
   });
 
   it("a server in trouble is not one without species", async () => {
-    answer({ code: "unavailable", message: "starting" }, 503);
+    answer({ code: "unavailable", detail: "starting" }, 503);
     await expect(listSpecies()).rejects.toThrow("starting");
   });
 
