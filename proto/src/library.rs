@@ -42,6 +42,50 @@ pub struct SessionCreated {
     pub tree: Option<SessionTree>,
 }
 
+/// `GET /api/v1/sessions`: some sessions, those first in which something was done last (`LB11`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct SessionPage {
+    /// The sessions.
+    pub sessions: Vec<ListedSession>,
+    /// The `after` of the next page, if there may be one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub next: Option<String>,
+}
+
+/// A session in a list.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ListedSession {
+    /// The session's name, whose link is `/s/NAME`.
+    pub session: String,
+    /// The tree of the library that it belongs to, if it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub tree: Option<TreeOfSession>,
+    /// Whether nothing was done since it was saved, or since it began.
+    pub saved: bool,
+    /// Living metamers; of a session that is not in memory, as many as there were when its state was kept last.
+    pub metamers: u32,
+    /// Clients that are in it now.
+    pub people: u32,
+    /// When somebody entered it or drew in it last: RFC 3339, UTC.
+    pub used_at: String,
+}
+
+/// The tree of a session in a list.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct TreeOfSession {
+    /// The tree's identifier.
+    pub id: String,
+    /// The tree's name.
+    pub name: String,
+    /// The version that the session was last saved as, or began with.
+    pub version: u32,
+}
+
 /// The tree that a session belongs to.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
@@ -142,6 +186,30 @@ pub struct TreePage {
     pub next: Option<String>,
 }
 
+/// What is to be known of a file that became a tree (`IM3`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ImportNote {
+    /// Which it is, for programs that have words of their own for it.
+    pub note: ImportNoteKind,
+    /// What the file has there: the name of a species.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub found: Option<String>,
+    /// A sentence that says it.
+    pub message: String,
+}
+
+/// What there is to say of files that become trees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(rename_all = "kebab-case")]
+pub enum ImportNoteKind {
+    /// Its last line has no end, so it may have been cut off there.
+    MayBeCutOff,
+    /// It names a species that nobody knows.
+    UnknownSpecies,
+}
+
 /// One tree of the library.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
@@ -194,6 +262,10 @@ pub struct SavedTree {
     /// The number of its present state, which every change counts up: its `ETag` without the quotes.
     #[ts(type = "number")]
     pub revision: u64,
+    /// What is to be known of the file that it was made of, in the answer to its import alone.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[ts(optional, as = "Option<Vec<ImportNote>>")]
+    pub import_notes: Vec<ImportNote>,
 }
 
 /// One format of `GET /api/v1/formats`.
@@ -267,6 +339,10 @@ pub struct TreeVersion {
     pub thumbnail: String,
     /// Where its document is. What is there never changes.
     pub document: String,
+    /// What is to be known of the file that it was made of, in the answer to its import alone.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[ts(optional, as = "Option<Vec<ImportNote>>")]
+    pub import_notes: Vec<ImportNote>,
 }
 
 /// `PATCH /api/v1/trees/ID`: what is left out stays as it is.

@@ -48,6 +48,10 @@ table! {
     OwnJobs: Viewer, Library;
     /// Begins a session that belongs to no tree.
     BeginSession: Editor, Library;
+    /// Lists sessions, of which everybody but owners sees those that they have begun or been in.
+    ListSessions: Viewer, Guests;
+    /// Takes a session off one's list.
+    ForgetSession: Viewer, Library;
     /// Asks for a session by its name.
     SeeSession: Viewer, Library;
     /// Joins a session.

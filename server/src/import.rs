@@ -11,7 +11,10 @@ use espalier_growth::{
     species::{self, Species, Stage},
 };
 use espalier_import::{Fault, FaultKind, WoodFormat, WoodNote, WoodOptions, read_wood};
-use espalier_proto::{NotAllowed, Problem, ProblemCode, Reason};
+use espalier_proto::{
+    NotAllowed, Problem, ProblemCode, Reason,
+    library::{self, ImportNoteKind},
+};
 use espalier_session::{Document, DocumentError, TransplantError};
 use espalier_settings::{Appearance, ParameterValues, ParametersPatch};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -81,6 +84,15 @@ pub enum ImportNote {
 }
 
 impl ImportNote {
+    /// As the API tells it.
+    pub fn to_proto(&self) -> library::ImportNote {
+        let (note, found) = match self {
+            Self::File(WoodNote::NoLineEnd) => (ImportNoteKind::MayBeCutOff, None),
+            Self::Species(name) => (ImportNoteKind::UnknownSpecies, Some(name.clone())),
+        };
+        library::ImportNote { note, found, message: self.to_string() }
+    }
+
     /// Says it to whoever gave the command.
     pub fn print(&self) {
         // A reader that has gone is no error of ours.

@@ -16,7 +16,8 @@ use crate::{
     cli::{
         self, Database,
         library::{
-            ExportTree, Find, Get, LibraryCommand, List, Listing, Of, Put, RestoreVersion, Review, Versions,
+            ExportTree, Find, Get, LibraryCommand, List, Listing, Of, Put, RestoreVersion, Review, Sessions,
+            Versions,
         },
     },
     document::{self, FORMATS, Format, Stored},
@@ -29,7 +30,8 @@ use crate::{
     similar::asked_for,
     store::{
         Comments, Contents, Library, LibraryFile, Missing, NewTree, NewVersion, OpenError, Picture, Saved,
-        SqliteStore, Store, StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery,
+        SessionLine, SessionQuery, SqliteStore, Store, StoreError, StoredTree, StoredVersion, TreeDocument,
+        TreeQuery,
     },
     time::now,
 };
@@ -127,6 +129,7 @@ pub fn run(command: &LibraryCommand) -> Result<(), LibraryError> {
         match command {
             LibraryCommand::Ls(list) => ls(list, &[]).await,
             LibraryCommand::Find(Find { words, list }) => ls(list, words).await,
+            LibraryCommand::Sessions(options) => sessions(options).await,
             LibraryCommand::Get(options) => get(options).await,
             LibraryCommand::Put(options) => put(options).await,
             LibraryCommand::Export(options) => export(options).await,
@@ -200,6 +203,45 @@ async fn ls(list: &List, words: &[String]) -> Result<(), LibraryError> {
         ]
     };
     print(["ID", "NAME", "VERSION", "METAMERS", "SPECIES", "SAVED"], lines, cells, &list.from);
+    Ok(())
+}
+
+/// A session, as lists print it.
+#[derive(Serialize)]
+struct SessionOfList<'a> {
+    session: &'a str,
+    tree: Option<&'a str>,
+    tree_name: Option<&'a str>,
+    version: Option<u32>,
+    saved: bool,
+    metamers: u32,
+    used_at: &'a str,
+}
+
+async fn sessions(Sessions { unsaved, from }: &Sessions) -> Result<(), LibraryError> {
+    let query =
+        SessionQuery { is_saved: unsaved.then_some(false), limit: u32::MAX, ..SessionQuery::default() };
+    let sessions = LibraryFile::open(&from.database.path).await?.sessions(&query).await?;
+    let lines =
+        sessions.iter().map(|SessionLine { name, tree, is_saved, metamers, used_at }| SessionOfList {
+            session: name,
+            tree: tree.as_ref().map(|tree| &*tree.id),
+            tree_name: tree.as_ref().map(|tree| &*tree.name),
+            version: tree.as_ref().map(|tree| tree.version),
+            saved: *is_saved,
+            metamers: *metamers,
+            used_at,
+        });
+    let cells = |line: &SessionOfList<'_>| {
+        [
+            line.session.to_owned(),
+            line.tree_name.unwrap_or_default().to_owned(),
+            if line.saved { "yes" } else { "no" }.to_owned(),
+            line.metamers.to_string(),
+            line.used_at.to_owned(),
+        ]
+    };
+    print(["SESSION", "TREE", "SAVED", "METAMERS", "USED"], lines, cells, from);
     Ok(())
 }
 

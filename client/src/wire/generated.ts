@@ -92,6 +92,8 @@ export const LEAST_ROLES = {
   GrowTrees: "editor",
   OwnJobs: "viewer",
   BeginSession: "editor",
+  ListSessions: "viewer",
+  ForgetSession: "viewer",
   SeeSession: "viewer",
   JoinSession: "viewer",
   EditSession: "editor",
@@ -2485,6 +2487,72 @@ version: number,
  */
 saved: boolean, };
 
+export type SessionPage = { 
+/**
+ * The sessions.
+ */
+sessions: Array<ListedSession>, 
+/**
+ * The `after` of the next page, if there may be one.
+ */
+next?: string, };
+
+export type ImportNoteKind = "may-be-cut-off" | "unknown-species";
+
+export type ImportNote = { 
+/**
+ * Which it is, for programs that have words of their own for it.
+ */
+note: ImportNoteKind, 
+/**
+ * What the file has there: the name of a species.
+ */
+found?: string, 
+/**
+ * A sentence that says it.
+ */
+message: string, };
+
+export type ListedSession = { 
+/**
+ * The session's name, whose link is `/s/NAME`.
+ */
+session: string, 
+/**
+ * The tree of the library that it belongs to, if it does.
+ */
+tree?: TreeOfSession, 
+/**
+ * Whether nothing was done since it was saved, or since it began.
+ */
+saved: boolean, 
+/**
+ * Living metamers; of a session that is not in memory, as many as there were when its state was kept last.
+ */
+metamers: number, 
+/**
+ * Clients that are in it now.
+ */
+people: number, 
+/**
+ * When somebody entered it or drew in it last: RFC 3339, UTC.
+ */
+used_at: string, };
+
+export type TreeOfSession = { 
+/**
+ * The tree's identifier.
+ */
+id: string, 
+/**
+ * The tree's name.
+ */
+name: string, 
+/**
+ * The version that the session was last saved as, or began with.
+ */
+version: number, };
+
 export type SessionCreated = { 
 /**
  * The session's name.
@@ -2646,7 +2714,11 @@ people: number,
 /**
  * The number of its present state, which every change counts up: its `ETag` without the quotes.
  */
-revision: number, };
+revision: number, 
+/**
+ * What is to be known of the file that it was made of, in the answer to its import alone.
+ */
+import_notes?: Array<ImportNote>, };
 
 export type TreePage = { 
 /**
@@ -2695,7 +2767,11 @@ thumbnail: string,
 /**
  * Where its document is. What is there never changes.
  */
-document: string, };
+document: string, 
+/**
+ * What is to be known of the file that it was made of, in the answer to its import alone.
+ */
+import_notes?: Array<ImportNote>, };
 
 export type ChangeTree = { 
 /**

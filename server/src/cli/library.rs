@@ -15,7 +15,7 @@ use crate::{
 
 pub(super) const NOTES: &str = "\
 TREE is the identifier of a tree, as `ls` prints it, or its name where no other tree has it.
-ls, find, get, export, versions and review read beside a server that uses the database. put and restore need it for themselves:
+ls, find, sessions, get, export, versions and review read beside a server that uses the database. put and restore need it for themselves:
 stop the server, or use its page or API.";
 
 /// What to do with the library.
@@ -25,6 +25,8 @@ pub enum LibraryCommand {
     Ls(List),
     /// List the trees that have all these words, each anywhere in the name, a tag, the note or the species.
     Find(Find),
+    /// List the sessions, those first in which something was done last; `/s/NAME` leads to each.
+    Sessions(Sessions),
     /// Write the document of a tree to a file, as it was saved.
     Get(Get),
     /// Save a file as a new tree, or as the newest version of one.
@@ -103,6 +105,16 @@ pub struct Find {
     pub words: Vec<String>,
     #[command(flatten)]
     pub list: List,
+}
+
+/// Options of `sessions`.
+#[derive(Debug, Args)]
+pub struct Sessions {
+    /// Only those in which something was done that is not saved.
+    #[arg(long)]
+    pub unsaved: bool,
+    #[command(flatten)]
+    pub from: Listing,
 }
 
 /// A version of a tree.

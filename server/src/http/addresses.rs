@@ -12,8 +12,8 @@ use espalier_proto::{
     comment::{ChangeComment, ChangeThread, NewComment, NewThread, Seen, Thread},
     library::{
         ChangeCollection, ChangeTree, ChangeVersion, CopyTree, ExportFormat, ExportProgress, NewCollection,
-        NewSession, RestoreVersion, SaveTree, SaveVersion, SavedTree, SessionCreated, TreeAuthor,
-        TreeCollection, TreePage, TreeTag, TreeVersion,
+        NewSession, RestoreVersion, SaveTree, SaveVersion, SavedTree, SessionCreated, SessionPage,
+        TreeAuthor, TreeCollection, TreePage, TreeTag, TreeVersion,
     },
     obstacle::UploadedObstacle,
     schematic::Schematic,
@@ -28,7 +28,7 @@ use tower::limit::GlobalConcurrencyLimitLayer;
 use super::{
     Shared, audit, collections, comments, description, description::About, entry, exports, failure::Path,
     grammars, guard::TIME_LIMIT, imports, jobs, keys::Shown, links, locks, obstacles, origin::METRICS,
-    reviews, schematic, sessions, species, status, trees, uploads::uploads, versions,
+    reviews, schematic, session_list, sessions, species, status, trees, uploads::uploads, versions,
 };
 use crate::{
     access::Action,
@@ -210,6 +210,8 @@ pub(super) fn routes() -> Vec<Route> {
         route("GET /api/v1/formats", Action::Look, get(exports::formats), About::new("What a tree can be downloaded as (EX1).").gives::<Vec<ExportFormat>>(200)),
         route("GET /api/v1/sessions/{session}/exports/{ticket}", Action::TakeTree, get(exports::progress), About::new("How far a file is that is being made (EX3).").gives::<ExportProgress>(200)),
         route("POST /api/v1/sessions", Action::EnterSession, post(sessions::create), About::new("Begin a session, or come into the one of a tree: 200 where it is there already (LB3).").takes::<NewSession>().gives::<SessionCreated>(201).gives::<SessionCreated>(200)),
+        route("GET /api/v1/sessions", Action::ListSessions, get(session_list::list), About::new("Sessions that one may see, those first in which something was done last, page by page (LB11).").asks::<session_list::Page>().gives::<SessionPage>(200)),
+        route("DELETE /api/v1/sessions/{session}", Action::ForgetSession, delete(session_list::forget), About::new("Take a session off one's list; whoever knows its name comes into it still (LB11).").gives_nothing()),
         route("GET /api/v1/sessions/{session}", Action::SeeSession, get(sessions::find), About::new("Whether there is such a session.").gives::<SessionCreated>(200)),
         route("POST /api/v1/sessions/{session}/resume", Action::ResumeSession, post(sessions::resume), About::new("Let go on what rests because the server did not outlive it twice (OP5).").gives_nothing()),
         route("POST /api/v1/sessions/{session}/obstacles", Action::EditSession, post(obstacles::upload).layer(uploads(MAX_UPLOADS)), About::new("Place a glTF or OBJ model as an obstacle (OB6).").takes_file("model/gltf-binary").gives::<UploadedObstacle>(201)).up_to(MAX_MODEL_BYTES).within(UPLOAD_TIME),

@@ -28,14 +28,16 @@ use tokio_util::sync::CancellationToken;
 use super::{
     Shared,
     failure::{Failure, Path, Query},
-    ranges,
+    file_name, ranges,
     sessions::{open, saved_document, unreadable},
+    trees,
 };
 use crate::{
     document::{FORMATS, FileError, FormatRow, Stored},
     export_options::{ExportOptions, NotOfFormat},
     memory::Use,
     spool::Spool,
+    store::Library,
 };
 
 /// Bytes read from the disk at once.
@@ -122,7 +124,11 @@ pub(super) async fn take(
 ) -> Result<Response, Failure> {
     let wanted = Wanted::of(&shared, row, options)?;
     let document = open(&shared, &session).await?.read().await?;
-    wanted.sent(&shared, &session, document.bytes, &asked).await
+    let tree = match shared.store.tree_of(&session).await? {
+        Some(tree) => shared.store.tree(&tree.id).await?.map(|tree| tree.name),
+        None => None,
+    };
+    wanted.sent(&shared, (&session, &tree.unwrap_or_default()), document.bytes, &asked).await
 }
 
 /// A version of a saved tree as a file (`EX4`).
@@ -135,7 +141,14 @@ pub(super) async fn take_version(
 ) -> Result<Response, Failure> {
     let wanted = Wanted::of(&shared, row, options)?;
     let document = saved_document(&shared, &tree, number).await?;
-    wanted.sent(&shared, &tree, document.bytes, &asked).await
+    let name = name_of(&shared, &tree, number).await?;
+    wanted.sent(&shared, (&tree, &name), document.bytes, &asked).await
+}
+
+/// What files of a version are called: as the tree, with the number where it is not the newest.
+pub(super) async fn name_of(shared: &Shared, tree: &str, number: u32) -> Result<String, Failure> {
+    let tree = trees::stored(shared, tree).await?;
+    Ok(if tree.head.number == number { tree.name } else { format!("{} v{number}", tree.name) })
 }
 
 /// A file that is asked for.
@@ -153,11 +166,11 @@ impl Wanted {
         Ok(Self { row, options, progress, held })
     }
 
-    /// Makes it of the bytes of a document, which is called so, and sends it.
+    /// Makes it of the bytes of a document, which the server and people call so, and sends it.
     async fn sent(
         self,
         shared: &Shared,
-        name: &str,
+        (name, tree): (&str, &str),
         bytes: impl AsRef<[u8]> + Send + 'static,
         asked: &HeaderMap,
     ) -> Result<Response, Failure> {
@@ -167,7 +180,7 @@ impl Wanted {
         let said = format!("{options:?}");
         let program = env!("CARGO_PKG_VERSION");
         let tag = ranges::tag(&[program.as_bytes(), row.ending.as_bytes(), said.as_bytes(), bytes.as_ref()]);
-        let headers = headers(row, &format!("tree.{}", row.ending));
+        let headers = headers(row, tree);
         if ranges::is_known(asked, &tag) {
             return Ok(ranges::not_modified(headers, &tag));
         }
@@ -198,11 +211,11 @@ impl Wanted {
     }
 }
 
-/// What is said of a file that is sent.
-pub(super) fn headers(row: &FormatRow, name: &str) -> [(HeaderName, String); 2] {
+/// What is said of a file of this tree that is sent.
+pub(super) fn headers(row: &FormatRow, tree: &str) -> [(HeaderName, String); 2] {
     [
         (header::CONTENT_TYPE, row.media_type.to_owned()),
-        (header::CONTENT_DISPOSITION, format!("attachment; filename=\"{name}\"")),
+        (header::CONTENT_DISPOSITION, file_name::attachment(tree, row.ending)),
     ]
 }
 

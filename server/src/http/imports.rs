@@ -3,6 +3,7 @@
 use axum::{Extension, extract::State, http::StatusCode, response::IntoResponse};
 use espalier_proto::{
     Problem,
+    library::ImportNote,
     text::{Name, Note},
 };
 use espalier_session::Principal;
@@ -83,8 +84,11 @@ pub(super) async fn upload(
     file: File,
 ) -> Result<impl IntoResponse, Failure> {
     let import = upload.import(shared.metamer_budget);
-    let version = made(&shared, &principal, import, file, Said::default()).await?;
-    Ok((StatusCode::CREATED, trees::add(&shared, &principal, upload.name.into(), version).await?))
+    let (version, notes) = made(&shared, &principal, import, file, Said::default()).await?;
+    Ok((
+        StatusCode::CREATED,
+        trees::add_noted(&shared, &principal, upload.name.into(), version, notes).await?,
+    ))
 }
 
 /// A file as the newest version of a tree (`IM2`).
@@ -99,23 +103,24 @@ pub(super) async fn upload_version(
     trees::stored(&shared, &tree).await?;
     let import = upload.import(shared.metamer_budget);
     let said = Said::new(upload.author, upload.note);
-    let version = made(&shared, &principal, import, file, said).await?;
-    versions::add(&shared, &tree, expected, version).await
+    let (version, notes) = made(&shared, &principal, import, file, said).await?;
+    versions::add_noted(&shared, &tree, expected, version, notes).await
 }
 
-/// What a file holds, as a version to be saved.
+/// What a file holds, as a version to be saved, and what is to be known of it (`IM3`).
 async fn made(
     shared: &Shared,
     principal: &Principal,
     import: Import,
     File(file, _turn): File,
     said: Said,
-) -> Result<NewVersion, Failure> {
+) -> Result<(NewVersion, Vec<ImportNote>), Failure> {
     let made = shared.pool.run(Class::Whole, principal.name().into(), move |_| {
-        let Imported { document, notes: _ } =
+        let Imported { document, notes } =
             import::document(&file, &import).map_err(|error| import.refusal(&error))?;
-        Ok::<_, Problem>(Saved::of(&document))
+        let notes = notes.iter().map(import::ImportNote::to_proto).collect();
+        Ok::<_, Problem>((Saved::of(&document), notes))
     });
-    let saved = made.await??;
-    Ok(versions::new(principal, said, Contents::New(Box::new(saved))))
+    let (saved, notes) = made.await??;
+    Ok((versions::new(principal, said, Contents::New(Box::new(saved))), notes))
 }

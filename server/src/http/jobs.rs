@@ -417,7 +417,7 @@ pub(super) async fn result(
     let (file, length) =
         found.ok_or_else(|| Failure::none_such("file", "seed", "a seed in the results of the job"))?;
     let tag = ranges::tag(&[id.as_bytes(), &seed.to_le_bytes()]);
-    ranges::answer(&asked, exports::headers(job.order.row, &job.file_name(seed)), &tag, file, length)
+    ranges::answer(&asked, exports::headers(job.order.row, &seed.to_string()), &tag, file, length)
 }
 
 /// Ends a job and takes its files away (`JB4`).

@@ -15,7 +15,7 @@ use serde::Deserialize;
 use super::{
     Shared,
     failure::{Failure, Path, Query},
-    sessions, trees,
+    file_name, sessions, trees,
 };
 use crate::{
     memory::{self, Need, Use},
@@ -44,9 +44,9 @@ pub(super) async fn page(
     let states = states(&shared, &stored).await?;
     let html = review::summary(&*shared.store, &stored, &states, &now(), language).await?;
     let headers = [
-        (header::CONTENT_TYPE, "text/html; charset=utf-8"),
-        (header::CONTENT_SECURITY_POLICY, CONTENT_SECURITY_POLICY),
-        (header::CONTENT_DISPOSITION, "inline; filename=\"review.html\""),
+        (header::CONTENT_TYPE, "text/html; charset=utf-8".to_owned()),
+        (header::CONTENT_SECURITY_POLICY, CONTENT_SECURITY_POLICY.to_owned()),
+        (header::CONTENT_DISPOSITION, file_name::inline(&format!("{} review", stored.name), "html")),
     ];
     Ok((headers, html).into_response())
 }

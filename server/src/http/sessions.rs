@@ -36,7 +36,7 @@ use crate::{
     memory::{self, Full, Growing, Need, Use},
     name,
     pool::Class,
-    store::{self, Library, Locks, Store, StoreError, StoredTree, TreeDocument},
+    store::{self, Library, Locks, Store, StoreError, StoredTree, TreeDocument, Visits},
 };
 
 /// Sessions that somebody from elsewhere begins in two minutes.
@@ -75,7 +75,10 @@ pub(super) async fn create(
         let seed = new.seed.unwrap_or_else(rand::random);
         let snapshot = Session::seedling(seed, shared.metamer_budget);
         let name = name::unguessable();
-        return Ok((StatusCode::CREATED, begin(&shared, &principal, name, seed, snapshot, None).await?));
+        return Ok((
+            StatusCode::CREATED,
+            begin(&shared, Beginner(&principal, &caller), name, seed, (snapshot, 0), None).await?,
+        ));
     };
     shared.ask(&caller, Action::OpenTree, Named::Tree(&tree)).await?;
     let stored = trees::stored(&shared, &tree).await?;
@@ -100,7 +103,9 @@ pub(super) async fn create(
         session.draw_whole();
         session
     });
-    let begun = begin(&shared, &principal, name.clone(), 0, snapshot, of);
+    // What an earlier version holds is counted with the first snapshot.
+    let start = (snapshot, stored.head.metamers);
+    let begun = begin(&shared, Beginner(&principal, &caller), name.clone(), 0, start, of);
     let (begun, session) = tokio::join!(begun, drawing);
     let begun = begun?;
     shared.sessions.seat(&name, session?, room).await;
@@ -129,13 +134,16 @@ fn count(shared: &Shared, caller: &Caller) -> Result<(), Failure> {
     counted.map_err(|wait| Failure::too_often("body", "Too many sessions were begun.", wait))
 }
 
-/// Begins a session.
+/// Who begins a session: their client, and as whom they were let in.
+struct Beginner<'a>(&'a Principal, &'a Caller);
+
+/// Begins a session with a snapshot, and its living metamers.
 async fn begin(
     shared: &Shared,
-    principal: &Principal,
+    Beginner(principal, caller): Beginner<'_>,
     name: String,
     seed: u32,
-    snapshot: Vec<u8>,
+    (snapshot, metamers): (Vec<u8>, u32),
     tree: Option<(String, u32)>,
 ) -> Result<Json<SessionCreated>, Failure> {
     let new = store::NewSession {
@@ -144,6 +152,8 @@ async fn begin(
         simulation_version: SIMULATION_VERSION,
         snapshot: Some(snapshot),
         principal: Some(principal.to_string()),
+        person: Some(caller.person()),
+        metamers,
         tree,
     };
     shared.store.create_session(new).await?;
@@ -252,6 +262,10 @@ async fn admit(shared: &Shared, caller: Result<Caller, Failure>, session: &str) 
 async fn connect(mut socket: WebSocket, shared: &Shared, name: &str, caller: Caller) {
     let (code, sentence) = match live::open(&mut socket, &shared.sessions, name).await {
         Ok(Some(session)) => {
+            // On a full disk one comes in all the same.
+            if let Err(error) = shared.store.visit(name, &caller.person()).await {
+                tracing::warn!(%error, session = name, "that somebody was in the session is not kept");
+            }
             let entrant = caller.entrant();
             return live::serve(socket, session, entrant, |grants| let_out(shared, name, caller, grants))
                 .await;

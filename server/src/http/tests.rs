@@ -9,6 +9,7 @@ mod login;
 mod paths;
 mod proxies;
 mod refusals;
+mod session_list;
 mod status;
 
 use std::collections::BTreeSet;

@@ -11,7 +11,7 @@ use axum::{
 use base64::{Engine, engine::general_purpose::URL_SAFE_NO_PAD};
 use espalier_proto::{
     Problem, Reason,
-    library::{ChangeTree, CopyTree, Origin, SaveTree, SavedTree, TreePage},
+    library::{ChangeTree, CopyTree, ImportNote, Origin, SaveTree, SavedTree, TreePage},
     text::{self, Identifier, Name},
 };
 use espalier_session::Principal;
@@ -241,9 +241,20 @@ pub(super) async fn add(
     name: String,
     version: NewVersion,
 ) -> Result<impl IntoResponse + use<>, Failure> {
+    add_noted(shared, principal, name, version, Vec::new()).await
+}
+
+/// The same with what is to be known of the file that it was made of (`IM3`).
+pub(super) async fn add_noted(
+    shared: &Shared,
+    principal: &Principal,
+    name: String,
+    version: NewVersion,
+    notes: Vec<ImportNote>,
+) -> Result<impl IntoResponse + use<>, Failure> {
     let id = name::unguessable();
     shared.store.add_tree(NewTree { id: id.clone(), name, version }).await?;
-    answer(shared, principal, &id).await
+    answer_noted(shared, principal, &id, notes).await
 }
 
 pub(super) async fn change(
@@ -305,9 +316,20 @@ async fn answer(
     principal: &Principal,
     id: &str,
 ) -> Result<impl IntoResponse + use<>, Failure> {
+    answer_noted(shared, principal, id, Vec::new()).await
+}
+
+async fn answer_noted(
+    shared: &Shared,
+    principal: &Principal,
+    id: &str,
+    import_notes: Vec<ImportNote>,
+) -> Result<impl IntoResponse + use<>, Failure> {
     let tree = stored(shared, id).await?;
     let favourites = shared.store.favourites(&principal.to_string()).await?;
-    Ok((revision::tag(tree.revision), Json(to_proto(shared, tree, &favourites).await?)))
+    let revision = revision::tag(tree.revision);
+    let told = to_proto(shared, tree, &favourites).await?;
+    Ok((revision, Json(SavedTree { import_notes, ..told })))
 }
 
 /// Trees that are looked through for one that may have been meant: the newest.
@@ -355,6 +377,7 @@ async fn to_proto(
     let people = people_on(shared, &tree).await?;
     let head = tree.head;
     Ok(SavedTree {
+        import_notes: Vec::new(),
         thumbnail: versions::thumbnail_of(&tree.id, head.number),
         favourite: favourites.contains(&tree.id),
         id: tree.id,

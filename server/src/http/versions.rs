@@ -7,7 +7,7 @@ use axum::{
     response::{IntoResponse, Response},
 };
 use espalier_proto::{
-    library::{ChangeVersion, RestoreVersion, SaveVersion, TreeVersion},
+    library::{ChangeVersion, ImportNote, RestoreVersion, SaveVersion, TreeVersion},
     text::{Name, Note},
     thumbnail,
     version::TURNTABLE_PICTURES,
@@ -17,8 +17,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{
-    Shared,
+    Shared, exports,
     failure::{Body, Failure, Path, Query},
+    file_name,
     guard::Named,
     limit::Limit,
     ranges,
@@ -143,9 +144,21 @@ pub(super) async fn add(
     expected: Option<u64>,
     version: NewVersion,
 ) -> Result<impl IntoResponse + use<>, Failure> {
+    add_noted(shared, tree, expected, version, Vec::new()).await
+}
+
+/// The same with what is to be known of the file that it was made of (`IM3`).
+pub(super) async fn add_noted(
+    shared: &Shared,
+    tree: &str,
+    expected: Option<u64>,
+    version: NewVersion,
+    import_notes: Vec<ImportNote>,
+) -> Result<impl IntoResponse + use<>, Failure> {
     let number = shared.store.add_version(tree, expected, version).await?;
     let (found, revision) =
         (version_of(shared, tree, number).await?, trees::stored(shared, tree).await?.revision);
+    let found = TreeVersion { import_notes, ..found };
     Ok((StatusCode::CREATED, revision::tag(revision), Json(found)))
 }
 
@@ -173,10 +186,11 @@ pub(super) async fn document(
     asked: HeaderMap,
 ) -> Result<Response, Failure> {
     let document = sessions::saved_document(&shared, &tree, number).await?;
+    let name = exports::name_of(&shared, &tree, number).await?;
     let said = [
-        (header::CONTENT_TYPE, "application/octet-stream"),
-        (header::CONTENT_DISPOSITION, "attachment; filename=\"tree.espalier\""),
-        FOR_GOOD,
+        (header::CONTENT_TYPE, "application/octet-stream".to_owned()),
+        (header::CONTENT_DISPOSITION, file_name::attachment(&name, "espalier")),
+        (FOR_GOOD.0, FOR_GOOD.1.to_owned()),
     ];
     ranges::answer_with(&asked, said, document.bytes)
 }
@@ -242,6 +256,7 @@ pub(super) fn thumbnail_of(tree: &str, version: u32) -> String {
 
 fn to_proto(tree: &str, version: StoredVersion) -> TreeVersion {
     TreeVersion {
+        import_notes: Vec::new(),
         thumbnail: thumbnail_of(tree, version.number),
         document: format!("/api/v1/trees/{tree}/versions/{}/document", version.number),
         number: version.number,

@@ -466,7 +466,8 @@ impl Actor {
     fn keep_snapshot(&mut self, through: u64, bytes: Vec<u8>) {
         let (store, lease, task) = (Arc::clone(&self.services.store), self.lease.clone(), self.task.clone());
         let session = self.name.clone();
-        let snapshot = NewSnapshot { through, simulation_version: SIMULATION_VERSION, bytes };
+        let metamers = self.session.metamers();
+        let snapshot = NewSnapshot { through, simulation_version: SIMULATION_VERSION, bytes, metamers };
         self.under_way += 1;
         tokio::spawn(async move {
             let _ = task.send(match store.keep_snapshot(&lease, snapshot).await {

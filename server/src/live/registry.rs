@@ -148,6 +148,13 @@ impl Sessions {
         }
     }
 
+    /// Figures of the session of this name, where it is in memory and answers.
+    pub async fn figures(&self, name: &str) -> Option<SessionFigures> {
+        let slot = self.0.slots().get(name).cloned();
+        let session = slot.as_ref().and_then(|slot| slot.session.get())?;
+        timeout(LOOKING, session.look()).await.ok().and_then(Result::ok)
+    }
+
     /// Tells a session, where it is in memory, that what people say of its tree has changed.
     pub async fn comment(&self, name: &str, places: Vec<Pinned>, threads: Vec<u32>) {
         let slot = self.0.slots().get(name).cloned();

@@ -10,9 +10,9 @@ use super::MemoryStore;
 use super::{
     Answer, AnswerKey, Answering, Answers, Audit, Collection, CollectionChange, CommentChange, Comments,
     Commits, Damage, Event, Finding, Group, Groups, Lease, Library, Locks, MostAnswers, NewComment,
-    NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes, Picture, SessionTree,
-    SqliteStore, Store, StoreError, StoredSession, StoredThread, StoredTree, StoredVersion, TreeChange,
-    TreeDocument, TreeQuery, User, UserChange, Users,
+    NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes, Picture, SessionLine,
+    SessionQuery, SessionTree, SqliteStore, Store, StoreError, StoredSession, StoredThread, StoredTree,
+    StoredVersion, TreeChange, TreeDocument, TreeQuery, User, UserChange, Users, Visits,
 };
 use crate::access::SecretHash;
 
@@ -335,6 +335,20 @@ impl Locks for AnyStore {
 
     async fn lock_of_session(&self, session: &str) -> Result<Option<String>, StoreError> {
         delegate!(self.lock_of_session(session))
+    }
+}
+
+impl Visits for AnyStore {
+    async fn visit(&self, session: &str, person: &str) -> Result<(), StoreError> {
+        delegate!(self.visit(session, person))
+    }
+
+    async fn sessions(&self, query: &SessionQuery) -> Result<Vec<SessionLine>, StoreError> {
+        delegate!(self.sessions(query))
+    }
+
+    async fn forget_session(&self, session: &str, person: Option<&str>) -> Result<bool, StoreError> {
+        delegate!(self.forget_session(session, person))
     }
 }
 

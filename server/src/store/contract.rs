@@ -9,6 +9,7 @@ mod library;
 mod locks;
 mod passes;
 mod users;
+mod visits;
 
 use std::{collections::BTreeSet, ops::RangeInclusive};
 
@@ -41,14 +42,18 @@ use self::passes::{
     passes_are_listed_by_kind, passes_let_in_until_they_expire,
 };
 use self::users::{a_login_has_the_role_of_its_user, a_name_is_one_person};
+use self::visits::{
+    pages_hold_each_session_once, sessions_are_listed_to_who_was_in_them, sessions_are_taken_off_lists,
+    sessions_know_their_size,
+};
 use super::{
     Answers, Audit, Comments, Damage, Finding, Groups, Lease, Library, Locks, NewSession, NewSnapshot,
-    Passes, Store, StoreError, StoredSession, Users,
+    Passes, Store, StoreError, StoredSession, Users, Visits,
 };
 
 /// A store whose rows a test can damage.
 pub trait Breakable:
-    Store + Library + Finding + Passes + Users + Groups + Audit + Answers + Comments + Locks
+    Store + Library + Finding + Passes + Users + Groups + Audit + Answers + Comments + Locks + Visits
 {
     /// Changes a command in the row of the journal that begins with an entry.
     async fn break_journal(&self, session: &str, first: u64);
@@ -136,6 +141,10 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         comments_are_bounded,
         comments_go_with_their_tree,
         a_tree_is_locked_with_its_sessions,
+        sessions_are_listed_to_who_was_in_them,
+        sessions_are_taken_off_lists,
+        pages_hold_each_session_once,
+        sessions_know_their_size,
         a_closed_store_takes_nothing,
     );
 }
@@ -171,7 +180,7 @@ async fn load(store: &impl Store) -> StoredSession {
 }
 
 async fn snapshot(store: &impl Store, lease: &Lease, through: u64) {
-    let snapshot = NewSnapshot { through, simulation_version: 3, bytes: vec![through as u8] };
+    let snapshot = NewSnapshot { through, simulation_version: 3, bytes: vec![through as u8], metamers: 1 };
     store.keep_snapshot(lease, snapshot).await.unwrap();
 }
 
@@ -244,7 +253,7 @@ async fn versions_are_known(store: &impl Store) {
     store.append(&lease, 3, &entries(1..=1)).await.unwrap();
     store.append(&lease, 5, &entries(2..=2)).await.unwrap();
     assert_eq!(load(store).await.simulations, BTreeSet::from([3, 5]));
-    let through = NewSnapshot { through: 2, simulation_version: 5, bytes: vec![2] };
+    let through = NewSnapshot { through: 2, simulation_version: 5, bytes: vec![2], metamers: 1 };
     store.keep_snapshot(&lease, through).await.unwrap();
     assert_eq!(load(store).await.simulations, BTreeSet::new());
 }
@@ -256,7 +265,7 @@ async fn leases_end_when_another_begins(store: &impl Store) {
     let second = store.acquire("oak").await.unwrap();
     let fenced = |result: Result<(), StoreError>| assert!(matches!(result, Err(StoreError::Fenced)));
     fenced(store.append(&first, 3, &entries(2..=2)).await);
-    let late = NewSnapshot { through: 1, simulation_version: 3, bytes: vec![1] };
+    let late = NewSnapshot { through: 1, simulation_version: 3, bytes: vec![1], metamers: 1 };
     fenced(store.keep_snapshot(&first, late).await);
     fenced(store.set_aside(&first, &[Damage::Journal(1)], &[]).await);
     // Releasing a lost lease does not release that of the present holder.
@@ -359,7 +368,7 @@ async fn damage_that_snapshots_share_is_named(store: &impl Breakable) {
     store.create_session(oak(Some(b"start"))).await.unwrap();
     let lease = store.acquire("oak").await.unwrap();
     store.append(&lease, 3, &entries(1..=1)).await.unwrap();
-    let same = NewSnapshot { through: 1, simulation_version: 3, bytes: b"start".to_vec() };
+    let same = NewSnapshot { through: 1, simulation_version: 3, bytes: b"start".to_vec(), metamers: 1 };
     store.keep_snapshot(&lease, same).await.unwrap();
     store.break_all_snapshots("oak").await;
     let Err(StoreError::Damaged(what)) = store.load_session("oak", None).await else {

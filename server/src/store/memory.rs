@@ -9,6 +9,7 @@ mod library;
 mod locks;
 mod passes;
 mod users;
+mod visits;
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -70,6 +71,10 @@ struct Session {
     saved_through: u64,
     entered_at: String,
     tries: u32,
+    /// Who has begun it or been in it.
+    people: BTreeSet<String>,
+    metamers: u32,
+    is_forgotten: bool,
 }
 
 impl Session {
@@ -142,7 +147,20 @@ impl Store for MemoryStore {
         }
         let (tree, saved_through) = (new.tree, 0);
         let (journal, aside, entered_at, tries) = (Vec::new(), 0, now(), 0);
-        let session = Session { row, journal, snapshots, aside, tree, saved_through, entered_at, tries };
+        let (people, metamers, is_forgotten) = (new.person.into_iter().collect(), new.metamers, false);
+        let session = Session {
+            row,
+            journal,
+            snapshots,
+            aside,
+            tree,
+            saved_through,
+            entered_at,
+            tries,
+            people,
+            metamers,
+            is_forgotten,
+        };
         kept.sessions.insert(new.name, session);
         Ok(())
     }
@@ -260,9 +278,10 @@ impl Store for MemoryStore {
     }
 
     async fn keep_snapshot(&self, lease: &Lease, snapshot: NewSnapshot) -> Result<(), StoreError> {
-        let NewSnapshot { through, simulation_version, bytes } = snapshot;
+        let NewSnapshot { through, simulation_version, bytes, metamers } = snapshot;
         let row = SnapshotRow::seal(&lease.session, through, simulation_version, bytes);
         self.change(lease, |session| {
+            session.metamers = metamers;
             session.snapshots.retain(|row| row.through != through);
             session.snapshots.push(row);
             session.snapshots.sort_by_key(|row| row.through);

@@ -1,6 +1,6 @@
 //! What is kept: sessions with their journals and snapshots, and the library of trees.
 //!
-//! [`Store`], [`Library`], [`Finding`], [`Passes`], [`Users`], [`Groups`], [`Audit`], [`Answers`], [`Comments`] and [`Locks`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
+//! [`Store`], [`Library`], [`Finding`], [`Passes`], [`Users`], [`Groups`], [`Audit`], [`Answers`], [`Comments`], [`Locks`] and [`Visits`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
 //! does, the model in `memory.rs` the second. The rest of the server knows [`AnyStore`] alone.
 
 mod answers;
@@ -21,6 +21,7 @@ mod passes;
 mod seal;
 mod sqlite;
 mod users;
+mod visits;
 
 use std::{collections::BTreeSet, error::Error, time::Duration};
 
@@ -47,6 +48,7 @@ pub use self::{
     passes::{Pass, PassKind, Passes},
     sqlite::{CareError, LibraryFile, OpenError, Report, SqliteStore, backup, check, restore},
     users::{User, UserChange, Users},
+    visits::{LineTree, SessionLine, SessionPlace, SessionQuery, Visits},
 };
 #[cfg(test)]
 pub use self::{
@@ -254,6 +256,10 @@ pub struct NewSession {
     pub snapshot: Option<Vec<u8>>,
     /// Who begins it.
     pub principal: Option<String>,
+    /// As whom they were let in.
+    pub person: Option<String>,
+    /// Living metamers in the snapshot.
+    pub metamers: u32,
     /// The tree that it belongs to, and the version that it begins with.
     pub tree: Option<(String, u32)>,
 }
@@ -267,6 +273,8 @@ pub struct NewSnapshot {
     pub simulation_version: u32,
     /// The state after that entry.
     pub bytes: Vec<u8>,
+    /// Living metamers in it.
+    pub metamers: u32,
 }
 
 /// A session as it is read back.

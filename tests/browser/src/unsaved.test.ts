@@ -6,8 +6,17 @@ import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();
 
+/** What other tests have left is on no list. */
+async function forgetAll(): Promise<void> {
+  const server = workshop.server.address;
+  const listed = await (await fetch(`${server}/api/v1/sessions?saved=false`)).json();
+  for (const { session } of listed.sessions as { session: string }[])
+    await fetch(`${server}/api/v1/sessions/${session}`, { method: "DELETE" });
+}
+
 /** A tablet with a tree that nobody has saved. */
 async function unsaved(screen: Screen = SMALL): Promise<{ tablet: Tablet; metamers: number }> {
+  await forgetAll();
   const { tablet, address } = await workshop.fresh(screen);
   await workshop.act(address, [{ kind: "grow", steps: 5 }]);
   await tablet.until("it has grown", ({ metamers }) => metamers > 0);
@@ -25,15 +34,17 @@ async function begin(tablet: Tablet, answer: string): Promise<void> {
 
 const recent = (tablet: Tablet) => tablet.page.getByRole("region", { name: "Go on with a tree" });
 
-/** The trees that the library lists under Unsaved. */
-async function listed(tablet: Tablet): Promise<number> {
+/** The library lists so many trees under Unsaved. */
+async function listed(tablet: Tablet, count: number): Promise<void> {
+  const answer = tablet.page.waitForResponse((response) => response.url().includes("/api/v1/sessions?"));
   await tablet.tap("Library");
   await tablet.page.getByRole("dialog", { name: "Library" }).waitFor();
+  expect((await answer).status()).toBe(200);
   await tablet.untilSettled();
-  const count = await tablet.page.getByRole("region", { name: "Unsaved" }).locator(".card").count();
+  const cards = tablet.page.getByRole("region", { name: "Unsaved" }).locator(".card");
+  await expect.poll(() => cards.count()).toBe(count);
   await tablet.page.keyboard.press("Escape");
   await tablet.page.getByRole("dialog").waitFor({ state: "detached" });
-  return count;
 }
 
 test("a tree that is kept under Unsaved is found there, and on the first screen", async () => {
@@ -42,7 +53,7 @@ test("a tree that is kept under Unsaved is found there, and on the first screen"
   await recent(tablet)
     .getByRole("button", { name: /^Unsaved/ })
     .waitFor();
-  expect(await listed(tablet)).toBe(1);
+  await listed(tablet, 1);
   await tablet.tap("Library");
   await tablet.page.getByRole("button", { name: /^Go on with the tree of/ }).tap();
   await tablet.until("it is the tree that was left", (facts) => facts.metamers === metamers);
@@ -51,6 +62,20 @@ test("a tree that is kept under Unsaved is found there, and on the first screen"
   // It can be taken back and forth as before: it is the very session.
   await tablet.tap("Undo");
   await tablet.until("undo goes on", (facts) => facts.metamers === 0);
+});
+
+test("another browser of the same person lists the same trees, and goes on with them", async () => {
+  const { tablet, metamers } = await unsaved();
+  await begin(tablet, "Keep under Unsaved");
+  const { tablet: other } = await workshop.fresh(SMALL);
+  await listed(other, 1);
+  await other.tap("Library");
+  const section = other.page.getByRole("region", { name: "Unsaved" });
+  await section.getByRole("button", { name: /^Go on with the tree of/ }).waitFor();
+  await other.untilSettled();
+  await other.show("unsaved-elsewhere");
+  await section.getByRole("button", { name: /^Go on with the tree of/ }).tap();
+  await other.until("it is the tree that was left", (facts) => facts.metamers === metamers);
 });
 
 test.each<[string, Screen]>([
@@ -79,13 +104,13 @@ test("a tree that is saved is not asked for again until it changes", async () =>
   await tablet.tap("New tree");
   await tablet.until("nothing is asked", (facts) => facts.metamers === 0 && facts.rows > 0);
   expect(await tablet.page.getByRole("dialog").count()).toBe(0);
-  expect(await listed(tablet)).toBe(0);
+  await listed(tablet, 0);
 });
 
 test("a tree that is not wanted is not kept; one that is left for another is", async () => {
   const { tablet, metamers } = await unsaved();
   await begin(tablet, "Do not keep it");
-  expect(await listed(tablet)).toBe(0);
+  await listed(tablet, 0);
   await tablet.page.goBack();
   await tablet.until("its link still leads to it", (facts) => facts.metamers === metamers);
   await tablet.tap("Save");
@@ -101,7 +126,7 @@ test("a tree that is not wanted is not kept; one that is left for another is", a
     .first()
     .tap();
   await tablet.until("the saved one is opened", (facts) => facts.metamers === metamers);
-  expect(await listed(tablet)).toBe(1);
+  await listed(tablet, 1);
 });
 
 test("a tree is forgotten once that is sure", async () => {

@@ -18,9 +18,12 @@ function library() {
       stop?.throwIfAborted();
     }
     if (path.includes("bad")) {
-      throw refusal(400, { code: "malformed", reason: "not-a-tree-file", cause: "line 3: no radius", message: "No." });
+      throw refusal(400, { code: "malformed", reason: "not-a-tree-file", cause: "line 3: no radius", detail: "No." });
     }
-    return savedTree({ id: `${sent.length}`, name: new URLSearchParams(path.split("?")[1]).get("name") ?? "" });
+    const tree = savedTree({ id: `${sent.length}`, name: new URLSearchParams(path.split("?")[1]).get("name") ?? "" });
+    return path.includes("doubt")
+      ? { ...tree, import_notes: [{ note: "unknown-species", found: "triffid", message: "No such species." }] }
+      : tree;
   });
   const acts: (() => void)[] = [];
   const taking = {
@@ -45,6 +48,14 @@ describe("files", () => {
     expect(files.added.value?.name).toBe("a & b");
     acts[0]?.();
     expect(opened[0]?.name).toBe("Old oak");
+  });
+
+  it("IM3: that were taken with a doubt say so", async () => {
+    const { take, said } = library();
+    await take(file("doubt.mtg"));
+    expect(said).toEqual([
+      "“doubt” is in the library now. No species here is called “triffid”; what the file does not say itself is as usual",
+    ]);
   });
 
   it("that are refused are named with the reason, and the others go on", async () => {

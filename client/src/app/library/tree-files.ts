@@ -41,7 +41,11 @@ export class TreeFiles {
         try {
           const tree = await this.#send(file, stop, tell);
           this.added.value = tree;
-          show(say("library.added", { name: tree.name }), { label: say("library.open"), act: () => open(tree) });
+          const notes = tree.import_notes?.map(({ note, found = "" }) => say(`library.note.${note}`, { found })) ?? [];
+          show([say("library.added", { name: tree.name }), ...notes].join(". "), {
+            label: say("library.open"),
+            act: () => open(tree),
+          });
         } catch (error) {
           stop.throwIfAborted();
           show(say("library.not-added", { file: file.name, reason: sentence(error) }));

@@ -69,6 +69,14 @@ export const LIBRARY = {
   "library.open-file": ["Open a file…", "Datei öffnen…"],
   "library.drop-file": ["Drop it to put it into the library", "Loslassen legt es in die Bibliothek"],
   "library.added": ["“{name}” is in the library now", "„{name}“ ist jetzt in der Bibliothek"],
+  "library.note.may-be-cut-off": [
+    "The last line of the file has no end; it may have been cut off there",
+    "Die letzte Zeile der Datei hat kein Ende; vielleicht ist sie dort abgeschnitten",
+  ],
+  "library.note.unknown-species": [
+    "No species here is called “{found}”; what the file does not say itself is as usual",
+    "Keine Art heißt hier „{found}“; was die Datei nicht selbst sagt, ist wie üblich",
+  ],
   "library.not-added": ["{file}: {reason}", "{file}: {reason}"],
   "library.file.kind": [
     "Only files of these kinds become trees: {endings}.",

@@ -47,9 +47,11 @@ export const SHEETS = {
   "sheets.leave.drop": ["Do not keep it", "Nicht behalten"],
   "sheets.unsaved": ["Unsaved", "Ungespeichert"],
   "sheets.unsaved.advice": [
-    "Trees you left on this device without saving them. Each goes on where you left it.",
-    "Bäume, die du auf diesem Gerät verlassen hast, ohne sie zu speichern. Jeder geht weiter, wo du aufgehört hast.",
+    "Trees with work that is not saved, from all your devices. Each goes on where it was left.",
+    "Bäume mit ungespeicherter Arbeit, von allen deinen Geräten. Jeder geht weiter, wo er verlassen wurde.",
   ],
+  "sheets.unsaved.of": ["Goes on with {name}", "Führt {name} weiter"],
+  "sheets.unsaved.in-work": ["Open somewhere now", "Gerade irgendwo offen"],
   "sheets.unsaved.open": ["Go on with the tree of {date}", "Mit dem Baum vom {date} weitermachen"],
   "sheets.unsaved.forget": ["Forget", "Vergessen"],
   "sheets.unsaved.forget.which": ["Forget the tree of {date}", "Den Baum vom {date} vergessen"],

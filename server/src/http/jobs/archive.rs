@@ -19,7 +19,7 @@ use crate::{
     http::{
         Shared,
         failure::{Failure, Path},
-        ranges,
+        file_name, ranges,
     },
     jobs::{Grown, Job},
 };
@@ -50,7 +50,7 @@ pub(in crate::http) async fn archive(
     let tag = ranges::tag(&[id.as_bytes(), &sums]);
     let headers = [
         (header::CONTENT_TYPE, "application/zip".to_owned()),
-        (header::CONTENT_DISPOSITION, "attachment; filename=\"trees.zip\"".to_owned()),
+        (header::CONTENT_DISPOSITION, file_name::attachment("trees", "zip")),
     ];
     let members: Vec<Member> = grown
         .iter()

@@ -193,3 +193,59 @@ async fn ex4_a_version_is_taken_in_every_format() {
     let (status, problem) = told(take("1/tree.glb").await).await;
     assert_eq!((status, &problem["reason"]), (StatusCode::CONFLICT, &json!("tree-damaged")));
 }
+
+#[tokio::test]
+async fn im3_what_is_taken_with_a_doubt_is_said_once() {
+    let (server, _) = server().await;
+    let send = async |path: &str, file: String| {
+        let asked = request(&Method::POST, path).body(Body::from(file)).unwrap();
+        let answer = server.clone().oneshot(asked).await.unwrap();
+        assert_eq!(answer.status(), StatusCode::CREATED, "{path}");
+        let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+        serde_json::from_slice::<Value>(&bytes).unwrap()
+    };
+    let import = "/api/v1/trees/import?name=Oak&format=csv";
+    let whole = send(import, SCAN.to_owned()).await;
+    assert_eq!(whole.get("import_notes"), None);
+    let said = json!([{
+        "note": "may-be-cut-off",
+        "message": "The last line has no line end; the file may have been cut off there.",
+    }]);
+    let cut = send(import, SCAN.trim_end().to_owned()).await;
+    assert_eq!(cut["import_notes"], said);
+    let version = send("/api/v1/trees/ash/versions/import?format=csv", SCAN.trim_end().to_owned()).await;
+    assert_eq!(version["import_notes"], said);
+    let path = format!("/api/v1/trees/{}", cut["id"].as_str().unwrap());
+    let asked = request(&Method::GET, &path).body(Body::empty()).unwrap();
+    let answer = server.clone().oneshot(asked).await.unwrap();
+    let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+    assert_eq!(serde_json::from_slice::<Value>(&bytes).unwrap().get("import_notes"), None);
+}
+
+#[tokio::test]
+async fn ex5_files_are_called_as_their_tree() {
+    let (server, _) = server().await;
+    let rename = request(&Method::PATCH, "/api/v1/trees/ash");
+    assert_eq!(status(&server, rename, r#"{"name":"Große Esche"}"#).await, StatusCode::OK);
+    let import = request(&Method::POST, "/api/v1/trees/ash/versions/import?format=csv");
+    assert_eq!(status(&server, import, SCAN).await, StatusCode::CREATED);
+    for (path, expected) in [
+        (
+            "versions/2/tree.csv",
+            "attachment; filename=\"Gro_e Esche.csv\"; filename*=UTF-8''Gro%C3%9Fe%20Esche.csv",
+        ),
+        (
+            "versions/2/document",
+            "attachment; filename=\"Gro_e Esche.espalier\"; filename*=UTF-8''Gro%C3%9Fe%20Esche.espalier",
+        ),
+        (
+            "review.html",
+            "inline; filename=\"Gro_e Esche review.html\"; filename*=UTF-8''Gro%C3%9Fe%20Esche%20review.html",
+        ),
+    ] {
+        let asked = request(&Method::GET, &format!("/api/v1/trees/ash/{path}"));
+        let answer = server.clone().oneshot(asked.body(Body::empty()).unwrap()).await.unwrap();
+        assert_eq!(answer.status(), StatusCode::OK, "{path}");
+        assert_eq!(answer.headers()[header::CONTENT_DISPOSITION], expected, "{path}");
+    }
+}

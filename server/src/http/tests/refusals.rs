@@ -106,6 +106,7 @@ const WITHOUT: [&str; 5] = [
 /// Queries with one field that is wrong, and its name.
 fn queries() -> Vec<(String, Cow<'static, str>, &'static str)> {
     let list = "GET /api/v1/trees";
+    let sessions = "GET /api/v1/sessions";
     let versions = "GET /api/v1/trees/{tree}/versions";
     let import = "POST /api/v1/trees/import";
     let version = "POST /api/v1/trees/{tree}/versions/import";
@@ -152,6 +153,11 @@ fn queries() -> Vec<(String, Cow<'static, str>, &'static str)> {
         (import, "name=Oak&format=csv&internode_length=x", "internode_length"),
         (import, "name=Oak&format=csv&internode_length=0", "internode_length"),
         (import, "name=Oak&format=csv&internode_length=1e39", "internode_length"),
+        (sessions, "limit=0", "limit"),
+        (sessions, "limit=201", "limit"),
+        (sessions, "after=x", "after"),
+        (sessions, "saved=maybe", "saved"),
+        (sessions, "mine=maybe", "mine"),
         (version, "note=Scanned", "format"),
         (version, "format=exe", "format"),
         (version, "format=csv&note=%07", "note"),

@@ -205,7 +205,7 @@ async fn a_damaged_snapshot_falls_back_to_the_one_before() {
     house.store.append(&lease, SIMULATION_VERSION, &[grown(1)]).await.unwrap();
     // Its checksum is right, but it is no snapshot.
     let (simulation_version, bytes) = (SIMULATION_VERSION, b"damaged".to_vec());
-    let damaged = NewSnapshot { through: 1, simulation_version, bytes };
+    let damaged = NewSnapshot { through: 1, simulation_version, bytes, metamers: 1 };
     house.store.keep_snapshot(&lease, damaged).await.unwrap();
     let (_, acknowledged, metamers) = house.visit_to("elm").await.welcome().await;
     assert_eq!(acknowledged, 1);
@@ -265,7 +265,7 @@ async fn op1_a_snapshot_in_a_newer_format_is_not_passed_over() {
     let mut bytes = start;
     // The container's format follows eight bytes of magic.
     bytes[8] = 99;
-    let newer = NewSnapshot { through: 1, simulation_version: SIMULATION_VERSION, bytes };
+    let newer = NewSnapshot { through: 1, simulation_version: SIMULATION_VERSION, bytes, metamers: 1 };
     house.store.keep_snapshot(&lease, newer).await.unwrap();
     let error = house.sessions.open("elm").await.unwrap_err();
     assert!(matches!(error, OpenError::Later(_)) && error.is_final(), "{error}");
@@ -373,7 +373,7 @@ async fn op4_a_panic_while_restoring_falls_back_to_the_snapshot_before() {
     let lease = house.store.acquire("elm").await.unwrap();
     house.store.append(&lease, SIMULATION_VERSION, &[grown(1)]).await.unwrap();
     let bytes = b"deadly".to_vec();
-    let deadly = NewSnapshot { through: 1, simulation_version: SIMULATION_VERSION, bytes };
+    let deadly = NewSnapshot { through: 1, simulation_version: SIMULATION_VERSION, bytes, metamers: 1 };
     house.store.keep_snapshot(&lease, deadly).await.unwrap();
     let make: restoring::Make = |name, epoch, snapshot, seed, entries, tail, tell| {
         assert_ne!(snapshot, Some(b"deadly".as_slice()), "on purpose, for a test");

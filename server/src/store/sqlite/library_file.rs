@@ -5,10 +5,10 @@ use std::path::Path;
 use sqlx::{Connection, SqlitePool, sqlite::SqlitePoolOptions};
 
 use super::{
-    super::{StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery},
+    super::{SessionLine, SessionQuery, StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery},
     care,
     open::{self, OpenError, common_options, sentence},
-    trees,
+    trees, visits,
 };
 
 /// Reads trees and versions; nothing is written.
@@ -33,6 +33,11 @@ impl LibraryFile {
     /// Some trees, in order.
     pub async fn trees(&self, query: &TreeQuery) -> Result<Vec<StoredTree>, StoreError> {
         trees::list(&self.0, query).await
+    }
+
+    /// Some sessions, those first in which something was done last.
+    pub async fn sessions(&self, query: &SessionQuery) -> Result<Vec<SessionLine>, StoreError> {
+        visits::list(&self.0, query).await
     }
 
     /// All versions of a tree, newest first.

@@ -20,6 +20,7 @@ mod shrinking;
 mod tree_writes;
 mod trees;
 mod users;
+mod visits;
 mod writer;
 
 use std::collections::BTreeSet;
@@ -122,10 +123,10 @@ impl Store for SqliteStore {
     }
 
     async fn keep_snapshot(&self, lease: &Lease, snapshot: NewSnapshot) -> Result<(), StoreError> {
-        let NewSnapshot { through, simulation_version, bytes } = snapshot;
+        let NewSnapshot { through, simulation_version, bytes, metamers } = snapshot;
         self.keep(TreeDocument { simulation_version, bytes }, |manifest, bytes| {
             let row = SnapshotRow::seal(&lease.session, through, simulation_version, bytes).without_bytes();
-            Write::Session(SessionWrite::Snapshot(lease.clone(), row, manifest))
+            Write::Session(SessionWrite::Snapshot(lease.clone(), row, manifest, metamers))
         })
         .await
         .map(drop)

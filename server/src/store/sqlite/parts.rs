@@ -376,6 +376,7 @@ mod tests {
             through,
             simulation_version: SIMULATION_VERSION,
             bytes: bytes.clone(),
+            metamers: 1,
         };
         store.keep_snapshot(&lease, snapshot(1, &later)).await.unwrap();
         let twice = kept(&store).await;

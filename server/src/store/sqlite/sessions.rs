@@ -12,13 +12,17 @@ use super::super::{
     lease::Leases,
     seal::{Found, JournalRow, SessionRow, SnapshotRow},
 };
-use super::parts::{self, Manifest};
+use super::{
+    parts::{self, Manifest},
+    visits,
+};
 
 #[derive(Debug)]
 pub(super) enum SessionWrite {
     Create(NewSession, Option<(SnapshotRow, Manifest)>),
     Append(Lease, JournalRow),
-    Snapshot(Lease, SnapshotRow, Manifest),
+    /// With the living metamers in it.
+    Snapshot(Lease, SnapshotRow, Manifest, u32),
     SetAside(Lease, Vec<Damage>, Vec<Notice>),
     ForgetNotices(Lease),
     Enter(String),
@@ -171,7 +175,9 @@ impl SessionWrite {
                 return purge(connection, leases, [saved, unsaved], *limit).await;
             }
             Self::Append(lease, row) => (lease, Change::Append(row)),
-            Self::Snapshot(lease, row, manifest) => (lease, Change::Snapshot(row, manifest)),
+            Self::Snapshot(lease, row, manifest, metamers) => {
+                (lease, Change::Snapshot(row, manifest, *metamers))
+            }
             Self::SetAside(lease, damage, notices) => (lease, Change::SetAside(damage, notices)),
             Self::ForgetNotices(lease) => (lease, Change::ForgetNotices),
         };
@@ -192,7 +198,7 @@ impl SessionWrite {
 /// A change to a session that there is.
 enum Change<'a> {
     Append(&'a JournalRow),
-    Snapshot(&'a SnapshotRow, &'a Manifest),
+    Snapshot(&'a SnapshotRow, &'a Manifest, u32),
     SetAside(&'a [Damage], &'a [Notice]),
     ForgetNotices,
 }
@@ -213,7 +219,10 @@ impl Change<'_> {
                 insert_journal(connection, name, row).await?;
                 session.last_entry = row.last;
             }
-            Self::Snapshot(row, manifest) => {
+            Self::Snapshot(row, manifest, metamers) => {
+                // The count is not sealed: it is for lists alone.
+                let sql = "UPDATE sessions SET metamers = ? WHERE name = ?";
+                sqlx::query(sql).bind(metamers).bind(name).execute(&mut *connection).await?;
                 insert_snapshot(connection, name, row, manifest).await?;
                 drop_what_nobody_needs(connection, name).await?;
                 session.last_snapshot = session.last_snapshot.max(Some(row.through));
@@ -243,15 +252,19 @@ async fn create(
     snapshot: Option<&(SnapshotRow, Manifest)>,
 ) -> Result<u64, StoreError> {
     sqlx::query(
-        "INSERT INTO sessions (name, seed, simulation_version, created_at, principal)
-         VALUES (?, ?, ?, strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?)",
+        "INSERT INTO sessions (name, seed, simulation_version, created_at, principal, metamers)
+         VALUES (?, ?, ?, strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?, ?)",
     )
     .bind(&new.name)
     .bind(new.seed)
     .bind(new.simulation_version)
     .bind(&new.principal)
+    .bind(new.metamers)
     .execute(&mut *connection)
     .await?;
+    if let Some(person) = &new.person {
+        visits::add(connection, &new.name, person).await?;
+    }
     if let Some((tree, version)) = &new.tree {
         for sql in [
             "UPDATE sessions SET (tree, tree_version) = (SELECT id, ?2 FROM trees WHERE key = ?1) WHERE name = ?3",
@@ -522,7 +535,12 @@ mod tests {
         let folder = Folder::new();
         let store = SqliteStore::open(&folder.database()).await.unwrap();
         let lease = with_oak(&store).await;
-        let snapshot = |through| super::super::NewSnapshot { through, simulation_version: 3, bytes: vec![1] };
+        let snapshot = |through| super::super::NewSnapshot {
+            through,
+            simulation_version: 3,
+            bytes: vec![1],
+            metamers: 1,
+        };
         store.append(&lease, 3, &entries(1..=4)).await.unwrap();
         store.append(&lease, 3, &entries(5..=6)).await.unwrap();
         store.keep_snapshot(&lease, snapshot(3)).await.unwrap();

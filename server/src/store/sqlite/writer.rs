@@ -32,6 +32,7 @@ use super::{
     shrinking,
     tree_writes::TreeWrite,
     users::UserWrite,
+    visits::VisitWrite,
 };
 
 /// How long a write waits for others to be committed with it. What arrives during a commit is in the next group.
@@ -59,6 +60,7 @@ pub(super) enum Write {
     Answer(AnswerWrite),
     Comment(CommentWrite),
     Lock(LockWrite),
+    Visit(VisitWrite),
     #[cfg(test)]
     Raw(String),
 }
@@ -90,6 +92,7 @@ impl Write {
             Self::Answer(write) => write.apply(connection).await,
             Self::Comment(write) => write.apply(connection).await,
             Self::Lock(write) => write.apply(connection).await,
+            Self::Visit(write) => write.apply(connection).await,
             #[cfg(test)]
             Self::Raw(sql) => {
                 let query = sqlx::query(sqlx::AssertSqlSafe(sql.clone()));

@@ -1,5 +1,7 @@
 import { useEffect, useState } from "preact/hooks";
 import { listTrees } from "../../library/library-api";
+import { unsavedSessions } from "../../library/unsaved-sessions";
+import type { UnsavedTree } from "../../library/unsaved-tree";
 import type { Studio } from "../../studio";
 import { dateText } from "../../words/date-text";
 import { say } from "../../words/say";
@@ -23,6 +25,16 @@ interface Recent {
 export function RecentTrees({ studio }: { studio: Studio }) {
   const [saved, setSaved] = useState<readonly Recent[]>([]);
   const [hidden, setHidden] = useState(false);
+  const remembered = studio.unsaved.list.value;
+  const [unsaved, setUnsaved] = useState<readonly UnsavedTree[]>(remembered);
+  useEffect(() => {
+    if (studio.rights.mayChange.peek()) {
+      // As above: what this device remembers stands until the server answers.
+      void unsavedSessions(studio.rights.me.peek()?.way, remembered)
+        .then(setUnsaved)
+        .catch(() => setUnsaved(remembered));
+    }
+  }, [studio, remembered]);
   useEffect(() => {
     const show = async () => {
       const { items } = await listTrees(MOST);
@@ -37,7 +49,7 @@ export function RecentTrees({ studio }: { studio: Studio }) {
     void show().catch(() => {});
   }, [studio]);
   const here = studio.link.session.value;
-  const left = studio.unsaved.list.value
+  const left = unsaved
     .filter(({ session }) => session !== here)
     .map(({ session, left: at, thumbnail }) => {
       return { key: session, name: say("sheets.unsaved"), at, thumbnail, open: () => studio.trees.goOnWith(session) };

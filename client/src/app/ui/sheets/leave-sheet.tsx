@@ -1,5 +1,6 @@
 import { useState } from "preact/hooks";
 import { saveAsNew, saveAsNext } from "../../library/save-tree";
+import { forgetSession } from "../../library/unsaved-sessions";
 import { sentence } from "../../problems/plain-words";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
@@ -22,8 +23,10 @@ export function LeaveSheet({ studio }: { studio: Studio }) {
     }
     setLeaving(true);
     try {
-      if (await first()) {
-        await studio.trees.leave(undefined, keeps);
+      const session = studio.link.session.peek();
+      if ((await first()) && (await studio.trees.leave(undefined, keeps)) && !keeps && session !== null) {
+        // Where the server does not take it off the list, it is found under Unsaved once more.
+        await forgetSession(session).catch(() => {});
       }
     } catch (error) {
       studio.toasts.show(sentence(error));
