@@ -161,6 +161,15 @@ test.each([
   expect(card.y / height, "the bars above the first tree").toBeLessThan(most);
   expect(await misses(tablet, "the library", "dialog")).toEqual([]);
   await tablet.show(`library-phone-${width}`);
+  if (height > width) {
+    // Nothing is behind a scroll to the side, and files are where a thumb is.
+    for (const name of ["Favourites", "Open a file…", "Select", "Filters"]) {
+      const { x, width: wide } = await tablet.boxOf(page.getByRole("button", { name, exact: true }));
+      expect(x >= 0 && x + wide <= width, name).toBe(true);
+    }
+    const file = await tablet.boxOf(page.getByRole("button", { name: "Open a file…" }));
+    expect(file.y / height, "files").toBeGreaterThan(0.85);
+  }
   await page.getByRole("button", { name: "Filters", exact: true }).tap();
   await page.getByLabel("Order").selectOption("By name");
   await listed(tablet, "in another order", ["Apple", "Pear"]);
