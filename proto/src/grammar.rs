@@ -1,5 +1,7 @@
 //! Grammars: plants that are written (`GR1`).
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -123,6 +125,10 @@ pub struct GrammarDiagnostic {
     pub length: u32,
     /// What kind it is, as `unknown-function`; [docs/grammars.md](../docs/grammars.md#errors) has all.
     pub code: String,
+    /// Which sentence of its kind it is, for programs that have words of their own for it: `unknown-function.near`.
+    pub id: String,
+    /// What stands in the sentence where others of its name have something else, by name.
+    pub values: BTreeMap<String, String>,
     /// A sentence in English without its full stop.
     pub message: String,
     /// What to write instead.

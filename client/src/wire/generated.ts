@@ -306,6 +306,14 @@ length: number,
  */
 code: string, 
 /**
+ * Which sentence of its kind it is, for programs that have words of their own for it: `unknown-function.near`.
+ */
+id: string, 
+/**
+ * What stands in the sentence where others of its name have something else, by name.
+ */
+values: { [key in string]: string }, 
+/**
  * A sentence in English without its full stop.
  */
 message: string, 

@@ -9,13 +9,11 @@ use crate::{
     keys::{self, Chance, Products},
     limits::{Limits, Stop},
     program::{Production, Program},
-    reading::{MOST_PARAMETERS, NoPen, Reading, When, choose, draw, finite, holds},
+    reading::{FRAME, MOST_PARAMETERS, NoPen, Reading, When, choose, draw, finite, fires, holds},
     symbols::{Action, CUT, POP, PUSH, turtle},
     word::{Tag, Word},
 };
 
-/// Parameters of a predecessor with its contexts at most.
-const FRAME: usize = 64;
 /// How often modules that have waited may be rewritten within one step.
 const MOST_FIRINGS: u32 = 100;
 
@@ -352,7 +350,7 @@ impl Derivation {
             if usize::from(rule.arity) != parameters.len() || rule.is_later {
                 continue;
             }
-            if rule.left.is_empty() && rule.right.is_empty() {
+            if rule.left.is_empty() && rule.right.is_empty() && rule.locals.is_empty() {
                 if holds(&mut self.machine, rule, parameters, moment)? {
                     let rule = draw(&mut self.machine, rule, rules, parameters, moment)?;
                     return Ok(Some((rule, false)));
@@ -366,7 +364,7 @@ impl Derivation {
             }
             let own = usize::from(rule.own);
             frame[own..own + parameters.len()].copy_from_slice(parameters);
-            if holds(&mut self.machine, rule, frame, moment)? {
+            if fires(&mut self.machine, rule, frame, moment)? {
                 let rule = draw(&mut self.machine, rule, rules, frame, moment)?;
                 return Ok(Some((rule, true)));
             }
@@ -430,17 +428,11 @@ impl Derivation {
         if !candidates.is_empty() {
             self.machine.work += 1;
             let found = choose(&mut self.machine, candidates, &decomposition.rules, parameters, moment)?;
-            if let Some(rule) = found {
+            if let Some(chosen) = found {
                 let firing = Firing { time: tag.time, pass: pass + 1 };
-                return self.again(
-                    program,
-                    rule,
-                    tag,
-                    parameters,
-                    firing,
-                    program.decomposition_depth,
-                    moment,
-                );
+                let most = program.decomposition_depth;
+                let frame = chosen.frame(parameters);
+                return self.again(program, chosen.rule, tag, frame, firing, most, moment);
             }
         }
         let lifespan = program.lifespans.get(tag.symbol as usize).copied().flatten();
@@ -449,9 +441,10 @@ impl Derivation {
             let rules = &program.rules;
             let candidates = rules.of(tag.symbol);
             let found = choose(&mut self.machine, candidates, &rules.rules, parameters, moment)?;
-            if let Some(rule) = found {
+            if let Some(chosen) = found {
                 let firing = Firing { time: tag.time + lifespan, pass: pass + 1 };
-                return self.again(program, rule, tag, parameters, firing, MOST_FIRINGS, moment);
+                let frame = chosen.frame(parameters);
+                return self.again(program, chosen.rule, tag, frame, firing, MOST_FIRINGS, moment);
             }
         }
         self.next.push(tag, &self.limits)?;

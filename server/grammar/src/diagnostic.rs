@@ -1,8 +1,11 @@
 //! What is wrong with a grammar's text, and where.
 
-use std::fmt;
+use std::fmt::{self, Display, Formatter};
 
-use crate::source::{Source, Span};
+use crate::{
+    source::{Source, Span},
+    wording::{Wording, filled},
+};
 
 /// So many diagnostics of one text are kept; what comes after is most often a consequence.
 pub const MAX_DIAGNOSTICS: usize = 50;
@@ -29,14 +32,40 @@ pub struct Diagnostic {
     pub length: u32,
     /// What kind it is; programs branch on it.
     pub code: &'static str,
+    /// The name of its sentence among [all](crate::WORDINGS).
+    pub id: &'static str,
+    /// What stands in the sentence's braces.
+    pub values: Vec<(&'static str, String)>,
     /// A sentence without its full stop.
     pub message: String,
     /// What to write instead.
     pub hint: Option<String>,
 }
 
-impl fmt::Display for Diagnostic {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Diagnostic {
+    /// A sentence with its values, and where it belongs: line, column, length.
+    pub(crate) fn new(
+        severity: Severity,
+        (line, column, length): (u32, u32, u32),
+        wording: &'static Wording,
+        values: Values,
+    ) -> Self {
+        Self {
+            severity,
+            line,
+            column,
+            length,
+            code: wording.kind(),
+            id: wording.id,
+            message: filled(wording.message, &values),
+            hint: wording.hint.map(|hint| filled(hint, &values)),
+            values,
+        }
+    }
+}
+
+impl Display for Diagnostic {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let kind = match self.severity {
             Severity::Error => "",
             Severity::Warning => "warning: ",
@@ -46,44 +75,49 @@ impl fmt::Display for Diagnostic {
     }
 }
 
+/// Values for the braces of a sentence.
+pub(crate) type Values = Vec<(&'static str, String)>;
+
+#[derive(Debug)]
+struct Found {
+    span: Span,
+    severity: Severity,
+    wording: &'static Wording,
+    values: Values,
+}
+
 /// Collects diagnostics while a text is read.
 #[derive(Debug, Default)]
 pub(crate) struct Report {
-    found: Vec<(Span, Severity, &'static str, String, Option<String>)>,
+    found: Vec<Found>,
     has_errors: bool,
 }
 
 impl Report {
-    pub fn error(&mut self, span: Span, code: &'static str, message: impl Into<String>) {
-        self.add(span, Severity::Error, code, message.into(), None);
-    }
-
-    pub fn error_with(
+    pub fn error<const N: usize>(
         &mut self,
         span: Span,
-        code: &'static str,
-        message: impl Into<String>,
-        hint: impl Into<String>,
+        wording: &'static Wording,
+        values: [(&'static str, &dyn Display); N],
     ) {
-        self.add(span, Severity::Error, code, message.into(), Some(hint.into()));
+        self.add(span, Severity::Error, wording, written(&values));
     }
 
-    pub fn warn(&mut self, span: Span, code: &'static str, message: impl Into<String>, hint: Option<String>) {
-        self.add(span, Severity::Warning, code, message.into(), hint);
-    }
-
-    fn add(
+    pub fn warn<const N: usize>(
         &mut self,
         span: Span,
-        severity: Severity,
-        code: &'static str,
-        message: String,
-        hint: Option<String>,
+        wording: &'static Wording,
+        values: [(&'static str, &dyn Display); N],
     ) {
+        self.add(span, Severity::Warning, wording, written(&values));
+    }
+
+    pub fn add(&mut self, span: Span, severity: Severity, wording: &'static Wording, values: Values) {
         self.has_errors |= severity == Severity::Error;
-        let is_known = self.found.iter().any(|known| known.0 == span && known.2 == code);
+        let is_known =
+            self.found.iter().any(|known| known.span == span && known.wording.kind() == wording.kind());
         if self.found.len() < MAX_DIAGNOSTICS && !is_known {
-            self.found.push((span, severity, code, message, hint));
+            self.found.push(Found { span, severity, wording, values });
         }
     }
 
@@ -91,15 +125,29 @@ impl Report {
         self.has_errors
     }
 
+    /// How much has been found, for [`Report::forget`].
+    pub fn mark(&self) -> (usize, bool) {
+        (self.found.len(), self.has_errors)
+    }
+
+    /// Takes back what has been found since: it was a guess how to read something.
+    pub fn forget(&mut self, mark: (usize, bool)) {
+        self.found.truncate(mark.0);
+        self.has_errors = mark.1;
+    }
+
     /// In the order of the text.
     pub fn finish(mut self, source: &Source) -> Vec<Diagnostic> {
-        self.found.sort_by_key(|found| found.0.start);
-        let place = |(span, severity, code, message, hint): (Span, _, _, _, _)| {
-            let (line, column, length) = source.place(span);
-            Diagnostic { severity, line, column, length, code, message, hint }
+        self.found.sort_by_key(|found| found.span.start);
+        let place = |Found { span, severity, wording, values }: Found| {
+            Diagnostic::new(severity, source.place(span), wording, values)
         };
         self.found.into_iter().map(place).collect()
     }
+}
+
+pub(crate) fn written(values: &[(&'static str, &dyn Display)]) -> Values {
+    values.iter().map(|&(name, value)| (name, value.to_string())).collect()
 }
 
 /// The name of some that is most like another, if any is: at most two letters differ.

@@ -1,10 +1,13 @@
 //! Expressions: a Pratt loop over the text.
 
+use std::fmt::Display;
+
 use crate::{
     diagnostic::nearest,
     functions::{FUNCTIONS, Function},
     parser::{Parser, Scope},
     source::Span,
+    wording,
 };
 
 /// Parentheses, functions and operators lie at most so deep in each other.
@@ -80,7 +83,7 @@ impl Parser<'_> {
         self.depth += 1;
         let read = if self.depth > DEEPEST {
             let here = Span::at(self.at);
-            self.report.error(here, "too-deep", format!("it lies more than {DEEPEST} deep"));
+            self.report.error(here, wording::TOO_DEEP, [("most", &DEEPEST)]);
             Err(Lost)
         } else {
             self.binding_within(scope, least)
@@ -98,14 +101,14 @@ impl Parser<'_> {
             let is_assignment = rest.starts_with('=') && !rest.starts_with("==");
             if is_assignment {
                 let here = Span::new(self.at, self.at + 1);
-                self.report.error_with(here, "assignment", "`=` compares nothing", "write ==");
+                self.report.error(here, wording::ASSIGNMENT, []);
                 return Err(Lost);
             }
             for (word, sign) in [("and", "&&"), ("or", "||")] {
                 if self.peeks_word(word) {
                     let here = Span::new(self.at, self.at + word.len());
-                    let message = format!("`{word}` is Python");
-                    self.report.error_with(here, "python", message, format!("write {sign}"));
+                    let values: [(_, &dyn Display); 2] = [("name", &word), ("sign", &sign)];
+                    self.report.error(here, wording::PYTHON_OPERATOR, values);
                     return Err(Lost);
                 }
             }
@@ -127,7 +130,7 @@ impl Parser<'_> {
             length += 1;
             if length > DEEPEST * 4 {
                 let here = Span::new(self.at, self.at + sign.len());
-                self.report.error(here, "too-deep", "the expression is too long");
+                self.report.error(here, wording::CHAIN_TOO_LONG, []);
                 return Err(Lost);
             }
             self.at += sign.len();
@@ -167,15 +170,11 @@ impl Parser<'_> {
             }
             Some(c) => {
                 let here = Span::new(start, start + c.len_utf8());
-                self.report.error(
-                    here,
-                    "no-expression",
-                    format!("`{c}` begins no number, name or parenthesis"),
-                );
+                self.report.error(here, wording::NO_EXPRESSION, [("found", &c)]);
                 Err(Lost)
             }
             None => {
-                self.report.error(Span::at(start), "no-expression", "a number or a name is missing here");
+                self.report.error(Span::at(start), wording::MISSING_EXPRESSION, []);
                 Err(Lost)
             }
         }
@@ -202,7 +201,7 @@ impl Parser<'_> {
         match self.source.slice(span).parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
             _ => {
-                self.report.error(span, "bad-number", "it is no number");
+                self.report.error(span, wording::BAD_NUMBER, []);
                 Err(Lost)
             }
         }
@@ -220,23 +219,20 @@ impl Parser<'_> {
             let arguments = self.arguments(scope)?;
             let Some(&(_, wanted, function)) = function else {
                 let names = FUNCTIONS.iter().map(|row| row.0).chain(["func"]);
-                let message = format!("there is no function `{name}`");
                 match nearest(name, names) {
                     Some(near) => {
-                        self.report.error_with(
-                            span,
-                            "unknown-function",
-                            message,
-                            format!("did you mean {near}?"),
-                        );
+                        let values: [(_, &dyn Display); 2] = [("name", &name), ("near", &near)];
+                        self.report.error(span, wording::UNKNOWN_FUNCTION_NEAR, values);
                     }
-                    None => self.report.error(span, "unknown-function", message),
+                    None => self.report.error(span, wording::UNKNOWN_FUNCTION, [("name", &name)]),
                 }
                 return Ok(Expr::Number(0.0));
             };
             if arguments.len() != usize::from(wanted) {
-                let message = format!("`{name}` takes {wanted} parameters, not {}", arguments.len());
-                self.report.error(span, "parameter-count", message);
+                let count = arguments.len();
+                let values: [(_, &dyn Display); 3] =
+                    [("name", &name), ("wanted", &wanted), ("count", &count)];
+                self.report.error(span, wording::ARGUMENT_COUNT, values);
                 return Ok(Expr::Number(0.0));
             }
             return Ok(Expr::Call(function, arguments));
@@ -251,19 +247,22 @@ impl Parser<'_> {
             return Ok(Expr::Call(function, Vec::new()));
         }
         if name == "not" {
-            self.report.error_with(span, "python", "`not` is Python", "write !");
+            let values: [(_, &dyn Display); 2] = [("name", &name), ("sign", &'!')];
+            self.report.error(span, wording::PYTHON_OPERATOR, values);
             return Err(Lost);
         }
         let known = scope.parameters.iter().chain(self.defines.iter().map(|define| &define.name));
-        let hint = match (function, nearest(name, known.map(String::as_str))) {
-            (Some(_), _) => Some(format!("write {name}(…)")),
-            (None, Some(near)) => Some(format!("did you mean {near}?")),
-            (None, None) => None,
-        };
-        let message = format!("`{name}` is no parameter of this rule and is not defined");
-        match hint {
-            Some(hint) => self.report.error_with(span, "unknown-name", message, hint),
-            None => self.report.error(span, "unknown-name", message),
+        let values: [(_, &dyn Display); 1] = [("name", &name)];
+        match (function, nearest(name, known.map(String::as_str))) {
+            _ if self.macros.iter().any(|known| known.name == name) => {
+                self.report.error(span, wording::NAME_OF_MODULES, values);
+            }
+            (Some(_), _) => self.report.error(span, wording::NAME_OF_FUNCTION, values),
+            (None, Some(near)) => {
+                let values: [(_, &dyn Display); 2] = [("name", &name), ("near", &near)];
+                self.report.error(span, wording::UNKNOWN_NAME_NEAR, values);
+            }
+            (None, None) => self.report.error(span, wording::UNKNOWN_NAME, values),
         }
         Ok(Expr::Number(0.0))
     }
@@ -276,8 +275,9 @@ impl Parser<'_> {
         let span = Span::new(start, self.at);
         let found = self.curves.iter().position(|curve| curve.name == name);
         if found.is_none() {
-            let hint = "define it: func: name x0 y0 x1 y1";
-            self.report.error_with(span, "unknown-curve", format!("there is no curve `{name}`"), hint);
+            let is_number = !name.is_empty() && name.bytes().all(|c| c.is_ascii_digit());
+            let row = if is_number { wording::UNKNOWN_CURVE_NUMBER } else { wording::UNKNOWN_CURVE };
+            self.report.error(span, row, [("name", &name)]);
         }
         self.expect(',')?;
         let at = self.binding(scope, 0)?;

@@ -46,6 +46,7 @@ pub(crate) struct Heading {
     pub angle: Option<(Expr, Span)>,
     pub depth: Option<(Expr, Span)>,
     pub time_step: Option<(Expr, Span)>,
+    pub seed: Option<(Expr, Span)>,
     pub buds: Option<Buds>,
     pub widths: Option<Radii>,
 }
@@ -114,6 +115,16 @@ pub(crate) enum Ahead {
     Branch(Vec<Ahead>),
 }
 
+/// Numbers that a rule gives names; they lie in its frame behind its parameters.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Locals {
+    /// Where in the frame the first lies.
+    pub first: u8,
+    pub values: Vec<Expr>,
+    /// So many are computed before the condition, the others where it holds.
+    pub before: usize,
+}
+
 /// A rule.
 #[derive(Clone, Debug)]
 pub(crate) struct Rule {
@@ -124,6 +135,7 @@ pub(crate) struct Rule {
     pub right: Vec<Ahead>,
     /// Where the parameters of the module itself begin in the frame.
     pub own: u8,
+    pub locals: Locals,
     pub condition: Option<Expr>,
     pub weight: Option<Expr>,
     pub successor: Vec<Module>,

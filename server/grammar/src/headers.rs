@@ -1,11 +1,14 @@
 //! Headers: lines that say something of the whole file, or begin a part of it.
 
+use std::fmt::Display;
+
 use crate::{
     diagnostic::nearest,
     expression::{Expr, Lost},
     grammar::{Buds, Curve, Define, Radii, SliderRow},
-    parser::{Parser, Scope, Section},
+    parser::{Macro, Parser, Scope, Section},
     source::{ARROW, Span, is_definition},
+    wording,
 };
 
 /// What a line begins with.
@@ -19,6 +22,7 @@ pub(crate) enum Header {
     Angle,
     Depth,
     TimeStep,
+    Seed,
     Buds,
     Widths,
     Define,
@@ -48,6 +52,7 @@ pub(crate) const HEADERS: &[(&str, bool, Header)] = &[
     ("derivation length", true, Header::Depth),
     ("depth", true, Header::Depth),
     ("dt", true, Header::TimeStep),
+    ("seed", true, Header::Seed),
     ("buds", true, Header::Buds),
     ("widths", true, Header::Widths),
     ("define", true, Header::Define),
@@ -135,7 +140,7 @@ impl Parser<'_> {
         );
         if !may_repeat && self.seen.contains(&header) {
             let name = self.source.slice(span).trim_end_matches([':', ' ']);
-            self.report.error(span, "twice", format!("`{name}` stands twice"));
+            self.report.error(span, wording::HEADER_TWICE, [("name", &name)]);
             return Err(Lost);
         }
         self.seen.push(header);
@@ -148,6 +153,7 @@ impl Parser<'_> {
             Header::Angle => self.heading.angle = Some((self.value()?, span)),
             Header::Depth => self.heading.depth = Some((self.value()?, span)),
             Header::TimeStep => self.heading.time_step = Some((self.value()?, span)),
+            Header::Seed => self.heading.seed = Some((self.value()?, span)),
             Header::Buds => {
                 self.heading.buds = Some(self.choice(&[("grammar", Buds::Grammar), ("fill", Buds::Fill)])?);
             }
@@ -156,11 +162,7 @@ impl Parser<'_> {
                 self.heading.widths = Some(self.choice(&choices)?);
             }
             Header::Define => self.definitions()?,
-            Header::CDefine => {
-                let (name, place) = self.name()?;
-                let value = self.value()?;
-                self.define(name, place, value);
-            }
+            Header::CDefine => self.directive()?,
             Header::Assignment => {
                 let (name, place) = self.name()?;
                 self.expect('=')?;
@@ -209,7 +211,7 @@ impl Parser<'_> {
             return Ok(found.1);
         }
         let names: Vec<_> = choices.iter().map(|choice| choice.0).collect();
-        self.report.error_with(span, "no-choice", "it is none of the choices", names.join(" or "));
+        self.report.error(span, wording::NO_CHOICE, [("choices", &names.join(" / "))]);
         Err(Lost)
     }
 
@@ -220,7 +222,7 @@ impl Parser<'_> {
         let name = self.word().to_owned();
         let span = Span::new(start, self.at);
         if name.is_empty() || name.starts_with(|c: char| c.is_numeric()) {
-            self.report.error(span, "no-name", "a name is missing here");
+            self.report.error(span, wording::NO_NAME, []);
             return Err(Lost);
         }
         Ok((name, span))
@@ -228,10 +230,44 @@ impl Parser<'_> {
 
     fn define(&mut self, name: String, place: Span, value: Expr) {
         if self.defines.iter().any(|define| define.name == name) {
-            self.report.error(place, "twice", format!("`{name}` is defined twice"));
+            self.report.error(place, wording::DEFINED_TWICE, [("name", &name)]);
             return;
         }
         self.defines.push(Define { name, value, place });
+    }
+
+    /// `#define NAME VALUE`: a number, or modules that stand where the name stands.
+    fn directive(&mut self) -> Result<(), Lost> {
+        let (name, place) = self.name()?;
+        if self.rest().starts_with('(') {
+            self.report.error(place, wording::MACRO_PARAMETERS, [("name", &name)]);
+            return Err(Lost);
+        }
+        self.skip_blanks();
+        let (mark, start) = (self.report.mark(), self.at);
+        let value = self.value();
+        let is_number = value.is_ok() && self.report.mark() == mark;
+        let body = Span::new(start, self.end);
+        // A word that is no number is more likely a slip in writing than a name for its letters.
+        let is_word = self.source.slice(body).chars().all(|c| c.is_alphanumeric() || c == '_');
+        let is_letter = self.source.slice(body).chars().count() == 1;
+        if is_number || (is_word && !is_letter) {
+            self.define(name, place, value?);
+            return Ok(());
+        }
+        self.report.forget(mark);
+        self.depth = 0;
+        if self.is_defined(&name) {
+            self.report.error(place, wording::DEFINED_TWICE, [("name", &name)]);
+            return Err(Lost);
+        }
+        self.macros.push(Macro { name, body });
+        Ok(())
+    }
+
+    fn is_defined(&self, name: &str) -> bool {
+        self.defines.iter().any(|define| define.name == name)
+            || self.macros.iter().any(|known| known.name == name)
     }
 
     /// `{ a = 1  b = 2 }`, or the same without braces.
@@ -261,17 +297,22 @@ impl Parser<'_> {
         self.expect_end()?;
         let Some(define) = self.defines.iter().position(|define| define.name == name) else {
             let names = self.defines.iter().map(|define| define.name.as_str());
-            let hint = nearest(&name, names)
-                .map_or(format!("write {name} = 1"), |near| format!("did you mean {near}?"));
-            self.report.error_with(span, "unknown-name", format!("`{name}` is not defined"), hint);
+            match nearest(&name, names) {
+                Some(near) => {
+                    let values: [(_, &dyn Display); 2] = [("name", &name), ("near", &near)];
+                    self.report.error(span, wording::UNDEFINED_NEAR, values);
+                }
+                None => self.report.error(span, wording::UNDEFINED, [("name", &name)]),
+            }
             return Err(Lost);
         };
         if from >= to {
-            self.report.error(span, "empty-range", format!("from {from} to {to} is no range"));
+            let values: [(_, &dyn Display); 2] = [("from", &from), ("to", &to)];
+            self.report.error(span, wording::EMPTY_RANGE, values);
             return Err(Lost);
         }
         if self.sliders.iter().any(|slider| usize::from(slider.define) == define) {
-            self.report.error(span, "twice", format!("`{name}` has two sliders"));
+            self.report.error(span, wording::SLIDER_TWICE, [("name", &name)]);
             return Err(Lost);
         }
         self.sliders.push(SliderRow { define: define as u16, from, to });
@@ -286,7 +327,15 @@ impl Parser<'_> {
     }
 
     fn curve_points(&mut self) -> Result<(), Lost> {
-        let (name, span) = self.name()?;
+        // Curves of cpfg have numbers for names.
+        self.skip_blanks();
+        let start = self.at;
+        let name = self.word().to_owned();
+        let span = Span::new(start, self.at);
+        if name.is_empty() {
+            self.report.error(span, wording::NO_NAME, []);
+            return Err(Lost);
+        }
         let mut points = Vec::new();
         self.skip_blanks();
         while !self.rest().is_empty() {
@@ -295,12 +344,11 @@ impl Parser<'_> {
             self.skip_blanks();
         }
         if points.is_empty() || !points.is_sorted_by(|a: &(f64, f64), b| a.0 < b.0) {
-            let hint = "func: name x0 y0 x1 y1, with x in ascending order";
-            self.report.error_with(span, "bad-curve", "these are no points of a curve", hint);
+            self.report.error(span, wording::BAD_CURVE, []);
             return Err(Lost);
         }
         if self.curves.iter().any(|curve| curve.name == name) {
-            self.report.error(span, "twice", format!("`{name}` is defined twice"));
+            self.report.error(span, wording::DEFINED_TWICE, [("name", &name)]);
             return Err(Lost);
         }
         self.curves.push(Curve { name, points });
@@ -312,7 +360,7 @@ impl Parser<'_> {
         loop {
             let (name, span) = self.name()?;
             if self.symbols.enter(&name).is_none() {
-                self.report.error(span, "too-many-symbols", "there are too many names");
+                self.report.error(span, wording::TOO_MANY_SYMBOLS, []);
                 return Err(Lost);
             }
             if name.chars().count() > 1 {
@@ -349,7 +397,7 @@ impl Parser<'_> {
             let (symbol, span) = self.symbol()?;
             let lifespan = self.operand(&Scope::default())?;
             if self.timing.iter().any(|row| row.0 == symbol) {
-                self.report.error(span, "twice", "it has two lifespans");
+                self.report.error(span, wording::LIFESPAN_TWICE, [("name", &self.symbols.name(symbol))]);
                 return Err(Lost);
             }
             self.timing.push((symbol, lifespan));
@@ -365,19 +413,19 @@ impl Parser<'_> {
         let depth = self.number()?;
         self.expect_end()?;
         if self.section == Section::Production {
-            let hint = "write it below homomorphism: or decomposition:";
-            self.report.error_with(span, "misplaced", "productions have no maximum depth", hint);
+            self.report.error(span, wording::MISPLACED_DEPTH, []);
             return Err(Lost);
         }
-        if depth.fract() != 0.0 || !(1.0..=DEEPEST).contains(&depth) {
-            self.report.error(
-                span,
-                "out-of-range",
-                format!("a maximum depth is a whole number up to {DEEPEST}"),
-            );
+        if depth.fract() != 0.0 || depth < 1.0 {
+            self.report.error(span, wording::MAXIMUM_DEPTH, []);
             return Err(Lost);
         }
-        self.depths[self.section as usize] = Some(depth as u8);
+        // Files of cpfg ask for thousands; what goes on beyond the most ends with an error that names the rule.
+        if depth > DEEPEST {
+            let values: [(_, &dyn Display); 2] = [("value", &depth), ("most", &DEEPEST)];
+            self.report.warn(span, wording::DEPTH_TAKEN, values);
+        }
+        self.depths[self.section as usize] = Some(depth.min(DEEPEST) as u8);
         Ok(())
     }
 }

@@ -1,5 +1,7 @@
 //! Reads a text line by line; what is wrong with one line does not hide what is wrong with the next.
 
+use std::fmt::Display;
+
 use crate::{
     diagnostic::{Diagnostic, Report},
     expression::Lost,
@@ -9,6 +11,7 @@ use crate::{
     review::review,
     source::{ARROW, Source, Span},
     symbols::{Symbol, Symbols},
+    wording,
 };
 
 /// Rules of a grammar at most.
@@ -20,6 +23,13 @@ const DECOMPOSITION_DEPTH: u8 = 10;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scope {
     pub parameters: Vec<String>,
+}
+
+/// A name that stands for modules, as the C preprocessor of cpfg has them.
+#[derive(Clone, Debug)]
+pub(crate) struct Macro {
+    pub name: String,
+    pub body: Span,
 }
 
 /// What rules belong to.
@@ -42,6 +52,9 @@ pub(crate) struct Parser<'a> {
     pub symbols: Symbols,
     pub defines: Vec<Define>,
     pub curves: Vec<Curve>,
+    pub macros: Vec<Macro>,
+    /// How many macros are being read within each other.
+    pub macro_depth: u32,
     pub section: Section,
     pub heading: Heading,
     pub sliders: Vec<SliderRow>,
@@ -68,6 +81,8 @@ impl<'a> Parser<'a> {
             symbols: Symbols::new(),
             defines: Vec::new(),
             curves: Vec::new(),
+            macros: Vec::new(),
+            macro_depth: 0,
             section: Section::Production,
             heading: Heading::default(),
             sliders: Vec::new(),
@@ -86,8 +101,9 @@ impl<'a> Parser<'a> {
     pub fn read(source: &'a Source) -> Checked {
         let mut parser = Self::new(source);
         if source.text.len() > MAX_TEXT {
-            let message = format!("a grammar has at most {} KiB", MAX_TEXT / 1024);
-            parser.report.error(Span::at(MAX_TEXT.min(source.text.len())), "too-long", message);
+            let most = MAX_TEXT / 1024;
+            let end = Span::at(MAX_TEXT.min(source.text.len()));
+            parser.report.error(end, wording::FILE_TOO_LONG, [("most", &most)]);
             return Checked { grammar: None, diagnostics: parser.report.finish(source) };
         }
         let lines = source.logical_lines();
@@ -111,7 +127,7 @@ impl<'a> Parser<'a> {
     /// What is said of bytes that are no text, of which the beginning is.
     pub fn no_text(source: &Source) -> Diagnostic {
         let mut report = Report::default();
-        report.error(Span::at(source.text.len()), "no-text", "it is not text in UTF-8 from here on");
+        report.error(Span::at(source.text.len()), wording::NO_TEXT, []);
         report.finish(source).remove(0)
     }
 
@@ -130,8 +146,9 @@ impl<'a> Parser<'a> {
         }
         let rest = self.rest();
         if let Some(found) = foreign(rest) {
-            let span = Span::new(self.at, self.at + found.length);
-            self.report.error_with(span, found.code, found.message, found.hint);
+            let start = self.at + found.from;
+            let span = Span::new(start, start + found.length);
+            self.report.error(span, found.wording, [("name", &found.name)]);
             return Err(Lost);
         }
         if let Some((header, length)) = header(rest) {
@@ -147,8 +164,7 @@ impl<'a> Parser<'a> {
         if rest.contains(ARROW) {
             let count: usize = self.rules.iter().map(Vec::len).sum();
             if count >= MOST_RULES {
-                let message = format!("a grammar has at most {MOST_RULES} rules");
-                self.report.error(Span::at(self.at), "too-many-rules", message);
+                self.report.error(Span::at(self.at), wording::TOO_MANY_RULES, [("most", &MOST_RULES)]);
                 return Err(Lost);
             }
             let rule = self.rule()?;
@@ -156,10 +172,8 @@ impl<'a> Parser<'a> {
             return Ok(());
         }
         let span = Span::new(self.at, self.end);
-        let message = "it is neither a rule nor a header";
         let has_arrow = ["->", "→", "⟶", "=>"].iter().any(|arrow| rest.contains(arrow));
-        let hint = if has_arrow { "rules have the arrow -->" } else { "a rule is written A --> F" };
-        self.report.error_with(span, "no-rule", message, hint);
+        self.report.error(span, if has_arrow { wording::NO_RULE_ARROW } else { wording::NO_RULE }, []);
         Err(Lost)
     }
 
@@ -167,7 +181,7 @@ impl<'a> Parser<'a> {
         let source = self.source;
         if !self.seen.contains(&Header::Axiom) {
             let here = Span::at(0);
-            self.report.error_with(here, "no-axiom", "it has no axiom", "write axiom: F");
+            self.report.error(here, wording::NO_AXIOM, []);
         }
         let [rules, homomorphism, decomposition] = std::mem::take(&mut self.rules);
         let [_, homomorphism_depth, decomposition_depth] = self.depths;
@@ -227,11 +241,14 @@ impl<'a> Parser<'a> {
         if self.eat(wanted) {
             return Ok(());
         }
-        let message = match self.peek() {
-            Some(found) => format!("`{wanted}` is missing before `{found}`"),
-            None => format!("`{wanted}` is missing at the end"),
-        };
-        self.report.error(Span::at(self.at), "missing", message);
+        let here = Span::at(self.at);
+        match self.peek() {
+            Some(found) => {
+                let values: [(_, &dyn Display); 2] = [("wanted", &wanted), ("found", &found)];
+                self.report.error(here, wording::MISSING_BEFORE, values);
+            }
+            None => self.report.error(here, wording::MISSING_AT_END, [("wanted", &wanted)]),
+        }
         Err(Lost)
     }
 
@@ -255,7 +272,7 @@ impl<'a> Parser<'a> {
             return Ok(());
         }
         let span = Span::new(self.at, self.end);
-        self.report.error(span, "unexpected", "nothing more is expected on this line");
+        self.report.error(span, wording::UNEXPECTED, []);
         Err(Lost)
     }
 

@@ -1,13 +1,17 @@
 //! A grammar with values for its sliders, compiled.
 
+use std::fmt::{self, Display};
+
 use crate::{
     code::{Code, asks_place, compile, unsteady},
+    diagnostic::{Values, written},
     expression::Expr,
-    grammar::{Ahead, Buds, Curve, Grammar, Module, Neighbour, Radii, Rule, Slider},
+    grammar::{Ahead, Buds, Curve, Grammar, Module, Neighbour, Radii, Rule, Slider, SliderRow},
     review::are_alternatives,
     source::Span,
     symbols::{Action, CUT, Symbol, turtle},
     word::Columns,
+    wording::{self, Wording, filled},
 };
 
 /// What turns without parameter turn by, in degrees, where the file says nothing.
@@ -16,40 +20,30 @@ pub(crate) const ANGLE: f64 = 45.0;
 const MOST_STEPS: f64 = 10_000.0;
 
 /// Values that a grammar cannot be set to.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum BadValue {
-    /// No slider has this name.
-    #[error("there is no slider `{0}`")]
-    Unknown(String),
-    /// A slider does not reach so far.
-    #[error("`{name}` goes from {from} to {to}")]
-    OutOfRange {
-        /// Its name.
-        name: String,
-        /// Its least value.
-        from: f64,
-        /// Its greatest.
-        to: f64,
-    },
-    /// A definition or header is no number that it can be.
-    #[error("{name} is {value}, and must be {allowed}")]
-    Impossible {
-        /// What it is called.
-        name: String,
-        /// What it comes to.
-        value: f64,
-        /// What it may be.
-        allowed: &'static str,
-    },
-    /// It would be another number each time.
-    #[error("{name} must be the same everywhere, and `{function}` is not")]
-    Unsteady {
-        /// What it is called.
-        name: String,
-        /// The function.
-        function: &'static str,
-    },
+#[derive(Clone, Debug, PartialEq)]
+pub struct BadValue {
+    pub(crate) wording: &'static Wording,
+    pub(crate) values: Values,
 }
+
+impl BadValue {
+    fn new<const N: usize>(wording: &'static Wording, values: [(&'static str, &dyn Display); N]) -> Self {
+        Self { wording, values: written(&values) }
+    }
+
+    /// The name of its sentence among [all](crate::WORDINGS).
+    pub fn id(&self) -> &'static str {
+        self.wording.id
+    }
+}
+
+impl Display for BadValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&filled(self.wording.message, &self.values))
+    }
+}
+
+impl std::error::Error for BadValue {}
 
 /// A module of a successor.
 #[derive(Clone, Debug)]
@@ -65,6 +59,10 @@ pub(crate) struct Production {
     pub left: Vec<Neighbour>,
     pub right: Vec<Ahead>,
     pub own: u8,
+    /// Numbers that it gives names, where in the frame the first of them lies, and how many come before the condition.
+    pub locals: Box<[Code]>,
+    pub first_local: u8,
+    pub locals_before: usize,
     pub condition: Option<Code>,
     pub weight: Option<Code>,
     /// This rule and its alternatives; empty for one without probability, and for all alternatives but the first.
@@ -111,6 +109,7 @@ pub struct Program {
     pub(crate) angle: f64,
     pub(crate) time_step: f64,
     depth: u32,
+    seed: Option<u32>,
     pub(crate) buds: Buds,
     pub(crate) radii: Radii,
 }
@@ -135,7 +134,7 @@ pub(crate) fn asks_places(grammar: &Grammar) -> bool {
     };
     let of_rule = |rule: &Rule| {
         let questions = rule.condition.iter().chain(&rule.weight);
-        questions.into_iter().any(asks_place) || of_modules(&rule.successor)
+        questions.into_iter().chain(&rule.locals.values).any(asks_place) || of_modules(&rule.successor)
     };
     of_modules(&grammar.axiom) || grammar.rules.iter().chain(&grammar.decomposition).any(of_rule)
 }
@@ -144,7 +143,7 @@ impl Grammar {
     /// What users may set, with the values of the file.
     pub fn sliders(&self) -> Vec<Slider> {
         let values = self.values(&[]).unwrap_or_default();
-        let slider = |row: &crate::grammar::SliderRow| Slider {
+        let slider = |row: &SliderRow| Slider {
             name: self.defines[row.define as usize].name.clone(),
             value: values.get(row.define as usize).copied().unwrap_or_default(),
             from: row.from,
@@ -166,28 +165,25 @@ impl Grammar {
         for &(name, value) in set {
             let row = self.sliders.iter().find(|row| self.defines[row.define as usize].name == name);
             let Some(row) = row else {
-                return Err((Span::default(), BadValue::Unknown(name.to_owned())));
+                return Err((Span::default(), BadValue::new(wording::NO_SLIDER, [("name", &name)])));
             };
             if !(row.from..=row.to).contains(&value) {
-                let (name, from, to) = (name.to_owned(), row.from, row.to);
-                return Err((Span::default(), BadValue::OutOfRange { name, from, to }));
+                return Err((Span::default(), beyond(name, row)));
             }
         }
         let mut values: Vec<f64> = Vec::with_capacity(self.defines.len());
         for (at, define) in self.defines.iter().enumerate() {
-            let name = || format!("`{}`", define.name);
             let given = set.iter().find(|(name, _)| *name == define.name);
             let value = match given {
                 Some(&(_, value)) => value,
-                None => constant(&define.value, &values, &self.curves, name, define.place)?,
+                None => constant(&define.value, &values, &self.curves, &define.name, define.place)?,
             };
             if !value.is_finite() {
-                return Err((define.place, impossible(name(), value, "a finite number")));
+                return Err((define.place, impossible(wording::NOT_FINITE, &define.name, value)));
             }
             let slider = self.sliders.iter().find(|row| usize::from(row.define) == at);
             if let Some(row) = slider.filter(|row| !(row.from..=row.to).contains(&value)) {
-                let (name, from, to) = (define.name.clone(), row.from, row.to);
-                return Err((define.place, BadValue::OutOfRange { name, from, to }));
+                return Err((define.place, beyond(&define.name, row)));
             }
             values.push(value);
         }
@@ -195,19 +191,27 @@ impl Grammar {
     }
 }
 
-fn impossible(name: String, value: f64, allowed: &'static str) -> BadValue {
-    BadValue::Impossible { name, value, allowed }
+fn impossible(wording: &'static Wording, name: &str, value: f64) -> BadValue {
+    match name {
+        "" => BadValue::new(wording, [("value", &value)]),
+        _ => BadValue::new(wording, [("name", &name), ("value", &value)]),
+    }
+}
+
+fn beyond(name: &str, row: &SliderRow) -> BadValue {
+    BadValue::new(wording::BEYOND_SLIDER, [("name", &name), ("from", &row.from), ("to", &row.to)])
 }
 
 fn constant(
     expr: &Expr,
     values: &[f64],
     curves: &[Curve],
-    name: impl Fn() -> String,
+    name: &str,
     place: Span,
 ) -> Result<f64, (Span, BadValue)> {
     if let Some(function) = unsteady(expr) {
-        return Err((place, BadValue::Unsteady { name: name(), function }));
+        let values: [(_, &dyn Display); 2] = [("name", &name), ("function", &function)];
+        return Err((place, BadValue::new(wording::UNSTEADY, values)));
     }
     match compile(expr, values, curves) {
         Code::Constant(value) => Ok(value),
@@ -222,6 +226,11 @@ impl Program {
         self.depth
     }
 
+    /// The seed of chance that the file asks for.
+    pub fn seed(&self) -> Option<u32> {
+        self.seed
+    }
+
     /// Whether wood gets its radii from the widths that the grammar sets.
     pub fn sets_radii(&self) -> bool {
         self.radii == Radii::Grammar
@@ -232,29 +241,32 @@ impl Program {
         let curves = &grammar.curves;
         let heading = &grammar.heading;
         let number = |row: &Option<(Expr, Span)>, name: &str, default: f64| match row {
-            Some((expr, place)) => Ok((constant(expr, &values, curves, || name.to_owned(), *place)?, *place)),
+            Some((expr, place)) => Ok((constant(expr, &values, curves, name, *place)?, *place)),
             None => Ok((default, Span::default())),
         };
-        let within = |(value, place): (f64, Span), name: &str, holds: bool, allowed| match holds {
+        let within = |(value, place): (f64, Span), holds: bool, wording| match holds {
             true => Ok(value),
-            false => Err((place, impossible(name.to_owned(), value, allowed))),
+            false => Err((place, impossible(wording, "", value))),
         };
         let scale = number(&heading.scale, "scale", 1.0)?;
-        let scale = within(scale, "scale", scale.0 > 0.0 && scale.0.is_finite(), "more than 0")?;
+        let scale = within(scale, scale.0 > 0.0 && scale.0.is_finite(), wording::SCALE_RANGE)?;
         let angle = number(&heading.angle, "angle", ANGLE)?;
-        let angle = within(angle, "angle", angle.0.is_finite(), "a finite number of degrees")?;
+        let angle = within(angle, angle.0.is_finite(), wording::ANGLE_RANGE)?;
         let step = number(&heading.time_step, "dt", 1.0)?;
-        let time_step = within(step, "dt", (0.001..=1000.0).contains(&step.0), "from 0.001 to 1000")?;
+        let time_step = within(step, (0.001..=1000.0).contains(&step.0), wording::TIME_STEP_RANGE)?;
         let depth = number(&heading.depth, "derivation length", 1.0)?;
         let is_depth = depth.0.fract() == 0.0 && (0.0..=MOST_STEPS).contains(&depth.0);
-        let depth = within(depth, "derivation length", is_depth, "a whole number up to 10000")?;
+        let depth = within(depth, is_depth, wording::DEPTH_RANGE)?;
+        let seed = number(&heading.seed, "seed", 0.0)?;
+        let is_seed = seed.0.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&seed.0);
+        let seed = within(seed, is_seed, wording::SEED_RANGE)?;
         let compiling = Compiling { grammar, values: &values };
         let mut lifespans = Vec::new();
         for (symbol, expr) in &grammar.timing {
-            let name = || format!("the lifespan of `{}`", grammar.symbols.name(*symbol));
+            let name = grammar.symbols.name(*symbol);
             let value = constant(expr, &values, curves, name, Span::default())?;
             if !(0.001..=1e6).contains(&value) {
-                return Err((Span::default(), impossible(name(), value, "from 0.001 to 1000000")));
+                return Err((Span::default(), impossible(wording::LIFESPAN_RANGE, name, value)));
             }
             lifespans.resize(grammar.symbols.len(), None);
             lifespans[*symbol as usize] = Some(value);
@@ -277,6 +289,7 @@ impl Program {
             angle,
             time_step,
             depth: depth as u32,
+            seed: heading.seed.is_some().then_some(seed as u32),
             buds: heading.buds.unwrap_or(Buds::Fill),
             radii: heading
                 .widths
@@ -355,6 +368,9 @@ impl Compiling<'_> {
                 left: rule.left.clone(),
                 right: rule.right.clone(),
                 own: rule.own,
+                locals: rule.locals.values.iter().map(|expr| self.code(expr)).collect(),
+                first_local: rule.locals.first,
+                locals_before: rule.locals.before,
                 condition: rule.condition.as_ref().map(|expr| self.code(expr)),
                 weight: rule.weight.as_ref().map(|expr| self.code(expr)),
                 draw,

@@ -11,6 +11,8 @@ use crate::{
     word::{Tag, Word},
 };
 
+/// Parameters of a predecessor with its contexts and the numbers that a rule names at most.
+pub(crate) const FRAME: usize = 64;
 /// Parameters of a module at most.
 pub(crate) const MOST_PARAMETERS: usize = 16;
 
@@ -133,8 +135,9 @@ impl Reading {
             let rules = &program.homomorphism;
             let chosen =
                 choose(&mut self.machine, rules.of(tag.symbol), &rules.rules, parameters, &mut moment)?;
-            if let Some(rule) = chosen {
-                return self.products(program, rule, tag, parameters, level, &mut moment, pen);
+            if let Some(chosen) = chosen {
+                let frame = chosen.frame(parameters);
+                return self.products(program, chosen.rule, tag, frame, level, &mut moment, pen);
             }
         }
         self.act(tag, action, parameters, pen)
@@ -227,6 +230,19 @@ impl Reading {
     }
 }
 
+/// A rule that acts, and the frame of its parameters where it names numbers besides.
+pub(crate) struct Chosen<'a> {
+    pub rule: &'a Production,
+    named: Option<Box<[f64]>>,
+}
+
+impl Chosen<'_> {
+    /// What its products are computed from.
+    pub fn frame<'b>(&'b self, parameters: &'b [f64]) -> &'b [f64] {
+        self.named.as_deref().unwrap_or(parameters)
+    }
+}
+
 /// The first rule without contexts that takes a module, or the alternative that is drawn.
 pub(crate) fn choose<'a>(
     machine: &mut Machine,
@@ -234,16 +250,46 @@ pub(crate) fn choose<'a>(
     rules: &'a [Production],
     parameters: &[f64],
     moment: &mut Moment<'_>,
-) -> Result<Option<&'a Production>, Stop> {
+) -> Result<Option<Chosen<'a>>, Stop> {
     for &number in candidates {
         let rule = &rules[number as usize];
         let fits = usize::from(rule.arity) == parameters.len() && !rule.is_later;
-        if fits && rule.left.is_empty() && rule.right.is_empty() && holds(machine, rule, parameters, moment)?
-        {
-            return draw(machine, rule, rules, parameters, moment).map(Some);
+        if !fits || !rule.left.is_empty() || !rule.right.is_empty() {
+            continue;
+        }
+        if rule.locals.is_empty() {
+            if holds(machine, rule, parameters, moment)? {
+                let rule = draw(machine, rule, rules, parameters, moment)?;
+                return Ok(Some(Chosen { rule, named: None }));
+            }
+            continue;
+        }
+        let mut frame = [0.0; FRAME];
+        let own = usize::from(rule.own);
+        frame[own..own + parameters.len()].copy_from_slice(parameters);
+        if fires(machine, rule, &mut frame, moment)? {
+            let rule = draw(machine, rule, rules, &frame, moment)?;
+            return Ok(Some(Chosen { rule, named: Some(frame.into()) }));
         }
     }
     Ok(None)
+}
+
+/// Whether the condition of a rule holds; what it names is put into its frame.
+pub(crate) fn fires(
+    machine: &mut Machine,
+    rule: &Production,
+    frame: &mut [f64; FRAME],
+    moment: &mut Moment<'_>,
+) -> Result<bool, Stop> {
+    for (number, local) in rule.locals.iter().enumerate() {
+        if number == rule.locals_before && !holds(machine, rule, frame, moment)? {
+            return Ok(false);
+        }
+        let value = machine.run(local, frame, moment);
+        frame[usize::from(rule.first_local) + number] = finite(value, rule)?;
+    }
+    if rule.locals.len() > rule.locals_before { Ok(true) } else { holds(machine, rule, frame, moment) }
 }
 
 /// Whether the condition of a rule holds.

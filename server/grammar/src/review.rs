@@ -1,13 +1,14 @@
 //! What is odd about a grammar that can be read.
 
-use std::collections::BTreeSet;
+use std::{collections::BTreeSet, fmt::Display};
 
 use crate::{
-    diagnostic::Report,
+    diagnostic::{Report, Severity},
     expression::Expr,
     grammar::{Ahead, Grammar, Module, Rule},
     program::{ANGLE, Program},
     symbols::{Action, Symbol, turtle},
+    wording,
 };
 
 /// Reports rules that never fire, modules that do nothing, and probabilities that leave no choice.
@@ -19,7 +20,7 @@ pub(crate) fn review(grammar: &Grammar, report: &mut Report) {
     modules(grammar, report);
     angles(grammar, report);
     if let Err((place, error)) = Program::build(grammar, &[]) {
-        report.error(place, "out-of-range", error.to_string());
+        report.add(place, Severity::Error, error.wording, error.values);
     }
 }
 
@@ -37,7 +38,8 @@ pub(crate) fn are_alternatives(one: &Rule, other: &Rule) -> bool {
     (one.symbol, one.arity) == (other.symbol, other.arity)
         && one.weight.is_some()
         && other.weight.is_some()
-        && (&one.left, &one.right, &one.condition) == (&other.left, &other.right, &other.condition)
+        && (&one.left, &one.right, &one.locals) == (&other.left, &other.right, &other.locals)
+        && one.condition == other.condition
 }
 
 fn shadowed(rules: &[Rule], report: &mut Report) {
@@ -50,10 +52,7 @@ fn shadowed(rules: &[Rule], report: &mut Report) {
                 && !are_alternatives(earlier, rule)
         };
         if let Some(earlier) = rules[..at].iter().find(takes_all) {
-            let message =
-                format!("this rule never fires: that of line {} takes every such module", earlier.at.0);
-            let hint = "put the rule with a condition or context first, or give both a probability";
-            report.warn(rule.place, "never-fires", message, Some(hint.to_owned()));
+            report.warn(rule.place, wording::NEVER_FIRES, [("line", &earlier.at.0)]);
         }
     }
 }
@@ -67,8 +66,7 @@ fn weights(rules: &[Rule], report: &mut Report) {
         let weights: Option<Vec<f64>> =
             rules.iter().filter(|other| are_alternatives(rule, other)).map(number).collect();
         if weights.is_some_and(|weights| weights.iter().sum::<f64>() == 0.0) {
-            let message = "the probabilities of this rule and its alternatives are all 0";
-            report.error(rule.place, "no-probability", message);
+            report.error(rule.place, wording::NO_PROBABILITY, []);
         }
     }
 }
@@ -105,30 +103,20 @@ fn modules(grammar: &Grammar, report: &mut Report) {
             && !is_known
             && told.insert((module.symbol, count))
         {
-            let message = format!("no rule takes `{name}` with {count} parameters");
-            report.warn(module.place, "parameter-count", message, None);
+            let values: [(_, &dyn Display); 2] = [("name", &name), ("count", &count)];
+            report.warn(module.place, wording::NO_RULE_TAKES, values);
         }
         if is_used || !told.insert((module.symbol, usize::MAX)) {
             continue;
         }
-        match row {
-            Some(row) if row.action == Action::Ignored => {
-                report.warn(module.place, "not-drawn", format!("`{name}` is {}", row.sentence), None);
-            }
-            None if name.starts_with('~') => {
-                let message = format!("`{name}` is a surface: leaves stand where Appearance puts them");
-                report.warn(module.place, "not-drawn", message, None);
-            }
-            None => {
-                let hint = match name {
-                    "T" => Some("the elasticity of wood is set with @Ts".to_owned()),
-                    _ => None,
-                };
-                let message = format!("`{name}` is never rewritten and draws nothing");
-                report.warn(module.place, "does-nothing", message, hint);
-            }
-            Some(_) => {}
-        }
+        let wording = match row.map(|row| row.action) {
+            Some(Action::Ignored(wording)) => wording,
+            Some(_) => continue,
+            None if name.starts_with('~') => wording::NOT_DRAWN_SURFACE,
+            None if name == "T" => wording::OLD_ELASTICITY,
+            None => wording::DOES_NOTHING,
+        };
+        report.warn(module.place, wording, [("name", &name)]);
     }
 }
 
@@ -141,7 +129,6 @@ fn angles(grammar: &Grammar, report: &mut Report) {
     if grammar.heading.angle.is_none()
         && let Some(module) = written(grammar).find(turns)
     {
-        let message = format!("it turns by {} degrees, for no angle is set", ANGLE);
-        report.warn(module.place, "no-angle", message, Some("write angle: 30".to_owned()));
+        report.warn(module.place, wording::NO_ANGLE, [("value", &ANGLE)]);
     }
 }

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::wording::{self, Wording};
+
 /// What the turtle does with a module.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Action {
@@ -32,76 +34,116 @@ pub(crate) enum Action {
     AskUp,
     AskLeft,
     AskLight,
-    /// Known, and without effect on wood.
-    Ignored,
+    /// Known, and without effect on wood; why is said.
+    Ignored(&'static Wording),
 }
 
-/// A symbol of the turtle: its name, what it does, the least number of parameters, and what it does in words.
+/// A symbol of the turtle: its name, what it does, and the least number of parameters.
 pub(crate) struct TurtleSymbol {
     pub name: &'static str,
     pub action: Action,
     pub least: u8,
-    pub sentence: &'static str,
 }
 
-const fn row(name: &'static str, action: Action, least: u8, sentence: &'static str) -> TurtleSymbol {
-    TurtleSymbol { name, action, least, sentence }
+const fn row(name: &'static str, action: Action, least: u8) -> TurtleSymbol {
+    TurtleSymbol { name, action, least }
 }
 
 /// All symbols that the turtle knows; the first rows are looked up by their numbers.
 pub(crate) const TURTLE: &[TurtleSymbol] = &[
-    row("[", Action::Push, 0, "a branch begins"),
-    row("]", Action::Pop, 0, "the branch ends"),
-    row("%", Action::Cut, 0, "cuts off the rest of the branch"),
-    row("F", Action::Draw, 0, "one step forward that becomes wood, as long as its parameter says, else 1"),
-    row("G", Action::Draw, 0, "as F"),
-    row("nF", Action::DrawInPieces, 2, "forward as F, in pieces as long as the second parameter"),
-    row("f", Action::Move, 0, "one step forward without wood; what is drawn next stands by itself"),
-    row("g", Action::Move, 0, "as f"),
-    row("+", Action::Turn(1.0), 0, "turns left, about the turtle's up"),
-    row("-", Action::Turn(-1.0), 0, "turns right"),
-    row("&", Action::Pitch(1.0), 0, "pitches down, about the turtle's left"),
-    row("^", Action::Pitch(-1.0), 0, "pitches up"),
-    row("\\", Action::Roll(-1.0), 0, "rolls left, about the heading"),
-    row("/", Action::Roll(1.0), 0, "rolls right"),
-    row("|", Action::TurnAbout, 0, "turns by 180°"),
-    row("$", Action::Level, 0, "rolls until the turtle's left is level"),
-    row("@v", Action::Level, 0, "as $"),
-    row("@R", Action::SetHeading, 3, "sets the heading (3 parameters), and up (3 more)"),
-    row("@M", Action::SetPlace, 3, "goes to a place"),
-    row("!", Action::Thinner, 0, "sets the width, or without parameter multiplies it by 0.7"),
-    row("#", Action::Thicker, 0, "sets the width, or without parameter divides it by 0.7"),
-    row("_", Action::Thicker, 0, "as #"),
-    row("@D", Action::SetScale, 1, "sets the scale of steps and widths"),
-    row("@Di", Action::MultiplyScale, 1, "multiplies the scale"),
-    row("@Dd", Action::DivideScale, 1, "divides the scale"),
-    row("@Tp", Action::SetTropism, 3, "sets the direction that wood bends to"),
-    row("@Ts", Action::SetElasticity, 1, "sets how far wood bends with each step, in radians"),
-    row("{", Action::BeginPolygon, 0, "a surface begins: no wood grows until it ends"),
-    row("}", Action::EndPolygon, 0, "the surface ends"),
-    row("?P", Action::AskPlace, 3, "is given the turtle's place"),
-    row("?H", Action::AskHeading, 3, "is given the turtle's heading"),
-    row("?U", Action::AskUp, 3, "is given the turtle's up"),
-    row("?L", Action::AskLeft, 3, "is given the turtle's left"),
-    row("?E", Action::AskLight, 1, "is given the light at the turtle's place, 0 to 1"),
-    row(".", Action::Ignored, 0, "a vertex of a surface: draws no wood"),
-    row(";", Action::Ignored, 0, "the next colour: wood has the colour of its bark"),
-    row(",", Action::Ignored, 0, "the colour before: wood has the colour of its bark"),
-    row("'", Action::Ignored, 0, "the next colour: wood has the colour of its bark"),
-    row("@O", Action::Ignored, 0, "a sphere: draws no wood"),
-    row("@o", Action::Ignored, 0, "a circle: draws no wood"),
-    row("@B", Action::Ignored, 0, "a box: draws no wood"),
-    row("@b", Action::Ignored, 0, "a rectangle: draws no wood"),
-    row("@Gs", Action::Ignored, 0, "a cylinder begins: all wood is one skin"),
-    row("@Ge", Action::Ignored, 0, "a cylinder ends: all wood is one skin"),
-    row("@Gc", Action::Ignored, 0, "a point of a cylinder: all wood is one skin"),
-    row("@Gr", Action::Ignored, 0, "a tangent of a cylinder: all wood is one skin"),
-    row("@Gt", Action::Ignored, 0, "a tangent of a cylinder: all wood is one skin"),
-    row("@#", Action::Ignored, 0, "a contour: wood is round"),
-    row("@C", Action::Ignored, 0, "a contour: wood is round"),
-    row("@L", Action::Ignored, 0, "a label: is not drawn"),
-    row("@S", Action::Ignored, 0, "a command for a screen: is not obeyed"),
-    row("@I", Action::Ignored, 0, "a surface: leaves stand where Appearance puts them"),
+    // A branch begins.
+    row("[", Action::Push, 0),
+    // The branch ends.
+    row("]", Action::Pop, 0),
+    // Cuts off the rest of the branch.
+    row("%", Action::Cut, 0),
+    // One step forward that becomes wood, as long as its parameter says, else 1.
+    row("F", Action::Draw, 0),
+    // As F.
+    row("G", Action::Draw, 0),
+    // Forward as F, in pieces as long as the second parameter.
+    row("nF", Action::DrawInPieces, 2),
+    // One step forward without wood; what is drawn next stands by itself.
+    row("f", Action::Move, 0),
+    // As f.
+    row("g", Action::Move, 0),
+    // Turns left, about the turtle's up.
+    row("+", Action::Turn(1.0), 0),
+    // Turns right.
+    row("-", Action::Turn(-1.0), 0),
+    // Pitches down, about the turtle's left.
+    row("&", Action::Pitch(1.0), 0),
+    // Pitches up.
+    row("^", Action::Pitch(-1.0), 0),
+    // Rolls left, about the heading.
+    row("\\", Action::Roll(-1.0), 0),
+    // Rolls right.
+    row("/", Action::Roll(1.0), 0),
+    // Turns by 180°.
+    row("|", Action::TurnAbout, 0),
+    // Rolls until the turtle's left is level.
+    row("$", Action::Level, 0),
+    // As $.
+    row("@v", Action::Level, 0),
+    // Sets the heading (3 parameters), and up (3 more).
+    row("@R", Action::SetHeading, 3),
+    // Goes to a place.
+    row("@M", Action::SetPlace, 3),
+    // Sets the width, or without parameter multiplies it by 0.7.
+    row("!", Action::Thinner, 0),
+    // Sets the width, or without parameter divides it by 0.7.
+    row("#", Action::Thicker, 0),
+    // As #.
+    row("_", Action::Thicker, 0),
+    // Sets the scale of steps and widths.
+    row("@D", Action::SetScale, 1),
+    // Multiplies the scale.
+    row("@Di", Action::MultiplyScale, 1),
+    // Divides the scale.
+    row("@Dd", Action::DivideScale, 1),
+    // Sets the direction that wood bends to.
+    row("@Tp", Action::SetTropism, 3),
+    // Sets how far wood bends with each step, in radians.
+    row("@Ts", Action::SetElasticity, 1),
+    // A surface begins: no wood grows until it ends.
+    row("{", Action::BeginPolygon, 0),
+    // The surface ends.
+    row("}", Action::EndPolygon, 0),
+    // Is given the turtle's place.
+    row("?P", Action::AskPlace, 3),
+    // Is given the turtle's heading.
+    row("?H", Action::AskHeading, 3),
+    // Is given the turtle's up.
+    row("?U", Action::AskUp, 3),
+    // Is given the turtle's left.
+    row("?L", Action::AskLeft, 3),
+    // Is given the light at the turtle's place, 0 to 1.
+    row("?E", Action::AskLight, 1),
+    row(".", Action::Ignored(wording::NOT_DRAWN_VERTEX), 0),
+    row(";", Action::Ignored(wording::NOT_DRAWN_COLOUR), 0),
+    row(",", Action::Ignored(wording::NOT_DRAWN_COLOUR), 0),
+    row("'", Action::Ignored(wording::NOT_DRAWN_COLOUR), 0),
+    row("@O", Action::Ignored(wording::NOT_DRAWN_SOLID), 0),
+    row("@o", Action::Ignored(wording::NOT_DRAWN_SOLID), 0),
+    row("@B", Action::Ignored(wording::NOT_DRAWN_SOLID), 0),
+    row("@b", Action::Ignored(wording::NOT_DRAWN_SOLID), 0),
+    row("@Gs", Action::Ignored(wording::NOT_DRAWN_CYLINDER), 0),
+    row("@Ge", Action::Ignored(wording::NOT_DRAWN_CYLINDER), 0),
+    row("@Gc", Action::Ignored(wording::NOT_DRAWN_CYLINDER), 0),
+    row("@Gr", Action::Ignored(wording::NOT_DRAWN_CYLINDER), 0),
+    row("@Gt", Action::Ignored(wording::NOT_DRAWN_CYLINDER), 0),
+    row("@#", Action::Ignored(wording::NOT_DRAWN_CONTOUR), 0),
+    row("@c", Action::Ignored(wording::NOT_DRAWN_SOLID), 0),
+    row("@PS", Action::Ignored(wording::NOT_DRAWN_SURFACE), 0),
+    row("@PL", Action::Ignored(wording::NOT_DRAWN_SURFACE), 0),
+    row("@PD", Action::Ignored(wording::NOT_DRAWN_SURFACE), 0),
+    row("@Ti", Action::Ignored(wording::NOT_DRAWN_TROPISM), 0),
+    row("@Tf", Action::Ignored(wording::NOT_DRAWN_TROPISM), 0),
+    row("@Td", Action::Ignored(wording::NOT_DRAWN_TROPISM), 0),
+    row("@C", Action::Ignored(wording::NOT_DRAWN_CONTOUR), 0),
+    row("@L", Action::Ignored(wording::NOT_DRAWN_LABEL), 0),
+    row("@S", Action::Ignored(wording::NOT_DRAWN_SCREEN), 0),
+    row("@I", Action::Ignored(wording::NOT_DRAWN_SURFACE), 0),
 ];
 
 /// The number of a symbol, in words and rules.

@@ -47,6 +47,10 @@ pub struct Drawn {
     /// For each node the key of the module of the word that drew it, by way of the homomorphism or not, if a
     /// derivation is [traced](Derivation::traced).
     pub modules: Vec<u64>,
+    /// Lines that the turtle drew.
+    pub lines: usize,
+    /// Lines that were too short to be nodes, and were joined with what follows.
+    pub joined: usize,
 }
 
 /// A word on its way to wood.
@@ -202,6 +206,8 @@ struct Carpenter {
     /// Whether something that the axiom holds draws.
     axiom_draws: bool,
     growing: usize,
+    lines: usize,
+    joined: usize,
 }
 
 impl Carpenter {
@@ -220,6 +226,8 @@ impl Carpenter {
             levels: Vec::new(),
             axiom_draws: false,
             growing: 0,
+            lines: 0,
+            joined: 0,
         }
     }
 
@@ -345,7 +353,8 @@ impl Carpenter {
         let buds = if self.buds == Buds::Grammar { DormantBuds::Known } else { DormantBuds::Everywhere };
         let wood = Wood { nodes: self.nodes, axes: self.axes, buds, ..Wood::default() };
         let modules = self.modules.unwrap_or_default();
-        Drawn { wood, keys: self.keys, growing: self.growing, modules }
+        let (lines, joined) = (self.lines, self.joined);
+        Drawn { wood, keys: self.keys, growing: self.growing, modules, lines, joined }
     }
 
     /// The thinnest wood is as thick as a twig.
@@ -418,7 +427,10 @@ impl Pen for Carpenter {
         let radius = 0.5 * turtle.width * turtle.scale;
         self.level.loose = Some(Loose { tag, end: turtle.place, radius, module: self.module });
         let least = self.known.as_ref().map_or(SHORT, |known| known.least(tag));
-        self.fix(least)
+        self.fix(least)?;
+        self.lines += 1;
+        self.joined += usize::from(self.level.loose.is_some());
+        Ok(())
     }
 
     fn jump(&mut self, turtle: &State) -> Result<(), Stop> {

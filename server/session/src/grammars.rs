@@ -47,7 +47,11 @@ pub fn check_grammar(wanted: &CheckGrammar) -> Result<GrammarReport, Problem> {
     report.depth = Some(program.depth());
     report.sliders = sliders_of(&grammar);
     if wanted.sizes {
-        let ends = measure(program, wanted.seed.unwrap_or(1), &mut report.sizes).err();
+        let seed = wanted.seed.or(program.seed()).unwrap_or(1);
+        let mut measured = Measured { sizes: Vec::new(), tiny: None };
+        let ends = measured.look(&grammar, program, seed).err();
+        report.sizes = measured.sizes;
+        report.diagnostics.extend(measured.tiny.as_ref().map(wire));
         report.ends = ends.map(|stop| match stop {
             Stop::Modules(_) | Stop::Parameters(_) | Stop::Work(_) | Stop::Nodes(_) => {
                 format!("what is deeper is too large to be counted: {stop}")
@@ -58,25 +62,37 @@ pub fn check_grammar(wanted: &CheckGrammar) -> Result<GrammarReport, Problem> {
     Ok(report)
 }
 
-/// Notes how large a plant is at each depth, as far as that can be found out.
-fn measure(program: Program, seed: u32, sizes: &mut Vec<GrammarSize>) -> Result<(), Stop> {
-    let deepest = program.depth().max(DEEPEST);
-    let options = WoodOptions { nodes: MOST_INTERNODES, extent: WORLD_EXTENT as u32, twig_radius: 0.05 };
-    let mut derivation = Derivation::new(Arc::new(program), seed, LIMITS)?;
-    let mut looked_at = 0;
-    loop {
-        let wood = derivation.draw(&OpenSky, options)?.wood;
-        let internodes = wood.nodes.iter().filter(|node| node.parent.is_some()).count();
-        let modules = derivation.word().len();
-        sizes.push(GrammarSize { modules: modules as u32, internodes: internodes as u32 });
-        looked_at += modules + internodes;
-        if derivation.depth() >= deepest {
-            return Ok(());
+/// What is found out by deriving a grammar.
+struct Measured {
+    sizes: Vec<GrammarSize>,
+    /// Whether it is drawn too small at the depth of its text.
+    tiny: Option<Diagnostic>,
+}
+
+impl Measured {
+    /// Notes how large a plant is at each depth, as far as that can be found out.
+    fn look(&mut self, grammar: &Grammar, program: Program, seed: u32) -> Result<(), Stop> {
+        let (depth, deepest) = (program.depth(), program.depth().max(DEEPEST));
+        let options = WoodOptions { nodes: MOST_INTERNODES, extent: WORLD_EXTENT as u32, twig_radius: 0.05 };
+        let mut derivation = Derivation::new(Arc::new(program), seed, LIMITS)?;
+        let mut looked_at = 0;
+        loop {
+            let drawn = derivation.draw(&OpenSky, options)?;
+            if derivation.depth() <= depth {
+                self.tiny = grammar.tiny_pieces(&derivation, &drawn);
+            }
+            let internodes = drawn.wood.nodes.iter().filter(|node| node.parent.is_some()).count();
+            let modules = derivation.word().len();
+            self.sizes.push(GrammarSize { modules: modules as u32, internodes: internodes as u32 });
+            looked_at += modules + internodes;
+            if derivation.depth() >= deepest {
+                return Ok(());
+            }
+            if looked_at > MOST_IN_ALL {
+                return Err(Stop::Modules(LIMITS.modules));
+            }
+            derivation.step(&OpenSky)?;
         }
-        if looked_at > MOST_IN_ALL {
-            return Err(Stop::Modules(LIMITS.modules));
-        }
-        derivation.step(&OpenSky)?;
     }
 }
 
@@ -91,6 +107,8 @@ fn wire(found: &Diagnostic) -> GrammarDiagnostic {
         column: found.column,
         length: found.length,
         code: found.code.to_owned(),
+        id: found.id.to_owned(),
+        values: found.values.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect(),
         message: found.message.clone(),
         hint: found.hint.clone(),
     }
@@ -140,6 +158,25 @@ mod tests {
     fn checked(text: &str) -> GrammarReport {
         let wanted = CheckGrammar { text: text.to_owned(), values: List::default(), seed: None, sizes: true };
         check_grammar(&wanted).unwrap_or_else(|problem| panic!("{problem}"))
+    }
+
+    #[test]
+    fn gr6_sentences_have_names_and_values() {
+        let report = checked("axiom: F(sni(1))\nspike --> F\n");
+        let found: Vec<_> = report.diagnostics.iter().map(|one| (&*one.id, one.values.len())).collect();
+        assert_eq!(found, [("unknown-function.near", 2), ("predecessor.name", 2)]);
+        assert_eq!(report.diagnostics[1].values["name"], "spike");
+        let tiny = checked("axiom: A\nderivation length: 200\nA --> F(0.1)[+(30)F(0.1)F(0.1)]A\n");
+        let last = tiny.diagnostics.last().expect("it is told");
+        assert_eq!((&*last.code, &*last.values["scale"]), ("tiny-pieces", "10"));
+    }
+
+    #[test]
+    fn no_shipped_grammar_is_drawn_too_small() {
+        for shipped in SHIPPED {
+            let report = checked(shipped.text);
+            assert!(report.diagnostics.iter().all(|one| one.code != "tiny-pieces"), "{}", shipped.name);
+        }
     }
 
     #[test]

@@ -1,7 +1,9 @@
+import type { GrammarDiagnostic } from "../../wire/generated";
+import { GERMAN } from "./grammar-german";
 import type { Text } from "./say";
 import { say } from "./say";
 
-/** What kinds of problems a grammar's text can have, in few words; the server's sentence says the rest in English. */
+/** What kinds of problems a grammar's text can have, in few words. */
 const KINDS: Readonly<Record<string, Text>> = {
   "no-text": ["No text", "Kein Text"],
   "too-long": ["Too long", "Zu lang"],
@@ -43,6 +45,7 @@ const KINDS: Readonly<Record<string, Text>> = {
   "does-nothing": ["Does nothing", "Bewirkt nichts"],
   "not-drawn": ["Not drawn", "Wird nicht gezeichnet"],
   "no-angle": ["No angle", "Kein Winkel"],
+  "tiny-pieces": ["Very small", "Sehr klein"],
 };
 
 /** What kind a problem is; of a kind that the page does not know, its code. */
@@ -50,3 +53,17 @@ export function kindText(code: string): string {
   const kind = KINDS[code];
   return kind ? say(kind) : code;
 }
+
+const SENTENCES: Readonly<Record<string, readonly [message: string, hint?: string]>> = GERMAN;
+
+/** What is wrong with a text and what to write instead; of a sentence that the page does not know, as the server says it. */
+export function sentenceOf({ id, values, message, hint }: Said): Pick<GrammarDiagnostic, "message" | "hint"> {
+  const german = SENTENCES[id];
+  const filled = (values ?? {}) as Readonly<Record<string, string>>;
+  return {
+    message: say([message, german?.[0] ?? message], filled),
+    hint: hint === null ? null : say([hint, german?.[1] ?? hint], filled),
+  };
+}
+
+type Said = Pick<GrammarDiagnostic, "id" | "values" | "message" | "hint">;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use espalier_grammar::{BadValue, Derivation, Grammar, Limits, OpenSky, SHIPPED, Shipped};
+use espalier_grammar::{Derivation, Grammar, Limits, OpenSky, SHIPPED, Shipped};
 
 use crate::{
     trees::{drawn, planted},
@@ -108,10 +108,8 @@ fn sliders_are_kept_in_their_ranges() {
     assert_eq!((slider.value, slider.from, slider.to), (28.0, 10.0, 60.0));
     assert!(grammar.program(&[("a", 30.0), ("r", 0.7)]).is_ok());
     let too_much = grammar.program(&[("a", 90.0)]).expect_err("it is out of range");
-    assert_eq!(too_much, BadValue::OutOfRange { name: "a".into(), from: 10.0, to: 60.0 });
-    assert_eq!(
-        grammar.program(&[("wr", 0.5)]).expect_err("it has no slider"),
-        BadValue::Unknown("wr".into())
-    );
+    assert_eq!(too_much.to_string(), "`a` goes from 10 to 60");
+    let unknown = grammar.program(&[("wr", 0.5)]).expect_err("it has no slider");
+    assert_eq!(unknown.id(), "out-of-range.no-slider");
     assert!(grammar.program(&[("a", f64::NAN)]).is_err());
 }

@@ -1,6 +1,7 @@
 //! Grammars are read, derived and drawn; what cannot be is told.
 
 mod bombs;
+mod borrowed;
 mod chance;
 mod documented;
 mod environment;

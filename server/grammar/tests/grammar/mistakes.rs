@@ -1,6 +1,8 @@
 //! What is wrong with a text is told with its place, and with what to write instead.
 
-use espalier_grammar::{Diagnostic, Grammar, MAX_DIAGNOSTICS, Severity};
+use std::collections::BTreeSet;
+
+use espalier_grammar::{Diagnostic, Grammar, MAX_DIAGNOSTICS, Severity, WORDINGS};
 
 fn told(text: &str) -> Vec<Diagnostic> {
     Grammar::check(text).diagnostics
@@ -34,6 +36,14 @@ fn each_mistake_is_told_at_its_place() {
         ("axiom: F\nF -> FF", ("no-rule", 2, 1, 7)),
         ("axiom: F\nF --> F --> F", ("two-arrows", 2, 9, 3)),
         ("axiom: F\nF G --> F", ("predecessor", 2, 3, 2)),
+        ("axiom: F\nspikem --> F", ("predecessor", 2, 1, 6)),
+        ("axiom: F\nA < spike(x) --> F", ("predecessor", 2, 5, 5)),
+        ("axiom: F@Zz(1)", ("no-symbol", 1, 9, 3)),
+        ("axiom: F(func(1, 2))", ("unknown-curve", 1, 15, 1)),
+        ("axiom: F\n#define R ratoi\n", ("unknown-name", 2, 11, 5)),
+        ("axiom: F(R)\n#define R [F]\n", ("unknown-name", 1, 10, 1)),
+        ("axiom: R\n#define R [F]R\n", ("c", 2, 14, 1)),
+        ("axiom: F\nseed: -1", ("out-of-range", 2, 1, 5)),
         ("axiom: F\n[ --> F", ("bracket", 2, 1, 1)),
         ("axiom: F\nA < B < C --> F", ("bad-context", 2, 1, 10)),
         ("axiom: F\nA[B] < F --> F", ("bad-context", 2, 1, 5)),
@@ -89,7 +99,16 @@ fn other_languages_are_called_by_their_names() {
         ("axiom: F\nif x > 3:", "python"),
         ("axiom: F\nproduce F", "python"),
         ("axiom: F\nStart: { x = 0; }", "cpfg-statements"),
-        ("axiom: F\nF(x) : { y = x; } y > 1 --> F", "cpfg-statements"),
+        ("axiom: F\nF(x) : { while (x) { } } --> F", "cpfg-statements"),
+        ("axiom: F\nF(x) : { x = 2; } --> F", "cpfg-statements"),
+        ("axiom: F\nF(x) : { y += 2; } --> F", "cpfg-statements"),
+        ("axiom: F\nF(x) --> y = x; produce F(y)", "cpfg-statements"),
+        ("axiom: F\narray widths[3] = {1, 2, 3};", "c"),
+        ("axiom: F\n#define TWICE(x) (2*x)", "c"),
+        ("axiom: F\nwidths = [1, 2, 3]", "python"),
+        ("axiom: F\nrandom.seed(3)", "python"),
+        ("axiom: F\nsetSeed(3)", "python"),
+        ("axiom: F\nendgroup", "groups"),
         ("axiom: F\n#include <x.h>", "c"),
         ("axiom: F\ndouble x;", "c"),
         ("axiom: F\ngroup 1:", "groups"),
@@ -100,6 +119,75 @@ fn other_languages_are_called_by_their_names() {
         let is_told = |one: &Diagnostic| one.code == wanted && one.line == 2 && one.hint.is_some();
         assert!(found.iter().any(is_told), "{text}\n{found:#?}");
     }
+}
+
+#[test]
+fn what_is_outside_the_language_is_named_and_its_way_in_is_told() {
+    let cases = [
+        (
+            "axiom: F\nspikem --> F",
+            "a rule rewrites one module, and `spikem` is read as 6 of one letter each",
+            "declare the name above: module spikem",
+        ),
+        (
+            "axiom: F(func(2, 0.5))",
+            "curve 2 lies in another file of cpfg",
+            "write its points into this one: func: 2 0 0 0.5 0.8 1 1",
+        ),
+        (
+            "#define TWICE(x) (2*x)\naxiom: F",
+            "`TWICE(…)` is a macro with parameters, which is not read",
+            "write what it stands for into the rules, or make a rule of it",
+        ),
+        (
+            "axiom: F\narray w[3];",
+            "`array` is a row of numbers of cpfg, which is not read",
+            "give each number a name of its own, or make a curve of them: func: name 0 1 1 2",
+        ),
+        ("axiom: F\nF(x) : {n = n(x);} --> F", "there is no function `n`", "did you mean ln?"),
+        (
+            "axiom: F\nF(x) : {if (x) y = 1;} --> F",
+            "`if` is a statement, and none is run here",
+            "in braces only numbers are given names: A(x) : {y = 2*x;} --> F(y)",
+        ),
+        (
+            "axiom: F@Q(2)",
+            "`@Q` is no symbol that the turtle knows here",
+            "docs/grammars.md lists the names that begin so",
+        ),
+    ];
+    for (text, message, hint) in cases {
+        let found = told(text);
+        let first = &found[0];
+        assert_eq!((&*first.message, first.hint.as_deref()), (message, Some(hint)), "{text}\n{found:#?}");
+    }
+}
+
+/// What stands in braces in a sentence and is no value, but how something is written.
+const WORDINGS_WITH_BRACES: &[&str] = &["{y = 2*x;}", "{y = x+1;}"];
+
+#[test]
+fn every_sentence_has_its_values() {
+    // What stands in braces has a value, and every value has its braces, in all that the tests of this file provoke.
+    let source = include_str!("mistakes.rs");
+    let texts = source.split('"').filter(|text| text.contains("axiom")).map(|text| text.replace("\\n", "\n"));
+    let mut seen = 0;
+    for found in texts.flat_map(|text| told(&text)) {
+        let row = WORDINGS.iter().find(|row| row.id == found.id).expect("it is in the table");
+        assert_eq!(row.kind(), found.code);
+        let template = format!("{}{}", row.message, row.hint.unwrap_or_default());
+        for (_, value) in &found.values {
+            assert!(!value.is_empty(), "{found}");
+        }
+        let named = found.values.iter().filter(|(name, _)| template.contains(&format!("{{{name}}}")));
+        let without = WORDINGS_WITH_BRACES.iter().filter(|sign| template.contains(**sign)).count();
+        let names: BTreeSet<_> =
+            template.split('{').skip(1).filter_map(|rest| rest.split_once('}')).collect();
+        let names: BTreeSet<_> = names.into_iter().map(|(name, _)| name).collect();
+        assert_eq!(named.count(), names.len() - without, "{}", found.id);
+        seen += 1;
+    }
+    assert!(seen > 80, "{seen}");
 }
 
 #[test]
@@ -141,4 +229,17 @@ fn files_of_both_worlds_are_read() {
         Apex(x) --> nF(x, 0.2)[/(90)&(30)Apex(x*r)]Leaf(x)\ninterpretation:\nmaximum depth: 2\nLeaf(x) --> [_(x)F(x**2)]\nendlsystem\n\
         ###### INITIALISED BY L-PY ######\n__lpy_code_version__ = 1.1\n";
     assert_eq!(told(lpy), []);
+}
+
+#[test]
+fn curves_of_other_files_may_be_written_into_this_one() {
+    assert_eq!(told("func: 1 0 0 1 2\naxiom: F(func(1, 0.5))"), []);
+}
+
+#[test]
+fn deep_files_of_cpfg_are_read_as_deep_as_may_be() {
+    let found = told("axiom: A\nhomomorphism:\nmaximum depth: 3000\nA --> F");
+    assert_eq!(found.len(), 1, "{found:#?}");
+    let first = &found[0];
+    assert_eq!((first.severity, first.id), (Severity::Warning, "out-of-range.depth-taken"));
 }

@@ -274,11 +274,11 @@ fn options(scene: &Scene, parameters: &Parameters) -> WoodOptions {
 }
 
 impl Source {
-    /// Reads a grammar.
+    /// Reads a grammar; its seed may follow from the one that the text asks for.
     pub(super) fn new(
         text: &str,
         values: Vec<(String, f64)>,
-        seed: u32,
+        seed: impl FnOnce(Option<u32>) -> u32,
         at: Vec3,
         within: Option<&GrammarBody>,
     ) -> Result<Self, Problem> {
@@ -295,7 +295,7 @@ impl Source {
         Ok(Self {
             text: text.to_owned(),
             values,
-            seed,
+            seed: seed(program.seed()),
             at,
             within,
             title: grammar.title().map(str::to_owned),

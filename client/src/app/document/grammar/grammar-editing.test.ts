@@ -76,7 +76,17 @@ function bench(room: readonly [number, number, number] | null = null) {
   return { editing, inForce, sent, asked, pass };
 }
 
-const ERROR = { severity: "error", line: 1, column: 2, length: 1, code: "bracket", message: "", hint: null } as const;
+const ERROR = {
+  severity: "error",
+  line: 1,
+  column: 2,
+  length: 1,
+  code: "bracket",
+  id: "bracket.unopened",
+  values: {},
+  message: "",
+  hint: null,
+} as const;
 
 describe("typing a grammar", () => {
   it("is looked at a while after the last key, and planted where it is clean", async () => {

@@ -23,6 +23,8 @@ export class Origins {
     const [known, line] = [this.#known.value, this.line.value];
     return known === null || line === null ? [] : rowsOf(known, line);
   });
+  /** What was looked at before the server had said which rule made what; it is found when that comes. */
+  #later: (() => void) | null = null;
   readonly #stop: () => void;
 
   constructor({ ask, inForce, revision, failed }: OriginsPage) {
@@ -30,6 +32,9 @@ export class Origins {
       ask,
       (origins) => {
         this.#known.value = origins;
+        const later = this.#later;
+        this.#later = null;
+        later?.();
       },
       failed,
     );
@@ -39,22 +44,36 @@ export class Origins {
         newest.ask(null);
       } else {
         this.#known.value = null;
+        this.#later = null;
       }
     });
   }
 
-  /** Looks at the rule that made a row; the line it begins on, or null where no rule did. */
-  look(row: number): number | null {
-    const known = this.#known.peek();
-    const at = known === null ? -1 : known.rows.indexOf(row);
-    const rule = known?.rules[known.by[at] ?? -1];
-    this.line.value = rule?.line ?? null;
-    return this.line.peek();
+  /** Looks at the rule that made a row, and says on which line it begins, or null where no rule did. */
+  look(row: number, found: (line: number | null) => void): void {
+    this.#once((known) => {
+      const rule = known.rules[known.by[known.rows.indexOf(row)] ?? -1];
+      this.line.value = rule?.line ?? null;
+      found(this.line.peek());
+    });
   }
 
   /** Looks at the rule that a place in the text belongs to. */
   lookAt(text: string, place: number): void {
-    this.line.value = lineOf(this.#known.peek()?.rules ?? [], text, place);
+    this.#once((known) => {
+      this.line.value = lineOf(known.rules, text, place);
+    });
+  }
+
+  /** Looks now, or when it is known which rule made what: a tap that comes early is not lost. The last one counts. */
+  #once(look: (known: GrammarOrigins) => void): void {
+    const known = this.#known.peek();
+    this.#later = null;
+    if (known !== null) {
+      look(known);
+    } else if (this.wanted.peek()) {
+      this.#later = () => this.#once(look);
+    }
   }
 
   /** Where in a text the rule stands that is looked at. */

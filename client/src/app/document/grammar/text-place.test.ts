@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { tokens } from "./grammar-tokens";
 import { carriedCaret, lineAndColumn, pieces, placeAt, problemAt, rangeOf, ruleRange } from "./text-place";
 
-const problem = (line: number, column: number, length: number) => ({ line, column, length, message: "", hint: null });
+const problem = (line: number, column: number, length: number) => ({ line, column, length });
 
 describe("places in a text", () => {
   const text = "aé𝔸b\n\ncd";

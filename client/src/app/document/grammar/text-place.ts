@@ -29,7 +29,10 @@ export function lineAndColumn(text: string, place: number): { line: number; colu
 }
 
 /** What a problem concerns; something that is missing is shown on the character before, or on the one behind. */
-export function rangeOf(text: string, { line, column, length }: Omit<GrammarDiagnostic, "severity" | "code">): Range {
+export function rangeOf(
+  text: string,
+  { line, column, length }: Pick<GrammarDiagnostic, "line" | "column" | "length">,
+): Range {
   const from = placeAt(text, line, column);
   const end = text.indexOf("\n", from);
   const to = advanced(text, from, length, end < 0 ? text.length : end);

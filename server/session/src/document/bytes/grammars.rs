@@ -99,7 +99,7 @@ fn read_source(r: &mut Reader<'_>) -> Result<Arc<Source>, DocumentError> {
         0 => None,
         _ => Some(read_json(r)?),
     };
-    let source = Source::new(&text, values, seed, at, within.as_ref());
+    let source = Source::new(&text, values, |_| seed, at, within.as_ref());
     source.map(Arc::new).map_err(|problem| damaged(problem.message))
 }
 

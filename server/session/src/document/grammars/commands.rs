@@ -63,7 +63,12 @@ impl Document {
             return Err(Problem { reason: Reason::InObstacle, ..problem });
         }
         let before = in_force.as_ref().filter(|_| position.is_none()).map(|one| &one.source);
-        let seed = planting.seed.or_else(|| before.map(|source| source.seed)).unwrap_or(self.seed());
+        let own = self.seed();
+        // Who changes the seed of the text means the text, as with sliders.
+        let seed = |of_text: Option<u32>| {
+            let kept = before.filter(|source| of_text.is_none() || source.program.seed() == of_text);
+            planting.seed.or(kept.map(|source| source.seed)).or(of_text).unwrap_or(own)
+        };
         let within = before.and_then(|source| source.within.as_ref()).map(|(body, _)| body);
         let values = planting.values.iter().map(|value| (value.name.clone(), value.value)).collect();
         let source = Source::new(planting.text, values, seed, at, planting.within.or(within))?;
@@ -175,7 +180,7 @@ impl Document {
         }
         let Source { text, seed, at, within, .. } = &*written.source;
         let body = within.as_ref().map(|(body, _)| body);
-        let source = Arc::new(Source::new(text, set, *seed, *at, body)?);
+        let source = Arc::new(Source::new(text, set, |_| *seed, *at, body)?);
         self.rewrite(cause, Write::Set { source, depth: written.depth, is_new: false })
     }
 

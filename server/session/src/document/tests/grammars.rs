@@ -69,6 +69,35 @@ fn each_depth_is_a_step_that_time_goes_back_to() {
 }
 
 #[test]
+fn texts_may_say_their_seed() {
+    let text = |seed: &str| format!("axiom: A\n{seed}\nA --> F(1+ran(1))[+(40)F]A");
+    let planted = |document: &mut Document, text: &str, seed: Option<u32>| {
+        let Action::SetGrammar { values, depth, .. } = set(text, 5).action else {
+            panic!("it sets a grammar")
+        };
+        let action =
+            Action::SetGrammar { text: text.to_owned(), values, seed, position: None, depth, within: None };
+        apply(document, &plain(action));
+        (document.plant().hash(), document.grammar_told().expect("one is in force").seed)
+    };
+    let mut document = Document::new(7);
+    let (first, seed) = planted(&mut document, &text("seed: 41"), None);
+    assert_eq!(seed, 41);
+    // Who says one means it, and it stays while the text keeps its own.
+    assert_eq!(planted(&mut document, &text("seed: 41"), Some(3)).1, 3);
+    assert_eq!(planted(&mut document, &text("seed: 41\nangle: 20"), None).1, 3);
+    // Who changes that of the text means the text.
+    assert_eq!(planted(&mut document, &text("seed: 42"), None).1, 42);
+    let mut other = Document::new(8);
+    assert_eq!(
+        planted(&mut other, &text("seed: 41"), None),
+        (first, 41),
+        "whatever the seed of the document"
+    );
+    assert_eq!(planted(&mut Document::new(8), &text(""), None).1, 8);
+}
+
+#[test]
 fn wood_that_lengthens_moves_and_is_not_born_again() {
     let mut document = Document::new(1);
     apply(&mut document, &set(shipped("ternary-wind"), 2));

@@ -2,7 +2,7 @@ import { useState } from "preact/hooks";
 import type { GrammarDiagnostic } from "../../../../wire/generated";
 import type { Grammars } from "../../../document/grammar/grammars-of";
 import type { Studio } from "../../../studio";
-import { kindText } from "../../../words/grammar-problems";
+import { kindText, sentenceOf } from "../../../words/grammar-problems";
 import { countText } from "../../../words/measure-text";
 import { say } from "../../../words/say";
 
@@ -77,7 +77,8 @@ export function EditorState({ studio, grammars: { editing, origins }, at, goTo }
 }
 
 function ProblemText({ problem }: { problem: GrammarDiagnostic }) {
-  const { line, column, code, message, hint } = problem;
+  const { line, column, code } = problem;
+  const { message, hint } = sentenceOf(problem);
   return (
     <>
       <b>
@@ -96,7 +97,7 @@ function ProblemText({ problem }: { problem: GrammarDiagnostic }) {
   );
 }
 
-/** A sentence of the server's, in which pieces of the text stand between backticks. */
+/** A sentence in which pieces of the text stand between backticks. */
 function Quoting({ text, isPart = false }: { text: string; isPart?: boolean }) {
   const whole = isPart ? text : text.charAt(0).toUpperCase() + text.slice(1);
   return <>{whole.split("`").map((part, i) => (i % 2 === 1 ? <code key={part}>{part}</code> : part))}</>;

@@ -20,11 +20,18 @@ export function useRules(studio: Studio, { origins }: Grammars, layer: RefObject
     glass.addEventListener("click", ({ clientX, clientY }) => {
       const { left, top } = glass.getBoundingClientRect();
       const row = studio.stage.pickRow(clientX - left, clientY - top, PICK_TOLERANCE);
-      if (row === null || origins.look(row) === null) {
-        studio.toasts.show(say("grammars.rules.none"));
-      } else {
-        requestAnimationFrame(() => layer.current?.querySelector("[data-looked]")?.scrollIntoView({ block: "center" }));
+      const none = () => studio.toasts.show(say("grammars.rules.none"));
+      if (row === null) {
+        none();
+        return;
       }
+      origins.look(row, (line) => {
+        if (line === null) {
+          none();
+          return;
+        }
+        requestAnimationFrame(() => layer.current?.querySelector("[data-looked]")?.scrollIntoView({ block: "center" }));
+      });
     });
     workspace.querySelector("canvas")?.after(glass);
     let shown: RowsOverlay | null = null;
