@@ -3,7 +3,8 @@
 use crate::{
     derivation::Derivation,
     diagnostic::{Diagnostic, Severity},
-    grammar::Grammar,
+    grammar::{Grammar, Rule},
+    symbols::{Action, turtle},
     wood::Drawn,
     wording,
 };
@@ -11,13 +12,19 @@ use crate::{
 /// So many lines may be joined without a word.
 const FEW: usize = 100;
 /// And one of so many.
-const PART: usize = 3;
+const PART: usize = 2;
 
 impl Grammar {
     /// A warning, at the axiom, where many lines of a plant are too short to be internodes: what scale would make the
     /// mean line one internode long.
     pub fn tiny_pieces(&self, derivation: &Derivation, drawn: &Drawn) -> Option<Diagnostic> {
-        if drawn.joined < FEW || drawn.joined * PART < drawn.lines {
+        // Where wood lengthens its newest lines are short whatever the scale.
+        let lengthens = |rule: &Rule| {
+            let draws = turtle(rule.symbol).is_some_and(|row| row.action == Action::Draw);
+            draws && rule.successor.iter().any(|module| module.symbol == rule.symbol)
+        };
+        let is_young = self.rules.iter().any(lengthens);
+        if is_young || drawn.joined < FEW || drawn.joined * PART < drawn.lines {
             return None;
         }
         let nodes = &drawn.wood.nodes;

@@ -116,7 +116,8 @@ struct Writer<'a> {
     /// By what the drawing at a node is turned against the wood.
     turns: Vec<Quat>,
     cuts: Vec<MetamerId>,
-    /// Whether the bud of an axis that a node would go on from lived before anything was cut.
+    /// Whether the bud of an axis that a node would go on from lived before anything was cut, or what went on from there
+    /// is cut now.
     may_go_on: Vec<bool>,
     /// The axis that each node is to be born on, where it is known.
     buds: Vec<Option<AxisId>>,
@@ -170,10 +171,6 @@ impl<'a> Writer<'a> {
             if let Fate::Stays(row) = fate {
                 stays[row.index()] = true;
             }
-            let parent = self.wood().nodes[number].parent.map(|parent| self.fates[parent as usize]);
-            if let (Fate::Born, Some(Fate::Stays(parent))) = (fate, parent) {
-                self.may_go_on[number] = plant.is_axis_alive(plant.metamers().axis(parent));
-            }
             self.fates.push(fate);
         }
         let known = self.rewriting.rows.iter().map(|&(_, row)| MetamerId::new(row as usize));
@@ -182,6 +179,16 @@ impl<'a> Writer<'a> {
         };
         self.cuts = known.filter(is_gone).collect();
         self.cuts.sort_unstable();
+        let metamers = plant.metamers();
+        let mut bared: Vec<MetamerId> = self.cuts.iter().filter_map(|&row| metamers.parent(row)).collect();
+        bared.sort_unstable();
+        for number in 0..self.wood().nodes.len() {
+            let parent = self.wood().nodes[number].parent.map(|parent| self.fates[parent as usize]);
+            if let (Fate::Born, Some(Fate::Stays(parent))) = (self.fates[number], parent) {
+                let is_alive = plant.is_axis_alive(metamers.axis(parent));
+                self.may_go_on[number] = is_alive || bared.binary_search(&parent).is_ok();
+            }
+        }
     }
 
     fn fate(&self, plant: &Plant, number: usize) -> Fate {
@@ -198,8 +205,9 @@ impl<'a> Writer<'a> {
             return Fate::Lost;
         }
         let metamers = plant.metamers();
+        // An axis that was cut goes on as a graft, so what goes on may well lie on an axis of its own.
         let is_same = metamers.parent(row) == Some(below)
-            && (metamers.axis(row) == metamers.axis(below)) == self.goes_on(number);
+            && (self.goes_on(number) || metamers.axis(row) != metamers.axis(below));
         if is_same { Fate::Stays(row) } else { Fate::Born }
     }
 

@@ -172,14 +172,6 @@ mod tests {
     }
 
     #[test]
-    fn no_shipped_grammar_is_drawn_too_small() {
-        for shipped in SHIPPED {
-            let report = checked(shipped.text);
-            assert!(report.diagnostics.iter().all(|one| one.code != "tiny-pieces"), "{}", shipped.name);
-        }
-    }
-
-    #[test]
     fn gr6_a_text_is_looked_at() {
         let report = checked("title: Fork\nslider: a 10 60\na = 30\naxiom: A\nA --> F[+(a)A][-(a)A]\n");
         assert_eq!((report.title.as_deref(), report.diagnostics.len()), (Some("Fork"), 0));

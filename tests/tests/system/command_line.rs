@@ -157,6 +157,33 @@ fn replay_does_lassos_and_obstacles() {
 }
 
 #[test]
+fn replay_derives_grammars_as_grow_does() {
+    let scratch = Scratch::new();
+    let text = "slider: a 10 60\na = 30\naxiom: A\nA --> F(1+ran(1))[+(a)A]/(90)A\n";
+    let (grammar, path) = (scratch.path("own.lsys"), scratch.path("own.jsonl"));
+    fs::write(&grammar, text).expect("the scratch folder can be written");
+    let planted = serde_json::json!({ "kind": "set_grammar", "text": text, "depth": 3 }).to_string();
+    let write = |lines: &[&str]| fs::write(&path, lines.join("\n")).expect("it can be written");
+    let replay = || stats(&["replay", path.to_str().expect("a plain name"), "--stats", "json"]);
+    write(&[&planted, r#"{"kind":"derive","steps":3}"#]);
+    let replayed = replay();
+    let grammar = grammar.to_str().expect("a plain name");
+    let grown = stats(&["grow", "--grammar", grammar, "--depth", "6", "--stats", "json"]);
+    assert_eq!(replayed["plant_hash"], grown["plant_hash"]);
+    assert_eq!(replayed["metamers_alive"], grown["metamers_alive"]);
+    // With sliders, hands and undo between depths: whatever was taken back leaves nothing.
+    write(&[
+        &planted,
+        r#"{"kind":"set_grammar_values","values":[{"name":"a","value":50}]}"#,
+        r#"{"kind":"prune","rows":[2]}"#,
+        r#"{"kind":"undo"}"#,
+        r#"{"kind":"undo"}"#,
+        r#"{"kind":"derive","steps":3}"#,
+    ]);
+    assert_eq!(replay()["plant_hash"], grown["plant_hash"]);
+}
+
+#[test]
 fn the_plant_is_the_same_on_any_number_of_threads() {
     let scratch = Scratch::new();
     let script = script(&scratch, "tree.jsonl", &tree());

@@ -1,6 +1,6 @@
 //! Grammars over the wire (`GR`).
 
-use espalier_proto::{GrammarInForce, ServerMessage};
+use espalier_proto::{ClientMessage, GrammarInForce, ServerMessage};
 use serde_json::json;
 
 use crate::world::World;
@@ -117,4 +117,67 @@ fn gr5_all_are_told_the_grammar_and_each_change_of_it() {
     world.command(client, 5, json!({ "kind": "go_to", "step": 0 }));
     world.settle();
     assert_eq!(told(&world, late), Some(None), "before it was set there is none");
+}
+
+#[test]
+fn gr4_bombs_end_and_pings_are_answered_meanwhile() {
+    let bombs = [
+        // Modules, parameters, brackets, and contexts that everybody looks for in vain.
+        "axiom: F\nF --> FFFFFFFF\n".to_owned(),
+        "axiom: A\nA --> A(1,2,3,4,5,6,7,8)A\nA(a,b,c,d,e,f,g,h) --> AA\n".to_owned(),
+        "axiom: A\nA --> F[A]\n".to_owned(),
+        format!("axiom: A\nignore: F\nA --> {}\nB < F --> G\n", "F".repeat(9000)),
+        "axiom: A(1)\nA(x) --> F(1/x)A(0)\n".to_owned(),
+    ];
+    for text in bombs {
+        let mut world = World::new();
+        let client = world.join("birch-01");
+        world.settle();
+        (world.work_ms, world.write_ms) = (10_000, 10_000);
+        let before = world.document().metamers();
+        world.command(client, 1, json!({ "kind": "set_grammar", "text": text, "depth": 600 }));
+        world.pass(20);
+        world.send(client, &ClientMessage::Ping { nonce: 7 });
+        assert_eq!(world.peer(client).texts.last(), Some(&ServerMessage::Pong { nonce: 7, at: world.now }));
+        (world.work_ms, world.write_ms) = (0, 0);
+        world.settle();
+        let seen = told(&world, client).flatten().expect("as deep as it went");
+        assert!(seen.depth < 600 && seen.ends.is_some(), "{text}: {}", seen.depth);
+        assert!(world.document().metamers() >= before);
+        world.command(client, 2, json!({ "kind": "undo" }));
+        world.settle();
+        assert_eq!(world.document().metamers(), before, "what was is there again");
+        assert_eq!(world.document().hash(), world.replayed_hash());
+    }
+}
+
+#[test]
+fn gr1_of_two_people_who_type_the_last_one_wins() {
+    let mut world = World::new();
+    let (mara, bo) = (world.join("birch-01"), world.join("aspen-01"));
+    let text = |branches: &str| format!("axiom: A\nA --> F{branches}/(90)A\n");
+    let typed = |world: &mut World, client, id, branches: &str, gesture| {
+        let text = text(branches);
+        world.command(
+            client,
+            id,
+            json!({ "kind": "set_grammar", "text": text, "depth": 3, "gesture": gesture }),
+        );
+    };
+    typed(&mut world, mara, 1, "[+A]", 1);
+    typed(&mut world, bo, 1, "[+A][-A]", 1);
+    typed(&mut world, mara, 2, "[&A]", 1);
+    typed(&mut world, bo, 2, "[&A][^A]", 1);
+    world.settle();
+    for client in [mara, bo] {
+        let seen = told(&world, client).flatten().expect("it is in force");
+        assert_eq!(seen.text, text("[&A][^A]"), "never a mixture");
+    }
+    assert_eq!(world.document().metamers(), 13);
+    assert_eq!(world.document().hash(), world.replayed_hash());
+    // Each takes back their own, and what the other typed stays.
+    world.command(bo, 3, json!({ "kind": "undo" }));
+    world.settle();
+    assert_eq!(told(&world, mara).flatten().map(|seen| seen.text), Some(text("[&A]")));
+    assert_eq!(world.document().hash(), world.replayed_hash());
 }

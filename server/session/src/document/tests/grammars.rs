@@ -1,6 +1,6 @@
 //! Grammars in documents: depth is time, rows go on from depth to depth, and hands may do anything between.
 
-use espalier_grammar::SHIPPED;
+use espalier_grammar::{Derivation, Limits, OpenSky, SHIPPED, WoodOptions};
 use espalier_plant::checks;
 use espalier_proto::{GrammarValue, Reason};
 
@@ -65,6 +65,30 @@ fn each_depth_is_a_step_that_time_goes_back_to() {
         assert_eq!((whole.metamers(), whole.grammar_depth()), (0, None), "{name}");
         apply(&mut whole, &plain(Action::Redo {}));
         assert_eq!((hashes.last().map(|last| last.1), depth(&whole)), (Some(whole.plant().hash()), 4));
+    }
+}
+
+/// What rules put in the middle of an axis parts what stood there from what bore it.
+#[test]
+fn step_by_step_a_plant_is_as_large_as_its_word_says() {
+    for shipped in SHIPPED {
+        let grammar = espalier_grammar::Grammar::read(shipped.text).expect("it is right");
+        let program = Arc::new(grammar.program(&[]).expect("its sliders are in range"));
+        let depth = program.depth().min(40);
+        if grammar.asks_places() {
+            continue;
+        }
+        let mut document = Document::new(1);
+        apply(&mut document, &set(shipped.text, depth));
+        let options = WoodOptions { nodes: 100_000, extent: 5000, twig_radius: 0.05 };
+        let mut derivation = Derivation::new(program, 1, Limits::default()).expect("it is small");
+        derivation.derive(depth, &OpenSky).expect("it is small");
+        let drawn = derivation.draw(&OpenSky, options).expect("it fits").wood;
+        let lines = drawn.nodes.iter().filter(|node| node.parent.is_some()).count();
+        // Lines that began short stay parts of others; lines that grow stay as many as they were.
+        let found = document.metamers() as usize;
+        assert!(found * 10 >= lines * 7, "{}: {found} of {lines}", shipped.name);
+        assert_eq!(checks::all(document.plant()), Ok(()), "{}", shipped.name);
     }
 }
 
