@@ -150,7 +150,7 @@ pub struct Grow {
     /// Grow until so many metamers are alive.
     #[arg(
         long,
-        required_unless_present_any = ["species", "steps", "grammar"],
+        required_unless_present_any = ["species", "steps", "grammar", "design"],
         value_parser = clap::value_parser!(u32).range(1..)
     )]
     pub metamers: Option<u32>,
@@ -166,6 +166,9 @@ pub struct Grow {
     /// Derive the grammar so deep; as deep as its text says if nothing is said.
     #[arg(long, value_name = "N", requires = "grammar", value_parser = parse_steps)]
     pub depth: Option<Steps>,
+    /// Plant a design: a file of one, `-` for standard input, or the name of a template, as `chokkan`.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["species", "grammar"])]
+    pub design: Option<PathBuf>,
     /// Seed of all randomness.
     #[arg(long, default_value_t = 1)]
     pub seed: u32,

@@ -138,6 +138,7 @@ fn done(result: Result<(), HeadlessError>) -> ExitCode {
         | HeadlessError::Read { .. }
         | HeadlessError::Import { .. }
         | HeadlessError::Options(_)
+        | HeadlessError::Design { .. }
         | HeadlessError::OneName
         | HeadlessError::NoFormat(_)
         | HeadlessError::Output(OutputError::Terminal(_))

@@ -1,6 +1,7 @@
 //! Growing without a server: `espalier replay` and `espalier grow`.
 
 mod bench;
+mod design;
 mod grammar;
 mod species;
 mod stats;
@@ -89,6 +90,14 @@ pub enum HeadlessError {
         /// Why it ended.
         cause: String,
     },
+    /// The file is no design.
+    #[error("The file {} is no design: {cause}.", path.display())]
+    Design {
+        /// Which file.
+        path: PathBuf,
+        /// What is wrong with it.
+        cause: String,
+    },
     /// Many trees would be written to one file.
     #[error("The export of several seeds needs {SEED} in its name, as in oak-{SEED}.glb.")]
     OneName,
@@ -148,8 +157,10 @@ pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
 fn grown(options: &Grow, seed: u32, pool: &SimulationPool) -> Result<Bench, HeadlessError> {
     let planted = options.grammar.as_deref().map(|path| grammar::planted(path, options.depth)).transpose()?;
     let depth = planted.as_ref().map(|planted| planted.depth);
-    let base = match planted {
-        Some(planted) => Recipe { script: vec![planted.action], ..Recipe::default() },
+    let of_seed = options.seeds.is_some().then_some(seed);
+    let designed = options.design.as_deref().map(|path| design::planted(path, of_seed)).transpose()?;
+    let base = match planted.map(|planted| planted.action).or(designed) {
+        Some(action) => Recipe { script: vec![action], ..Recipe::default() },
         None => options.species.map(Recipe::of).unwrap_or_default(),
     };
     let patches = options.start.parameters.iter();

@@ -7,6 +7,7 @@ mod care;
 mod command_line;
 mod commands;
 mod crashes;
+mod designs;
 mod exports;
 mod guiding;
 mod handshake;
