@@ -11,7 +11,7 @@ use crate::{
     bounded::{BrushRadius, List, PredictedSteps},
     command::Command,
     comment::Pin,
-    design::DesignInForce,
+    design::{BranchPath, DesignInForce, PlacedBranch},
     envelope::FrameKind,
     grammar::GrammarInForce,
     obstacle::PlacedObstacle,
@@ -89,6 +89,13 @@ tagged_enum! {
             rows: List<u32, 0, MAX_PRUNED_ROWS>,
             /// Up to 100 simulation steps; 0 without rows ends the ghost.
             steps: PredictedSteps,
+        },
+        /// Which branch of the design this client looks at: it is told where that and those around it stand (`DS8`).
+        LookAtBranch {
+            /// The branch; without one it is told nothing more.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            of: Option<BranchPath>,
         },
         /// Where somebody points and what they do: the newest only counts, and nothing is kept (`PS1`).
         ///
@@ -392,6 +399,13 @@ pub enum ServerMessage {
     Design {
         /// The design; none where there is none any more.
         design: Option<Box<DesignInForce>>,
+    },
+    /// Where branches of the design stand, to whom looks at one: at once, and when the design changes (`DS8`).
+    Branches {
+        /// The branch that was asked for.
+        of: BranchPath,
+        /// Those on the way to it, it, and the laterals of each of these, as far as they are wood: lower orders first.
+        branches: Vec<PlacedBranch>,
     },
     /// The grammar in force: after the welcome if there is one, and when it changes (`GR5`).
     Grammar {

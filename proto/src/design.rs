@@ -187,6 +187,13 @@ tagged_enum! {
             /// The value.
             value: DesignValue,
         },
+        /// Turn and stretch a branch about its base until its tip comes to lie at a place, as near as can be (`DS9`).
+        Aim {
+            /// The branch.
+            node: BranchPath,
+            /// Where its tip goes.
+            tip: Position,
+        },
         /// Let a lateral stand at a place of its bearer whatever stands beside it, or let it go.
         Anchor {
             /// The lateral.
@@ -238,4 +245,30 @@ pub struct DesignInForce {
     pub asleep: Vec<BranchPath>,
     /// Steps that stand on its wood; while there are any, the design cannot be changed.
     pub steps_on_top: u32,
+}
+
+/// Where a branch of a design stands as wood, and how large it is. Numbers are rounded to ten thousandths.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct PlacedBranch {
+    /// The way to it.
+    pub path: BranchPath,
+    /// Where it begins, in the scene.
+    pub base: [f32; 3],
+    /// The rotation (x, y, z, w) of its own frame: Y from its base to its tip, X on the side that looks up.
+    pub frame: [f32; 4],
+    /// The rotation of the frame of its silhouette.
+    pub outline: [f32; 4],
+    /// From its base to its tip, in internodes.
+    pub length: f32,
+    /// Radius at its base, in internodes.
+    pub radius: f32,
+    /// Where it stands on its bearer, as a share of that one's axis.
+    pub at: f32,
+    /// Where its bearer goes at that place.
+    pub heading: [f32; 3],
+    /// Whether it begins outside its bearer's silhouette, and so has no size from it.
+    pub outside: bool,
+    /// How many laterals it bears.
+    pub bears: u32,
 }

@@ -51,7 +51,7 @@ pub use command::{Action, Command, StrokeSample};
 pub use control::{
     ClientMessage, Deed, DocumentState, Hint, HintReason, Notice, Pause, Resume, ServerMessage, Unreadable,
 };
-pub use design::{BranchPath, DesignEdit, DesignInForce, DesignSetting, DesignValue};
+pub use design::{BranchPath, DesignEdit, DesignInForce, DesignSetting, DesignValue, PlacedBranch};
 pub use envelope::FrameKind;
 pub use espalier_reading::NotAllowed;
 pub use frame::{ChunkChange, Column, Frame, FrameError, Rows, Values};

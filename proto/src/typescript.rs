@@ -155,6 +155,7 @@ pub fn declarations() -> String {
         design::DesignSetting::decl(&config),
         design::DesignEdit::decl(&config),
         design::DesignInForce::decl(&config),
+        design::PlacedBranch::decl(&config),
         timeline::OperationKind::decl(&config),
         timeline::TimelineOperation::decl(&config),
         timeline::TimelineFuture::decl(&config),

@@ -453,6 +453,7 @@ impl Client {
             // Said to a person, who is not here.
             ServerMessage::Hint { .. }
             | ServerMessage::Deed { .. }
+            | ServerMessage::Branches { .. }
             | ServerMessage::Gathered { .. }
             | ServerMessage::Pins { .. }
             | ServerMessage::ThreadsChanged { .. } => {}

@@ -83,6 +83,9 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
       page.widths.all.value = widths;
     },
     design: ({ design }) => page.design.receive(design),
+    branches: (placed) => {
+      page.design.placed.value = placed;
+    },
     grammar: ({ grammar }) => page.grammar.receive(grammar),
     deed: ({ deed }) => page.undo.done(deed),
     hint: ({ hint }) => page.drawnInVain.show(hint),

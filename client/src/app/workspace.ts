@@ -159,15 +159,16 @@ function followPointers(studio: Studio, canvas: HTMLCanvasElement, panHeld: () =
   return listenToPointers(canvas, {
     gesture: (gesture) => {
       studio.stage.radiusSeen();
-      const meant = mayChange() ? gesture : turns.seen(gesture);
+      const { hands } = studio.design;
+      const meant = hands ? hands(gesture) : mayChange() ? gesture : turns.seen(gesture);
       if (meant !== null) {
         studio.tools.gesture(meant);
       }
     },
-    doubles: () => mayChange() && studio.tools.doubles(),
+    doubles: () => mayChange() && !studio.design.hands && studio.tools.doubles(),
     loading: () => (mayChange() ? studio.tools.loading() : null),
-    grip: (x, y) => studio.tools.grip(x, y),
-    hover: (place) => studio.tools.hover(mayChange() ? place : null),
+    grip: (x, y) => (studio.design.hands ? null : studio.tools.grip(x, y)),
+    hover: (place) => studio.tools.hover(mayChange() && !studio.design.hands ? place : null),
     widen: (factor) => {
       const notches = Math.log(factor) * NOTCHES;
       if (!studio.branches.step(0, 0, notches)) {
@@ -175,6 +176,6 @@ function followPointers(studio: Studio, canvas: HTMLCanvasElement, panHeld: () =
       }
     },
     panHeld,
-    holdable: (x, y) => studio.tools.holdable(x, y),
+    holdable: (x, y) => !studio.design.hands && studio.tools.holdable(x, y),
   });
 }

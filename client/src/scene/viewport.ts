@@ -1,4 +1,4 @@
-import { Vector4, WebGLRenderer } from "three";
+import { type Scene, Vector4, WebGLRenderer } from "three";
 import type { Appearance, DrawingPlane } from "../wire/generated";
 import { type Pick, pickBranch } from "./camera/picking";
 import { type PictureSize, pixelsPerInternode } from "./camera/sight";
@@ -20,7 +20,7 @@ import { Screen } from "./rendering/screen";
 import type { Sketch } from "./rendering/sketch";
 import type { Sitting } from "./rendering/still-pictures";
 import type { TreeTable } from "./table/tree-table";
-import type { Vec3 } from "./vector";
+import type { Ray, Vec3 } from "./vector";
 import { World } from "./world";
 
 const MAX_PIXEL_RATIO = 2;
@@ -218,6 +218,16 @@ export class Viewport {
     return this.air;
   }
 
+  /** What draws something more in the picture needs of it. */
+  get backstage(): { readonly scene: Scene; readonly stir: () => void } {
+    return { scene: this.world.scene, stir: () => this.stir() };
+  }
+
+  /** From the eye through a place on the canvas. */
+  rayAt(x: number, y: number): Ray {
+    return this.camera.aimed().rayAt(x, y);
+  }
+
   /** Draws rows differently from the table until the table has caught up or the overlay is removed. */
   addOverlay(overlay: Overlay): void {
     this.world.tree.overlays.add(overlay);
@@ -247,7 +257,7 @@ export class Viewport {
 
   /** The obstacle under a place on the canvas. */
   pickObstacle(x: number, y: number): { id: number; point: Vec3 } | null {
-    return this.world.obstacles.pick(this.camera.aimed().rayAt(x, y));
+    return this.world.obstacles.pick(this.rayAt(x, y));
   }
 
   /** How far an obstacle reaches below its own origin; null if it has no lowest point. */

@@ -1865,7 +1865,15 @@ share: number,
 /**
  * The value.
  */
-value: unknown, } | { "edit": "anchor", 
+value: unknown, } | { "edit": "aim", 
+/**
+ * The branch.
+ */
+node: string, 
+/**
+ * Where its tip goes.
+ */
+tip: [number, number, number], } | { "edit": "anchor", 
 /**
  * The lateral.
  */
@@ -1925,6 +1933,48 @@ asleep: Array<string>,
  * Steps that stand on its wood; while there are any, the design cannot be changed.
  */
 steps_on_top: number, };
+
+export type PlacedBranch = { 
+/**
+ * The way to it.
+ */
+path: string, 
+/**
+ * Where it begins, in the scene.
+ */
+base: [number, number, number], 
+/**
+ * The rotation (x, y, z, w) of its own frame: Y from its base to its tip, X on the side that looks up.
+ */
+frame: [number, number, number, number], 
+/**
+ * The rotation of the frame of its silhouette.
+ */
+outline: [number, number, number, number], 
+/**
+ * From its base to its tip, in internodes.
+ */
+length: number, 
+/**
+ * Radius at its base, in internodes.
+ */
+radius: number, 
+/**
+ * Where it stands on its bearer, as a share of that one's axis.
+ */
+at: number, 
+/**
+ * Where its bearer goes at that place.
+ */
+heading: [number, number, number], 
+/**
+ * Whether it begins outside its bearer's silhouette, and so has no size from it.
+ */
+outside: boolean, 
+/**
+ * How many laterals it bears.
+ */
+bears: number, };
 
 export type OperationKind = "stroke" | "growth" | "lasso" | "parameters" | "appearance" | "seed" | "obstacle" | "bend" | "width" | "prune" | "turn" | "graft" | "taken_back" | "brought_back" | "design" | "grammar";
 
@@ -2219,7 +2269,11 @@ rows: Array<number>,
 /**
  * Up to 100 simulation steps; 0 without rows ends the ghost.
  */
-steps: number, } | { "type": "here", 
+steps: number, } | { "type": "look_at_branch", 
+/**
+ * The branch; without one it is told nothing more.
+ */
+of?: string, } | { "type": "here", 
 /**
  * Where they point, if anywhere.
  */
@@ -2409,7 +2463,15 @@ widths: Array<WidthConstraint>, } | { "type": "design",
 /**
  * The design; none where there is none any more.
  */
-design: DesignInForce | null, } | { "type": "grammar", 
+design: DesignInForce | null, } | { "type": "branches", 
+/**
+ * The branch that was asked for.
+ */
+of: string, 
+/**
+ * Those on the way to it, it, and the laterals of each of these, as far as they are wood: lower orders first.
+ */
+branches: Array<PlacedBranch>, } | { "type": "grammar", 
 /**
  * The grammar; none where there is none any more.
  */

@@ -47,6 +47,8 @@ pub struct Placed {
     pub radius: f32,
     /// Where on the bearer's axis it stands.
     pub t: f32,
+    /// Where the bearer goes at that place.
+    pub heading: Vec3,
     /// Whether it begins outside its bearer's outline, and so has no size from it.
     pub is_outside: bool,
     /// Where on its axis the highest of its branches stands; leaves stand above.
@@ -99,6 +101,7 @@ pub(crate) fn stem(root: &Branch) -> Placed {
         length: values.scalar(Key::Height) * values.scalar(Key::Reach),
         radius: values.scalar(Key::Stem),
         t: 0.0,
+        heading: Vec3::Y,
         is_outside: false,
         leafy_from: 0.0,
         values: values.clone(),
@@ -224,6 +227,7 @@ pub(crate) fn place(lateral: &Branch, bearer: &Placed, node: &Node, seed: u32) -
         length,
         radius: (values.scalar(Key::Girth) * bearer.radius_at(node.t)).max(THINNEST),
         t: node.t,
+        heading: node.heading,
         is_outside,
         leafy_from: 0.0,
         values: values.clone(),

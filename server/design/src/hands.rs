@@ -14,7 +14,7 @@ use crate::{
     frame::{of_tip, rolled, turn_between, upward},
     function::Function,
     generator::Generated,
-    graph::{Owner, Setting},
+    graph::{Owner, Setting, Source},
     key::Key,
     node::NodeId,
     resolution::{Branch, MAX_BRANCHES},
@@ -136,6 +136,34 @@ pub fn turn(design: &Design, generated: &Generated, node: NodeId, by: Quat) -> R
     }
     let chord = by.normalize() * (placed.frame.y_axis * placed.length);
     Ok(Edit::Batch(towards(design, generated, node, chord)?))
+}
+
+/// How near to 1 a reach must come to be 1: then the branch goes on following its bearer's outline.
+const ON_OUTLINE: f32 = 0.04;
+
+/// Turns and stretches a branch about its base until its tip comes to lie at a place, as near as can be. Where that is
+/// all but on the bearer's outline, it is on it.
+///
+/// # Errors
+/// Where the branch is no wood, or the place is none or its own base.
+pub fn aim(design: &Design, generated: &Generated, node: NodeId, tip: Vec3) -> Result<Edit, Untouched> {
+    let placed = generated.placed(node).ok_or(Untouched::NoWood(node))?;
+    let chord = tip - placed.base;
+    if !(chord.is_finite() && chord.length() >= SHORTEST) {
+        let allowed = "a place in space, 0.01 internodes or more from the base";
+        return Err(Untouched::NotAllowed { what: "the tip", found: tip.to_string(), allowed });
+    }
+    let mut edits = towards(design, generated, node, chord)?;
+    for edit in &mut edits {
+        if let Edit::Set { key: Key::Reach, setting, .. } = edit
+            && let Source::Explicit(held) = &setting.source
+            && let Value::Scalar(reach) = held.get()
+            && (reach - 1.0).abs() < ON_OUTLINE
+        {
+            *edit = private(node, Key::Reach, Value::Scalar(1.0));
+        }
+    }
+    Ok(Edit::Batch(edits))
 }
 
 /// Gives a branch this radius, in internodes, at a place of its axis; above and below it tapers as before.

@@ -9,6 +9,7 @@ use crate::{
     presence::Presence,
     principal::Principal,
     rights::Access,
+    session::LookedAt,
     to_proto::Held,
     window::Window,
 };
@@ -38,6 +39,8 @@ pub(crate) struct ConnectedClient {
     pub(crate) view: View,
     pub(crate) watch: Watch,
     pub(crate) prediction_view: PredictionView,
+    /// The branch of the design that it looks at.
+    pub(crate) looked_at: Option<LookedAt>,
     pub(crate) presence: Presence,
 }
 

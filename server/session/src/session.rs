@@ -2,6 +2,7 @@
 
 mod acts;
 mod bending;
+mod branches;
 mod commands;
 mod delivery;
 mod greeting;
@@ -41,6 +42,7 @@ use crate::{
     work::{BendUpdate, Work},
 };
 
+pub(crate) use self::branches::LookedAt;
 pub use self::restoring::Tail;
 use self::{
     acts::Act, commands::Queue, pausing::Pausing, pins::Pins, presence::Room, restoring::Restored,
@@ -363,6 +365,7 @@ impl Session {
             Ok(ClientMessage::Predict { rows, steps }) => {
                 self.predict(client, Prediction { rows: rows.into(), steps: steps.get() });
             }
+            Ok(ClientMessage::LookAtBranch { of }) => self.look_at_branch(client, of),
             Ok(ClientMessage::Follow { device }) => self.follow(client, device),
             Ok(ClientMessage::Gather { camera }) => self.gather(client, camera),
             Ok(here @ ClientMessage::Here { .. }) => {

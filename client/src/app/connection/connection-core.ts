@@ -46,7 +46,10 @@ export type Effect =
   | { readonly kind: "refused"; readonly problem: Problem; readonly command?: Command };
 
 /** What a page says that is no command: it is not numbered, and not said again. */
-export type Told = Extract<ClientMessage, { type: "predict" | "here" | "follow" | "gather" | "ping" }>;
+export type Told = Extract<
+  ClientMessage,
+  { type: "predict" | "look_at_branch" | "here" | "follow" | "gather" | "ping" }
+>;
 
 export interface CoreOptions {
   /** Draws a new client key. */

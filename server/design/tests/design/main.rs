@@ -11,4 +11,5 @@ mod lives;
 mod refusals;
 mod resolution;
 mod said;
+mod shells;
 mod templates;

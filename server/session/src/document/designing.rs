@@ -5,12 +5,13 @@
 //! step is made anew whenever the design changes; what is recorded after it seals it.
 
 mod hands;
+mod placed;
 mod wood;
 
 use std::sync::Arc;
 
 use espalier_design::{
-    Design, Edit, Generated, Generator, MAX_INTERNODES, Refusal, Template, hands as by_hand,
+    Design, Edit, Generated, Generator, MAX_INTERNODES, NodeId, Refusal, Standing, Template, hands as by_hand,
 };
 use espalier_growth::EditError;
 use espalier_plant::{Future, hash::StableHash};
@@ -153,11 +154,22 @@ impl Document {
     }
 
     pub(super) fn edit_design(&mut self, cause: Cause<'_>, edits: &[DesignEdit]) -> Result<(), Problem> {
-        self.change_design(cause, |design, _| {
+        let stands = self.design_in_force().map_or(Vec3::ZERO, |design| design.at);
+        self.change_design(cause, |design, generated| {
             let mut changed = design.clone();
             for (at, edit) in edits.iter().enumerate() {
                 let within = |problem: Problem| problem.within(&format!("edits[{at}]"));
-                let edit = read_edit(edit, &changed).map_err(within)?;
+                let edit = match edit {
+                    DesignEdit::Aim { node, tip } if at == 0 => {
+                        aimed(&changed, generated, node, tip.get() - stands)
+                    }
+                    DesignEdit::Aim { node, tip } => {
+                        let generated = Generator::default().generate(&changed, MAX_INTERNODES);
+                        aimed(&changed, &generated, node, tip.get() - stands)
+                    }
+                    edit => read_edit(edit, &changed),
+                };
+                let edit = edit.map_err(within)?;
                 changed.apply(&edit).map_err(|refusal| refused(&refusal)).map_err(within)?;
             }
             Ok(changed)
@@ -319,11 +331,30 @@ fn begun(template: Option<&Slug>, graph: Option<&DesignValue>) -> Result<Design,
     }
 }
 
+fn node_of(path: &BranchPath) -> Result<NodeId, Problem> {
+    path.as_str().parse().map_err(|fault: espalier_reading::NotAllowed| {
+        Problem::out_of_range("node", fault.found, fault.allowed)
+    })
+}
+
+/// What lets the tip of a branch come to lie at a place from the base of the plant.
+fn aimed(design: &Design, generated: &Generated, node: &BranchPath, tip: Vec3) -> Result<Edit, Problem> {
+    let node = node_of(node)?;
+    if design.branch(node).is_none() {
+        return Err(refused(&match design.standing(node) {
+            Standing::Asleep(asleep) => Refusal::Asleep(asleep),
+            Standing::Awake | Standing::Unknown => Refusal::Unknown(node),
+        }));
+    }
+    by_hand::aim(design, generated, node, tip).map_err(|untouched| {
+        Problem::new(Reason::DesignRefused, untouched.to_string())
+            .at("tip", "a place that the branch can reach")
+    })
+}
+
 fn read_edit(edit: &DesignEdit, design: &Design) -> Result<Edit, Problem> {
     if let DesignEdit::Wake { node } = edit {
-        let node = node.as_str().parse().map_err(|fault: espalier_reading::NotAllowed| {
-            Problem::out_of_range("node", fault.found, fault.allowed)
-        })?;
+        let node = node_of(node)?;
         return by_hand::wake(design, node).map_err(|untouched| {
             Problem::new(Reason::DesignRefused, untouched.to_string()).at("node", "a branch that sleeps")
         });

@@ -50,6 +50,7 @@ impl Session {
         self.queue.came_back(&work.orders);
         self.take_figures(&mut work);
         self.unsettle_pins();
+        self.find_branches(&mut work.document);
         self.came_home(work.hold);
         self.home = Some(work);
         // Steps that were expected and not taken count as well: a refused command leaves no other trace.
@@ -86,6 +87,7 @@ impl Session {
             self.design_mark = mark;
             self.design = work.document.design_told();
             self.upkeep.design_changed = true;
+            self.branches_changed();
         }
         let mark = work.document.grammar_mark();
         if mark != self.grammar_mark {

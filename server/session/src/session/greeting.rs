@@ -88,6 +88,7 @@ impl Session {
                 view,
                 watch: Watch::default(),
                 prediction_view: PredictionView::default(),
+                looked_at: None,
                 presence,
             });
         }

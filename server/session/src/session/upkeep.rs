@@ -224,6 +224,9 @@ impl Session {
             self.upkeep.design_due = self.now + STATE_MS;
             self.broadcast(&self.design_message());
         }
+        if !self.upkeep.design_changed {
+            self.tell_branches();
+        }
         if self.upkeep.grammar_changed && self.now >= self.upkeep.grammar_due {
             self.upkeep.grammar_changed = false;
             self.upkeep.grammar_due = self.now + STATE_MS;

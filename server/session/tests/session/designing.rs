@@ -1,6 +1,6 @@
 //! `DS`: what clients are told of designs.
 
-use espalier_proto::{DesignInForce, Reason, ServerMessage};
+use espalier_proto::{DesignInForce, PlacedBranch, Reason, ServerMessage};
 use serde_json::{Value, json};
 
 use crate::world::{Peer, World, grow};
@@ -80,4 +80,122 @@ fn ds5_a_design_lives_through_a_restart() {
     let ann = world.join("birch-01");
     world.settle();
     assert_eq!((told(world.peer(ann)), world.document().hash()), before);
+}
+
+/// What was told last of where branches stand, and of which one was asked.
+fn branches(peer: &Peer) -> Option<(String, Vec<PlacedBranch>)> {
+    peer.texts.iter().rev().find_map(|text| match text {
+        ServerMessage::Branches { of, branches } => Some((of.as_str().to_owned(), branches.clone())),
+        _ => None,
+    })
+}
+
+fn look_at(of: Option<&str>) -> Value {
+    let mut message = json!({ "type": "look_at_branch" });
+    if let Some(of) = of {
+        message["of"] = json!(of);
+    }
+    message
+}
+
+fn paths(branches: &[PlacedBranch]) -> Vec<&str> {
+    branches.iter().map(|branch| branch.path.as_str()).collect()
+}
+
+#[test]
+fn ds8_who_looks_at_a_branch_is_told_where_it_and_those_around_it_stand() {
+    let mut world = World::new();
+    let (ann, bob) = (world.join("birch-01"), world.join("maple-01"));
+    let mut graph = small();
+    graph["nodes"]["/"]["values"]["orders"] = json!({ "own": 2 });
+    graph["nodes"]["/"]["values"]["height"] = json!({ "own": 40 });
+    world.send(ann, &look_at(Some("/")));
+    world.settle();
+    assert_eq!(branches(world.peer(ann)).map(|(_, branches)| branches), Some(Vec::new()), "there is none");
+    world.command(ann, 1, json!({ "kind": "new_design", "position": [6, 0, 0], "graph": graph }));
+    world.settle();
+    let (of, around) = branches(world.peer(ann)).expect("she is told");
+    let limbs = told(world.peer(ann)).flatten().expect("it is told").laterals["/"].len();
+    assert_eq!((of.as_str(), around.len()), ("/", 1 + limbs));
+    let stem = &around[0];
+    assert_eq!((stem.path.as_str(), stem.base, stem.length), ("/", [6.0, 0.0, 0.0], 40.0));
+    assert_eq!((stem.frame, stem.bears), ([0.0, 0.0, 0.0, 1.0], limbs as u32));
+    assert!(around[1..].iter().all(|limb| limb.base[1] > 1.0 && limb.length > 1.0 && !limb.outside));
+    assert_eq!(branches(world.peer(bob)), None, "who does not look is told nothing");
+    // A scale deeper: the limbs, and the branches of one.
+    world.send(ann, &look_at(Some("/1")));
+    world.settle();
+    let (of, deeper) = branches(world.peer(ann)).expect("she is told");
+    assert_eq!(of, "/1");
+    assert_eq!(deeper[..around.len()], around[..]);
+    assert!(deeper[around.len()..].iter().all(|branch| branch.path.as_str().starts_with("/1/")));
+    assert_eq!(deeper.len() as u32, 1 + limbs as u32 + deeper[2].bears, "{:?}", paths(&deeper));
+    // Whoever changes the design, and of a branch that sleeps: of the last one on the way to it that stands.
+    world.command(bob, 1, roll("/1", 40.0));
+    world.settle();
+    let (_, rolled) = branches(world.peer(ann)).expect("she is told");
+    assert_ne!(rolled[2].frame, deeper[2].frame);
+    assert_eq!(rolled[1], deeper[1]);
+    world.send(ann, &look_at(Some("/900/3")));
+    world.settle();
+    assert_eq!(paths(&branches(world.peer(ann)).expect("she is told").1), paths(&around));
+    // Who looks away is told nothing more.
+    world.send(ann, &look_at(None));
+    world.command(bob, 2, roll("/1", 80.0));
+    world.settle();
+    assert_eq!(branches(world.peer(ann)).map(|(of, _)| of), Some("/900/3".to_owned()));
+}
+
+#[test]
+fn ds9_a_branch_is_aimed_at_a_place() {
+    let mut world = World::new();
+    let ann = world.join("birch-01");
+    world.send(ann, &look_at(Some("/")));
+    world.command(ann, 1, begin());
+    world.settle();
+    let (_, before) = branches(world.peer(ann)).expect("she is told");
+    let limb = before[1].clone();
+    let tip = [limb.base[0] + 2.0, limb.base[1] + 1.0, limb.base[2] - 1.0];
+    let aim = |node: &str, tip: [f32; 3], gesture: u32| {
+        let edit = json!({ "edit": "aim", "node": node, "tip": tip });
+        json!({ "kind": "edit_design", "edits": [edit], "gesture": gesture })
+    };
+    // A finger goes there by a detour: one operation.
+    world.command(ann, 2, aim("/0", [tip[0] + 1.0, tip[1], tip[2]], 2));
+    world.command(ann, 3, aim("/0", tip, 2));
+    world.settle();
+    let found = branches(world.peer(ann)).expect("she is told").1[1].clone();
+    let length = (4.0f32 + 1.0 + 1.0).sqrt();
+    assert!((found.length - length).abs() < 0.01, "{} for {length}", found.length);
+    let along = glam::Quat::from_array(found.frame) * glam::Vec3::Y;
+    let wanted = glam::Vec3::new(2.0, 1.0, -1.0).normalize();
+    assert!(along.distance(wanted) < 0.01, "{along} for {wanted}");
+    // Another gesture: back to where it began, all but on the outline, is on the outline.
+    let along = glam::Quat::from_array(limb.frame) * glam::Vec3::Y * limb.length * 1.02;
+    let end = [limb.base[0] + along.x, limb.base[1] + along.y, limb.base[2] + along.z];
+    world.command(ann, 4, aim("/0", end, 4));
+    world.settle();
+    let back = branches(world.peer(ann)).expect("she is told").1[1].clone();
+    assert!((back.length - limb.length).abs() < 0.01, "{} for {}", back.length, limb.length);
+    world.command(ann, 5, json!({ "kind": "undo" }));
+    world.settle();
+    assert!((branches(world.peer(ann)).expect("she is told").1[1].length - length).abs() < 0.01);
+    world.command(ann, 6, json!({ "kind": "undo" }));
+    world.settle();
+    assert_eq!(branches(world.peer(ann)).expect("she is told").1, before, "both places were one operation");
+    // What cannot be aimed is refused, and nothing is done.
+    for (command, (node, tip, reason)) in [
+        ("/900", tip, Reason::DesignBranchGone),
+        ("/0", limb.base, Reason::DesignRefused),
+        ("/0", [5000.0, 0.0, 0.0], Reason::OutOfRange),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let command = 7 + command as u32;
+        world.command(ann, command, aim(node, tip, command));
+        world.settle();
+        assert_eq!(refusal(world.peer(ann), command), Some(reason), "{node} {tip:?}");
+    }
+    assert_eq!(branches(world.peer(ann)).expect("she is told").1, before);
 }

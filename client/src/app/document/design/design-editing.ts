@@ -1,13 +1,14 @@
 import { computed, signal } from "@preact/signals";
 import type { Command, DesignEdit, DesignSetting } from "../../../wire/generated";
+import type { Change } from "./branch-handles";
 import type { DESIGN_TEMPLATES } from "./design-keys";
-import { bearerOf, type DesignKey, DesignModel, type KeyName, ROOT, type Status } from "./design-model";
+import { bearerOf, type DesignKey, DesignModel, type KeyName, ROOT, type Status, wayTo } from "./design-model";
 import type { DesignSignal } from "./design-signal";
 
 export type TemplateName = (typeof DESIGN_TEMPLATES)[number];
 
-/** How often a value that moves is sent, in milliseconds. */
-const SEND_EVERY = 100;
+/** How often a value that moves is sent at most, in milliseconds. */
+const SEND_EVERY = 33;
 /** How high a tree that falls below its own base stands. */
 const STAND = 50;
 
@@ -17,7 +18,11 @@ export interface DesignEditingOptions {
   readonly submit: (command: Command) => number;
   /** A number that no other gesture of this client has, if it is sent at once. */
   readonly newGesture: () => number;
+  /** How many edits of designs the server has still to answer. */
+  readonly unsettled: () => number;
   readonly now: () => number;
+  /** Does something in so many milliseconds. */
+  readonly later: (run: () => void, milliseconds: number) => void;
 }
 
 /** What a person on this page does to the design in force. */
@@ -38,6 +43,10 @@ export class DesignEditing {
   #options: DesignEditingOptions;
   #gesture: number | undefined;
   #sentAt = Number.NEGATIVE_INFINITY;
+  /** What moved while the server was busy, to be sent once it is not. */
+  #waiting: readonly DesignEdit[] | null = null;
+  /** What was said before the movement. */
+  #before: { readonly path: string; readonly model: DesignModel } | null = null;
 
   constructor(options: DesignEditingOptions) {
     this.#options = options;
@@ -74,6 +83,8 @@ export class DesignEditing {
 
   choose(path: string): void {
     this.chosen.value = path;
+    // The list shows what is chosen.
+    this.unfolded.value = new Set([...this.unfolded.peek(), ...wayTo(path).slice(0, -1)]);
   }
 
   fold(path: string, open: boolean): void {
@@ -88,17 +99,45 @@ export class DesignEditing {
 
   /** A value while it moves: all of one movement is one deed. */
   drag(key: DesignKey, value: unknown): void {
-    if (this.#options.now() - this.#sentAt < SEND_EVERY) {
-      return;
-    }
-    this.#gesture ??= this.#options.newGesture();
-    this.#sentAt = this.#options.now();
-    this.#edit([this.#set(key, value)], this.#gesture);
+    this.#move([this.#set(key, value)]);
   }
 
   /** A value that was let go, typed or picked. */
   commit(key: DesignKey, value: unknown): void {
-    this.#edit([this.#set(key, value)], this.#gesture);
+    this.#settle([this.#set(key, value)]);
+  }
+
+  /** What a hand does to the chosen branch in the picture, while it does it, and once it is done. */
+  shape(change: Change): void {
+    this.#move([this.#changed(change)]);
+  }
+
+  shaped(change: Change): void {
+    this.#settle([this.#changed(change)]);
+  }
+
+  /** Takes back what a hand has done since it took hold: what was said before is said again. */
+  unshape(change: Change): void {
+    const before = this.#before;
+    this.#before = null;
+    this.#waiting = null;
+    if (this.#gesture === undefined || !before) {
+      this.#gesture = undefined;
+      return;
+    }
+    const keys: readonly KeyName[] = change.kind === "value" ? [change.key] : change.keys;
+    const { path, model } = before;
+    const edits = keys.map((key): DesignEdit => {
+      const setting = model.graph.nodes?.[path]?.values?.[key];
+      if (setting?.shared !== undefined) {
+        return { edit: "set_shared", share: setting.shared, value: model.graph.shares?.[setting.shared]?.value };
+      }
+      return setting ? { edit: "set", of: path, key, value: setting } : { edit: "clear", of: path, key };
+    });
+    if (change.kind === "edit" && change.edit.edit === "anchor") {
+      edits.push({ edit: "anchor", node: path, at: model.anchorOf(path) });
+    }
+    this.#edit(edits, this.#gesture);
     this.#gesture = undefined;
   }
 
@@ -213,6 +252,54 @@ export class DesignEditing {
       return { edit: "set", of: path, key: key.name, value: { multiply: value, ...rest } };
     }
     return { edit: "set", of: path, key: key.name, value: { own: value, ...rest } };
+  }
+
+  /** The edit that a hand asks for. A hand says what is to be, so nothing stays relative that it has touched. */
+  #changed(change: Change): DesignEdit {
+    if (change.kind === "edit") {
+      return change.edit;
+    }
+    const [path, model] = [this.chosen.peek(), this.model.peek()];
+    const setting = model?.said(path, change.key)?.setting;
+    if (setting?.shared !== undefined) {
+      return { edit: "set_shared", share: setting.shared, value: change.value };
+    }
+    const isPrivate = path !== ROOT && (change.isPrivate || setting?.private === true);
+    const value = { own: change.value, ...(isPrivate ? { private: true } : {}) };
+    return { edit: "set", of: path, key: change.key, value };
+  }
+
+  /** Sends what moves, as often as the server takes it; the newest waits. */
+  #move(edits: readonly DesignEdit[]): void {
+    const isEarly = this.#options.now() - this.#sentAt < SEND_EVERY;
+    if (isEarly || (this.#gesture !== undefined && this.#options.unsettled() > 0)) {
+      const isAlone = this.#waiting === null;
+      this.#waiting = edits;
+      if (isAlone) {
+        this.#options.later(() => this.#waiting && this.#retry(this.#waiting), SEND_EVERY);
+      }
+      return;
+    }
+    this.#waiting = null;
+    if (this.#gesture === undefined) {
+      this.#gesture = this.#options.newGesture();
+      const model = this.model.peek();
+      this.#before = model && { path: this.chosen.peek(), model };
+    }
+    this.#sentAt = this.#options.now();
+    this.#edit(edits, this.#gesture);
+  }
+
+  #retry(edits: readonly DesignEdit[]): void {
+    this.#waiting = null;
+    this.#move(edits);
+  }
+
+  #settle(edits: readonly DesignEdit[]): void {
+    this.#waiting = null;
+    this.#before = null;
+    this.#edit(edits, this.#gesture);
+    this.#gesture = undefined;
   }
 
   #edit(edits: readonly DesignEdit[], gesture?: number): void {

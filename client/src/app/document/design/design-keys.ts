@@ -27,7 +27,8 @@ export const DESIGN_KEYS = [
     most: 4,
     unit: "",
     ofRoot: false,
-    standard: "null",
+    standard:
+      '{"top":[0,1,0],"bottom":[0,0,0],"radii":[0.35,0.35,0.35,0.35],"heights":[0.45,0.45,0.45,0.45],"upper":2,"lower":2,"tip":[0,1,0]}',
   },
   {
     name: "axis",
@@ -36,7 +37,7 @@ export const DESIGN_KEYS = [
     most: 4,
     unit: "",
     ofRoot: false,
-    standard: "null",
+    standard: "[[0,0,0],[0,1,0]]",
   },
   {
     name: "reach",
@@ -207,7 +208,7 @@ export const DESIGN_KEYS = [
     most: 4,
     unit: "",
     ofRoot: false,
-    standard: "null",
+    standard: '{"bark":[1,1,1],"leaves":[1,1,1]}',
   },
   {
     name: "shown",

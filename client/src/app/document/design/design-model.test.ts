@@ -94,9 +94,11 @@ describe("editing a design", () => {
       submit: (command) => sent.push(command),
       newGesture: () => 7,
       now: () => {
-        now += 60;
+        now += 20;
         return now;
       },
+      unsettled: () => 0,
+      later: () => {},
     });
     return { of, sent };
   }

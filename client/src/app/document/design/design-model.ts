@@ -18,6 +18,8 @@ export interface DesignGraph {
   readonly nodes?: Readonly<Record<string, DesignRecord>>;
   readonly levels?: Readonly<Record<string, DesignRecord>>;
   readonly shares?: Readonly<Record<string, { readonly key: KeyName; readonly value: unknown }>>;
+  /** The laterals of bearers of which something was said. */
+  readonly laterals?: Readonly<Record<string, readonly { readonly number: number; readonly anchor?: number }[]>>;
 }
 
 /** A value of a branch, and where it comes from. */
@@ -71,6 +73,14 @@ export class DesignModel {
 
   nameOf(path: string): string | undefined {
     return this.graph.nodes?.[path]?.name;
+  }
+
+  /** Where a branch stands whatever stands beside it; null where that follows from its place among those. */
+  anchorOf(path: string): number | null {
+    const bearer = bearerOf(path);
+    const slots = bearer === null ? [] : (this.graph.laterals?.[bearer] ?? []);
+    const number = Number(path.slice(path.lastIndexOf("/") + 1));
+    return slots.find((slot) => slot.number === number)?.anchor ?? null;
   }
 
   /** How many values a branch has of its own. */
@@ -138,6 +148,12 @@ export class DesignModel {
     }
     return ROOT;
   }
+}
+
+/** A parameter by its name. */
+export function keyNamed(name: KeyName): DesignKey {
+  // Names are those of the table.
+  return DESIGN_KEYS.find((key) => key.name === name) as DesignKey;
 }
 
 /** The parameters that a branch has. */

@@ -13,7 +13,9 @@ export function designOf(studio: Studio): DesignEditing {
     design: studio.design,
     submit: (command) => studio.submit(command),
     newGesture: () => studio.link.next,
+    unsettled: () => studio.link.unsettled("edit_design"),
     now: () => performance.now(),
+    later: (run, milliseconds) => void setTimeout(run, milliseconds),
   });
   EDITINGS.set(studio, editing);
   return editing;

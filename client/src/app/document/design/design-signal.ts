@@ -1,9 +1,19 @@
 import { signal } from "@preact/signals";
-import type { DesignInForce } from "../../../wire/generated";
+import type { DesignInForce, PlacedBranch } from "../../../wire/generated";
+import type { Gesture } from "../../input/gesture";
 
-/** The design in force, as the server told it last (`DS4`). */
+/** Where branches stand around the one that this page looks at. */
+export interface PlacedAround {
+  readonly of: string;
+  readonly branches: readonly PlacedBranch[];
+}
+
+/** The design in force, as the server told it last (`DS4`, `DS8`). */
 export class DesignSignal {
   readonly inForce = signal<DesignInForce | null>(null);
+  readonly placed = signal<PlacedAround>({ of: "", branches: [] });
+  /** What takes gestures on the canvas while a design is shaped by hand, and gives what is left of them. */
+  hands: ((gesture: Gesture) => Gesture | null) | null = null;
 
   receive(design: DesignInForce | null): void {
     this.inForce.value = design;

@@ -1,9 +1,12 @@
+import { useEffect } from "preact/hooks";
 import { DESIGN_TEMPLATES } from "../../document/design/design-keys";
 import { ROOT } from "../../document/design/design-model";
 import { designOf } from "../../document/design/design-of";
+import { shapingOf } from "../../document/design/shaping-of";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 import { Section } from "../controls/section";
+import { mountStage } from "../structure/mount-stage";
 import { BranchList } from "./structure/branch-list";
 import { BranchValues } from "./structure/branch-values";
 import { downloadGraph, openGraph } from "./structure/graph-file";
@@ -13,6 +16,8 @@ export function StructurePanel({ studio }: { studio: Studio }) {
   const editing = designOf(studio);
   const model = editing.model.value;
   const onTop = model?.told.steps_on_top ?? 0;
+  const shaping = shapingOf(studio);
+  useEffect(() => mountStage(studio), [studio]);
   return (
     <>
       <Section name="structure.begin" title={say("structure.begin")} open={!model}>
@@ -63,6 +68,17 @@ export function StructurePanel({ studio }: { studio: Studio }) {
             </button>
           </div>
         </div>
+      )}
+      {model && onTop === 0 && !shaping.wanted.value && (
+        <button
+          type="button"
+          class="structure-release"
+          onClick={() => {
+            shaping.wanted.value = true;
+          }}
+        >
+          {say("structure.shaping")}
+        </button>
       )}
       {model && (
         <>

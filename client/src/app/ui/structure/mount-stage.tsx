@@ -1,0 +1,40 @@
+import { effect } from "@preact/signals";
+import { render } from "preact";
+import { shapingOf } from "../../document/design/shaping-of";
+import type { Studio } from "../../studio";
+import { StructureStage } from "./structure-stage";
+
+const MOUNTED = new WeakSet<Studio>();
+
+/**
+ * Puts over the picture what shapes designs by hand, once. It stays there when the panel is closed, for on a phone there is
+ * no room for both; another tool ends it.
+ */
+export function mountStage(studio: Studio): void {
+  const workspace = document.querySelector<HTMLElement>(".workspace");
+  if (MOUNTED.has(studio) || !workspace) {
+    return;
+  }
+  MOUNTED.add(studio);
+  const shaping = shapingOf(studio);
+  const host = document.createElement("div");
+  host.className = "structure-stage";
+  workspace.append(host);
+  render(<StructureStage studio={studio} shaping={shaping} />, host);
+  effect(() => {
+    if (studio.layout.panel.value === "structure") {
+      shaping.wanted.value = true;
+    }
+  });
+  let before = studio.tools.chosen.peek();
+  effect(() => {
+    const tool = studio.tools.chosen.value;
+    if (tool !== before) {
+      before = tool;
+      shaping.wanted.value = false;
+    }
+  });
+  effect(() => {
+    workspace.dataset.shaping = String(shaping.isOn.value);
+  });
+}
