@@ -232,8 +232,6 @@ pub struct StoredVersion {
     pub species: Option<String>,
     /// The version of the same tree whose contents it has.
     pub restored: Option<u32>,
-    /// Whether it has a picture.
-    pub has_thumbnail: bool,
 }
 
 /// The tree that a session belongs to.

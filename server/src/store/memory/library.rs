@@ -55,7 +55,6 @@ impl Tree {
             metamers: saved.metamers,
             species: saved.species.clone(),
             restored: *restored,
-            has_thumbnail: saved.thumbnail.is_some(),
         })
     }
 

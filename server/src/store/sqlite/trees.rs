@@ -13,7 +13,7 @@ use super::{
 /// What lists tell of a tree; its newest version's note is asked for with its versions.
 const TREE: &str =
     "SELECT key, name, note, is_template, origin, origin_version, head AS number, metamers, species,
-    author, has_picture, saved_at, created_at, deleted_at, session, revision,
+    author, saved_at, created_at, deleted_at, session, revision,
     (SELECT group_concat(tag, char(10)) FROM tree_tags WHERE tree = id) AS tags,
     (SELECT collections.key FROM collections WHERE collections.id = collection) AS collection FROM trees";
 
@@ -37,7 +37,7 @@ pub(super) async fn versions(
     before: Option<u32>,
 ) -> Result<Vec<StoredVersion>, StoreError> {
     let rows = sqlx::query(
-        "SELECT versions.*, picture IS NOT NULL AS has_picture
+        "SELECT versions.*
          FROM versions JOIN trees ON trees.id = versions.tree
          WHERE key = ?1 AND (?2 IS NULL OR number < ?2) ORDER BY number DESC LIMIT ?3",
     );
@@ -80,7 +80,6 @@ fn version(row: &SqliteRow) -> Result<StoredVersion, sqlx::Error> {
         metamers: row.try_get("metamers")?,
         species: row.try_get("species")?,
         restored: None,
-        has_thumbnail: row.try_get("has_picture")?,
     })
 }
 
