@@ -228,6 +228,50 @@ pub struct TreeLock {
     pub by: Option<String>,
 }
 
+/// `DELETE /api/v1/sessions/{session}/people/{person}`: somebody was removed (`AC17`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct RemovedPerson {
+    /// What they are called.
+    pub name: String,
+    /// Until when they are kept out, in UTC; nothing where the link by which they came was revoked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub until: Option<String>,
+}
+
+/// `GET /api/v1/sessions/{session}/removals`: somebody is kept out for some hours (`AC17`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct KeptOut {
+    /// The identifier of their removal.
+    pub id: String,
+    /// What they are called.
+    pub name: String,
+    /// What whoever removed them is called.
+    pub by: String,
+    /// Until when, in UTC.
+    pub until: String,
+}
+
+/// `PUT /api/v1/sessions/{session}/owner`: hand the tree over (`AC18`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct HandOver {
+    /// The number of somebody who is in the session.
+    pub person: u32,
+}
+
+/// `GET`, `PUT`, `DELETE /api/v1/sessions/{session}/owner`: to whom the tree was handed over (`AC18`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct TreeOwner {
+    /// What they are called, if it was handed over to anybody.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub name: Option<String>,
+}
+
 /// A link as it is shown once.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]

@@ -16,7 +16,7 @@ use crate::{
     grammar::GrammarInForce,
     obstacle::PlacedObstacle,
     place::Position,
-    presence::{Camera, Person, Pointer},
+    presence::{Author, Camera, Person, Pointer},
     problem::Problem,
     programme::{Programme, Slug},
     reading::{self, tagged_enum},
@@ -430,6 +430,11 @@ pub enum ServerMessage {
         people: Vec<Person>,
         /// How many devices are here beside those.
         more: u32,
+    },
+    /// Who did what a replay shows: after its welcome (`RP3`).
+    Authors {
+        /// In order of their numbers.
+        authors: Vec<Author>,
     },
     /// Somebody brings everyone to a view (`PS5`).
     Gathered {

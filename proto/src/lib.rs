@@ -66,7 +66,7 @@ pub use obstacle::{
     MeshSize, Obstacle, PlacedObstacle, PlacedShape, Pose, Shape, SimpleShape, UploadedObstacle,
 };
 pub use place::{BoxSize, Direction, DrawingPlane, Offset, PlanePoint, Position, UnitRotation};
-pub use presence::{Camera, Device, Person, Pointer, Whereabouts};
+pub use presence::{Author, Camera, Device, Person, Pointer, Whereabouts};
 pub use presence_frame::{DeviceNews, PointerNews, PointerPlace, PresenceFrame};
 pub use problem::{Problem, ProblemCode};
 pub use programme::{ParameterName, Programme, Slug, Stage};

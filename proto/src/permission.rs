@@ -82,7 +82,7 @@ table! {
     Comment: Commenter, Library;
     /// Deletes a tree, or takes that back.
     DeleteTree: Owner, Library;
-    /// Makes, lists and revokes links that let people in for a tree.
+    /// Says who comes to a tree and who owns it: makes and revokes links, removes people, locks it, hands it over.
     ShareTree: Owner, Library;
     /// Makes, changes and deletes collections.
     ChangeCollections: Editor, Library;

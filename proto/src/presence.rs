@@ -71,6 +71,18 @@ pub struct Person {
     pub devices: Vec<Device>,
 }
 
+/// Somebody who did what stands on the line of time (`RP3`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct Author {
+    /// Their number, as in the operations of `timeline`.
+    pub person: u32,
+    /// What they were called last, if the session knows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub name: Option<String>,
+}
+
 /// A page that somebody has open.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]

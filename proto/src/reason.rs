@@ -179,6 +179,10 @@ reasons! {
         FutureDamaged,
         /// The owner of a tree has locked it.
         TreeLocked,
+        /// An owner has removed somebody for some hours; `cause` is who did it.
+        Removed,
+        /// An owner has removed somebody and revoked the link by which they came; `cause` is who did it.
+        RemovedGuest,
         /// A comment is too old to be changed.
         CommentStays,
         /// A collection cannot lie in itself.

@@ -33,6 +33,7 @@ pub fn declarations() -> String {
     constant("MAX_NOTE_CHARACTERS", version::MAX_NOTE_CHARACTERS.to_string());
     constant("MAX_THUMBNAIL_BYTES", thumbnail::MAX_THUMBNAIL_BYTES.to_string());
     constant("KEPT_DAYS", version::KEPT_DAYS.to_string());
+    constant("KEPT_OUT_HOURS", version::KEPT_OUT_HOURS.to_string());
     constant("TURNTABLE_PICTURES", version::TURNTABLE_PICTURES.to_string());
     constant("FARTHEST", place::FARTHEST.to_string());
     constant("DEEPEST", place::DEEPEST.to_string());
@@ -80,6 +81,7 @@ pub fn declarations() -> String {
         ("TooSlow", version::CloseCode::TooSlow),
         ("UnknownSession", version::CloseCode::UnknownSession),
         ("Replaced", version::CloseCode::Replaced),
+        ("Removed", version::CloseCode::Removed),
         ("CannotOpen", version::CloseCode::CannotOpen),
     ] {
         out.push_str(&format!("  {name}: {},\n", u16::from(code)));
@@ -167,6 +169,7 @@ pub fn declarations() -> String {
         presence::Whereabouts::decl(&config),
         presence::Device::decl(&config),
         presence::Person::decl(&config),
+        presence::Author::decl(&config),
         control::Resume::decl(&config),
         control::DocumentState::decl(&config),
         control::Pause::decl(&config),
@@ -233,6 +236,10 @@ pub fn declarations() -> String {
         access::TreeLink::decl(&config),
         access::MadeLink::decl(&config),
         access::TreeLock::decl(&config),
+        access::RemovedPerson::decl(&config),
+        access::KeptOut::decl(&config),
+        access::HandOver::decl(&config),
+        access::TreeOwner::decl(&config),
     ] {
         out.push_str(&format!("\nexport {declaration}\n"));
     }

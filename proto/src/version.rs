@@ -30,6 +30,9 @@ pub const MAX_NOTE_CHARACTERS: usize = 2000;
 /// The longest that a link may let in, in hours (`AC12`).
 pub const MAX_LINK_HOURS: u32 = 365 * 24;
 
+/// Hours for which somebody who was removed is kept out (`AC17`).
+pub const KEPT_OUT_HOURS: u32 = 12;
+
 /// Days for which a deleted tree can be taken back (`LB6`).
 pub const KEPT_DAYS: u32 = 30;
 /// Pictures of a turntable, from all around a tree (`LB9`).
@@ -124,6 +127,8 @@ pub enum CloseCode {
     UnknownSession = 4003,
     /// The same client key connected again; this older socket ends.
     Replaced = 4004,
+    /// An owner has removed this person: they may not come back for now (`AC17`).
+    Removed = 4005,
     /// The session cannot be opened by this server, however often one asks: it needs a newer program, or is damaged;
     /// or this client may not join it.
     CannotOpen = 4007,

@@ -274,7 +274,7 @@ mod tests {
         document::FORMATS,
         export_options::ExportOptions,
         recipe::Recipe,
-        store::{MemoryStore, User, UserChange, Users},
+        store::{User, UserChange, Users},
     };
 
     fn order(seeds: &[u32], steps: u32) -> Order {
@@ -323,7 +323,7 @@ mod tests {
     }
 
     fn store() -> Arc<AnyStore> {
-        Arc::new(AnyStore::Memory(MemoryStore::default()))
+        Arc::new(AnyStore::Memory(Box::default()))
     }
 
     /// An order of somebody who has logged in.

@@ -101,13 +101,13 @@ async fn once(store: &AnyStore, unsaved: Duration, now: SystemTime) -> Result<()
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::store::{AnswerKey, Deletion, MemoryStore, MostAnswers, NewSession, TreeChange, tree};
+    use crate::store::{AnswerKey, Deletion, MostAnswers, NewSession, TreeChange, tree};
 
     const UNSAVED: Duration = Duration::from_hours(90 * 24);
 
     #[tokio::test]
     async fn lb6_what_was_deleted_thirty_days_ago_goes() {
-        let store = AnyStore::Memory(MemoryStore::default());
+        let store = AnyStore::Memory(Box::default());
         for (id, at) in [("ash", "2026-05-01T11:59:59.999Z"), ("elm", "2026-05-01T12:00:00.000Z")] {
             store.add_tree(tree(id, "2026")).await.unwrap();
             let deletion = Some(Deletion::Deleted(at.into()));
@@ -121,7 +121,7 @@ mod tests {
 
     #[tokio::test]
     async fn lb8_a_session_that_nobody_enters_goes_later_where_it_is_not_saved() {
-        let store = AnyStore::Memory(MemoryStore::default());
+        let store = AnyStore::Memory(Box::default());
         for (name, snapshot) in [("seedling", None), ("unsaved", Some(vec![1]))] {
             let new = NewSession { name: name.into(), snapshot, ..NewSession::default() };
             store.create_session(new).await.unwrap();
@@ -138,7 +138,7 @@ mod tests {
 
     #[tokio::test]
     async fn ik4_answers_go_after_a_day() {
-        let store = AnyStore::Memory(MemoryStore::default());
+        let store = AnyStore::Memory(Box::default());
         let key = |byte| AnswerKey { caller: [1; 32], key: [byte; 32] };
         for (byte, at) in [(1, "2026-05-30T11:59:59.999Z"), (2, "2026-05-30T12:00:00.000Z")] {
             assert!(store.begin_answer(key(byte), at, "2026", MostAnswers::default()).await.unwrap());

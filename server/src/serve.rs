@@ -8,7 +8,12 @@ use std::{
     time::{Duration, SystemTime},
 };
 
-use tokio::{net::TcpListener, signal, sync::Notify, time::timeout};
+use tokio::{
+    net::TcpListener,
+    signal,
+    sync::{Notify, watch},
+    time::timeout,
+};
 use tokio_util::sync::CancellationToken;
 use tracing_subscriber::EnvFilter;
 
@@ -128,6 +133,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         tries_for: Arc::default(),
         sessions_begun: Arc::default(),
         comments_written: Arc::default(),
+        standings: watch::Sender::default(),
         logins: Arc::default(),
         passwords: Arc::default(),
         opening: Arc::default(),

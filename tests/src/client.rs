@@ -454,6 +454,7 @@ impl Client {
             ServerMessage::Hint { .. }
             | ServerMessage::Deed { .. }
             | ServerMessage::Branches { .. }
+            | ServerMessage::Authors { .. }
             | ServerMessage::Gathered { .. }
             | ServerMessage::Pins { .. }
             | ServerMessage::ThreadsChanged { .. } => {}

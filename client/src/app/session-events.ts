@@ -6,7 +6,7 @@ import type { Rights } from "./access/rights";
 import type { Comments } from "./comments/comments";
 import { handle, type MessageHandlers } from "./connection/page-message";
 import type { ServerTime } from "./connection/server-time";
-import type { SessionEvents } from "./connection/session-link";
+import type { Opening, SessionEvents } from "./connection/session-link";
 import type { LookDraft } from "./document/appearance/look-draft";
 import type { DesignSignal } from "./document/design/design-signal";
 import type { Draft } from "./document/draft";
@@ -46,6 +46,8 @@ export interface SessionTargets extends RefusalTargets {
   readonly rows: Signal<number>;
   /** Counts the frames of rows that came in. */
   readonly revision: Signal<number>;
+  /** The last command of which nothing is left to do (`CM11`). */
+  readonly finished: Signal<number>;
   readonly stage: Pick<Stage, "changed" | "forget">;
   readonly firstView: FirstView;
   readonly drawnInVain: Pick<DrawnInVain, "show" | "clear">;
@@ -53,7 +55,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly serverTime: Pick<ServerTime, "heard">;
   readonly comments: Pick<Comments, "place" | "change" | "clear">;
   readonly undo: Pick<OwnUndo, "done" | "refused" | "forget">;
-  readonly rights: Pick<Rights, "grant" | "mayChange">;
+  readonly rights: Pick<Rights, "grant" | "leave" | "mayChange">;
 }
 
 /** What a page does with the messages of the server: a row for each. */
@@ -65,7 +67,11 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
       page.growth.reported();
       page.tools.changed();
     },
+    authors: ({ authors }) => {
+      page.together.authors.value = authors;
+    },
     done: ({ id }) => {
+      page.finished.value = id;
       page.outline.done(id);
       page.growth.done(id);
     },
@@ -119,7 +125,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
       page.undo.refused(command);
       refused(page, problem, command);
     },
-    opened: () => forget(page),
+    opened: (how) => forget(page, how),
     rows: () => followRows(page),
     settled: (settled) => {
       page.growing.settle(settled);
@@ -167,7 +173,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
 }
 
 /** Another session was opened: nothing of the one before counts. */
-function forget(page: SessionTargets): void {
+function forget(page: SessionTargets, { isReplay, isSame }: Opening): void {
   page.document.value = null;
   page.growing.clear();
   page.growth.forget();
@@ -179,6 +185,7 @@ function forget(page: SessionTargets): void {
   page.outline.clear();
   page.bends.clear();
   page.together.forget();
+  page.rights.leave(isReplay ? "viewer" : null);
   page.comments.clear();
   page.widths.all.value = [];
   page.design.receive(null);
@@ -188,8 +195,11 @@ function forget(page: SessionTargets): void {
   page.unsaved.clear();
   page.branches.clear();
   page.drawnInVain.clear();
-  page.firstView.forget();
-  page.stage.forget();
+  // Who plays what they see goes on seeing it from where they are.
+  if (!isSame) {
+    page.firstView.forget();
+    page.stage.forget();
+  }
   page.table.clear();
   page.stage.changed();
 }

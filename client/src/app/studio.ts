@@ -82,6 +82,8 @@ export class Studio {
   readonly rows = signal(0);
   /** Counts the frames of rows that came in. */
   readonly revision = signal(0);
+  /** The last command of which nothing is left to do (`CM11`). */
+  readonly finished = signal(0);
   readonly layout = new Layout();
   /** What is shown of the tree, on this device alone. */
   readonly drawMode = signal<DrawMode>("lit");
@@ -162,7 +164,7 @@ export class Studio {
     hold: () => this.stage.hold(),
   });
   readonly time = new TimelineControl({
-    goTo: (step) => this.submit({ kind: "go_to", step }),
+    goTo: (step) => this.goTo(step),
     takeFuture: (future) => this.submit({ kind: "take_future", future }),
     ready: () => this.link.connected,
     unsettled: () => this.link.unsettled("go_to"),
@@ -243,6 +245,12 @@ export class Studio {
     // The server gives up what it was asked to predict and does not always say so (`PD2`).
     this.branches.prediction.lost();
     return this.link.submit(command);
+  }
+
+  /** Goes to a step of the line of time, for everybody, or in a replay for oneself; gives the number of the command. */
+  goTo(step: number): number {
+    const command = { kind: "go_to", step } as const;
+    return this.link.replaying.peek() ? this.link.submit(command) : this.submit(command);
   }
 
   /** Whether the server still grows what was asked for before. */

@@ -11,6 +11,7 @@ export const MAX_NAME_CHARACTERS = 80;
 export const MAX_NOTE_CHARACTERS = 2000;
 export const MAX_THUMBNAIL_BYTES = 196608;
 export const KEPT_DAYS = 30;
+export const KEPT_OUT_HOURS = 12;
 export const TURNTABLE_PICTURES = 12;
 export const FARTHEST = 1000;
 export const DEEPEST = -10;
@@ -71,6 +72,7 @@ export const CloseCode = {
   TooSlow: 4002,
   UnknownSession: 4003,
   Replaced: 4004,
+  Removed: 4005,
   CannotOpen: 4007,
 } as const;
 
@@ -1755,7 +1757,7 @@ appearance: Appearance, };
 
 export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "stale" | "unavailable";
 
-export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "not-a-grammar" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-of-yours" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "design-sealed" | "design-refused" | "being-drawn" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "grammar-ends" | "no-programme" | "future-damaged" | "tree-locked" | "comment-stays" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "no-grammar" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "design-gone" | "design-branch-gone" | "no-template" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
+export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "not-a-grammar" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-of-yours" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "design-sealed" | "design-refused" | "being-drawn" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "grammar-ends" | "no-programme" | "future-damaged" | "tree-locked" | "removed" | "removed-guest" | "comment-stays" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "no-grammar" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "design-gone" | "design-branch-gone" | "no-template" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
 
 export type Problem = { 
 /**
@@ -2166,6 +2168,16 @@ role: Role,
  */
 devices: Array<Device>, };
 
+export type Author = { 
+/**
+ * Their number, as in the operations of `timeline`.
+ */
+person: number, 
+/**
+ * What they were called last, if the session knows.
+ */
+name?: string, };
+
 export type Resume = { 
 /**
  * The epoch of the frames it holds.
@@ -2495,7 +2507,11 @@ people: Array<Person>,
 /**
  * How many devices are here beside those.
  */
-more: number, } | { "type": "gathered", 
+more: number, } | { "type": "authors", 
+/**
+ * In order of their numbers.
+ */
+authors: Array<Author>, } | { "type": "gathered", 
 /**
  * The device that asked for it.
  */
@@ -3434,3 +3450,43 @@ export type TreeLock = {
  * Who has locked it, if anybody has.
  */
 by?: string, };
+
+export type RemovedPerson = { 
+/**
+ * What they are called.
+ */
+name: string, 
+/**
+ * Until when they are kept out, in UTC; nothing where the link by which they came was revoked.
+ */
+until?: string, };
+
+export type KeptOut = { 
+/**
+ * The identifier of their removal.
+ */
+id: string, 
+/**
+ * What they are called.
+ */
+name: string, 
+/**
+ * What whoever removed them is called.
+ */
+by: string, 
+/**
+ * Until when, in UTC.
+ */
+until: string, };
+
+export type HandOver = { 
+/**
+ * The number of somebody who is in the session.
+ */
+person: number, };
+
+export type TreeOwner = { 
+/**
+ * What they are called, if it was handed over to anybody.
+ */
+name?: string, };

@@ -41,6 +41,7 @@ pub use form::read_command;
 pub use grammars::{check_grammar, grammar_script, shipped_grammar, wire_grammar};
 pub use io::{ActId, AnchorId, ClientId, Input, JournalEntry, Output, Place, ReadDocument, ReadId};
 pub use prediction::PredictionRun;
+pub use presence::Register;
 pub use principal::Principal;
 pub use rights::{Access, forbidden};
 pub use room::HasRoom;

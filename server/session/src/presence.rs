@@ -189,15 +189,18 @@ impl FramesOfTick {
     }
 }
 
-/// Numbers of people and devices, and chosen names, while the session is in memory.
-#[derive(Debug, Default)]
-pub(crate) struct Register {
+/// Numbers of people and devices, and what people are called, while the session is in memory. A replay takes a copy, so
+/// that everybody has the number and with it the colour that they have in the session (`RP3`).
+#[derive(Clone, Debug, Default)]
+pub struct Register {
     people: Numbers<Arc<str>>,
     devices: Numbers<Principal>,
     /// Who is, or was last, at which device.
     person_at: BTreeMap<Principal, u32>,
     /// What people call themselves, by their numbers.
     names: BTreeMap<u32, String>,
+    /// What the server calls them, until they choose.
+    given: BTreeMap<u32, Arc<str>>,
 }
 
 impl Register {
@@ -213,6 +216,7 @@ impl Register {
         let person = self.people.of(person, |number| here.iter().any(|&(_, person)| person == number));
         let known = &self.people.numbers;
         self.names.retain(|number, _| known.values().any(|known| known == number));
+        self.given.retain(|number, _| known.values().any(|known| known == number));
         self.person_at.insert(principal.clone(), person);
         self.person_at.retain(|device, _| self.devices.numbers.contains_key(device));
         (device, person)
@@ -231,6 +235,16 @@ impl Register {
         self.names.insert(person, name.to_owned()).is_none_or(|before| before != name)
     }
 
+    /// The server has a name for somebody.
+    pub(crate) fn give_name(&mut self, person: u32, name: Arc<str>) {
+        self.given.insert(person, name);
+    }
+
+    /// What somebody is called, also after they have left.
+    pub(crate) fn called(&self, person: u32) -> Option<&str> {
+        self.name_of(person).or_else(|| self.given.get(&person).map(AsRef::as_ref))
+    }
+
     /// What somebody has chosen to be called.
     pub(crate) fn name_of(&self, person: u32) -> Option<&str> {
         self.names.get(&person).map(String::as_str)
@@ -242,7 +256,7 @@ fn author_alone(device: &Principal) -> Arc<str> {
     format!("author {}", device.name()).into()
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Numbers<K> {
     numbers: BTreeMap<K, u32>,
     last: u32,

@@ -10,6 +10,7 @@ mod pausing;
 mod pins;
 mod predicting;
 mod presence;
+mod replaying;
 mod restoring;
 mod upkeep;
 
@@ -90,6 +91,8 @@ pub struct Session {
     pausing: Pausing,
     /// Who is here.
     room: Room,
+    /// Whether it is a copy in which one only travels (`RP1`).
+    is_replay: bool,
     /// Where comments are pinned.
     pins: Pins,
     /// What everybody here is notified of.
@@ -216,6 +219,7 @@ impl Session {
             upkeep: Upkeep::new(snapshotted),
             pausing,
             room,
+            is_replay: false,
             pins: Pins::default(),
             notices: Vec::new(),
             failed: false,

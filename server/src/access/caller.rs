@@ -117,14 +117,20 @@ impl Caller {
     }
 
     /// Whether they may do it.
+    #[cfg(test)]
     pub fn may(&self, action: Action, object: Object<'_>) -> bool {
+        self.may_as(self.grant.role, action, object)
+    }
+
+    /// Whether they may do it where they have this role.
+    pub fn may_as(&self, role: Role, action: Action, object: Object<'_>) -> bool {
         let is_theirs = match (&self.grant.tree, object) {
             (None, _) => true,
             (Some(own), Object::Tree(tree)) => own == tree,
             (Some(_), Object::Server) => action.reach() == Reach::Guests,
             (Some(_), Object::Loose) => false,
         };
-        is_theirs && self.grant.role >= action.least()
+        is_theirs && role >= action.least()
     }
 
     /// Whether what somebody ordered is theirs as well: they are the same, came in as the same user, or are an
@@ -145,6 +151,12 @@ impl Caller {
             Some(Held { kind: PassKind::Login, name, .. }) => format!("login {}", folded(name)),
             Some(Held { hash, .. }) => format!("pass {}", BASE64_URL_SAFE_NO_PAD.encode(hash)),
         }
+    }
+
+    /// The pass by which somebody came who is counted as a person (see [`Self::person`]), unless they have logged in.
+    pub fn pass_of(person: &str) -> Option<SecretHash> {
+        let hash = BASE64_URL_SAFE_NO_PAD.decode(person.strip_prefix("pass ")?).ok()?;
+        hash.try_into().ok()
     }
 
     /// The only tree that they may see, if it is one.
@@ -185,7 +197,7 @@ impl Caller {
             store.pass(held.hash, &written(SystemTime::now())).await?.map(|pass| pass.role)
         };
         let now = |role| Self { grant: Grant { role, ..self.grant.clone() }, pass: None };
-        Ok(role.is_some_and(|role| now(role).may(action, Object::Server)))
+        Ok(role.is_some_and(|role| now(role).may_as(role, action, Object::Server)))
     }
 
     /// Somebody who has logged in.

@@ -6,8 +6,8 @@ use axum::routing::{MethodRouter, delete, get, patch, post, put};
 use espalier_proto::{
     CheckGrammar, GrammarOrigins, GrammarReport, ShippedGrammar,
     access::{
-        Admitted, AuditEvent, ChangeLink, Entrance, ListedUser, LogIn, MadeLink, Me, NewLink, Redeem,
-        TreeLink, TreeLock,
+        Admitted, AuditEvent, ChangeLink, Entrance, HandOver, KeptOut, ListedUser, LogIn, MadeLink, Me,
+        NewLink, Redeem, RemovedPerson, TreeLink, TreeLock, TreeOwner,
     },
     comment::{ChangeComment, ChangeThread, NewComment, NewThread, Seen, Thread},
     library::{
@@ -28,7 +28,8 @@ use tower::limit::GlobalConcurrencyLimitLayer;
 use super::{
     Shared, audit, collections, comments, description, description::About, entry, exports, failure::Path,
     grammars, guard::TIME_LIMIT, imports, jobs, keys::Shown, links, locks, obstacles, origin::METRICS,
-    reviews, schematic, session_list, sessions, species, status, trees, uploads::uploads, versions,
+    owners, removals, reviews, schematic, session_list, sessions, species, status, trees, uploads::uploads,
+    versions,
 };
 use crate::{
     access::Action,
@@ -155,12 +156,33 @@ pub(super) fn methods() -> impl Fn(&str) -> String + Clone {
     move |path| all.get(path).map_or_else(|| READ.to_owned(), |methods| methods.join(", "))
 }
 
-/// The socket, where a page is told by the close why it may not come in.
-pub(super) const SOCKET: &str = "GET /api/v1/sessions/{session}/socket";
+/// A socket: its address, who may open it, and what the description says of it. A page is told by its close why it may
+/// not come in.
+pub(super) struct SocketRoute {
+    pub(super) address: &'static str,
+    pub(super) about: About,
+    pub(super) answer: MethodRouter<Shared>,
+}
 
-/// What the description says of the socket.
-pub(super) fn about_socket() -> About {
-    About::new("The WebSocket: messages as in `protocol.schema.json`, and frames (FR).").switches()
+/// What may be done who opens a socket.
+pub(super) const OF_SOCKETS: Action = Action::JoinSession;
+
+/// All sockets.
+pub(super) fn sockets() -> [SocketRoute; 2] {
+    [
+        SocketRoute {
+            address: "GET /api/v1/sessions/{session}/socket",
+            about: About::new("The WebSocket: messages as in `protocol.schema.json`, and frames (FR).")
+                .switches(),
+            answer: get(sessions::socket),
+        },
+        SocketRoute {
+            address: "GET /api/v1/sessions/{session}/replay",
+            about: About::new("The same for a copy in which one goes through the design step by step (RP1).")
+                .switches(),
+            answer: get(sessions::replay),
+        },
+    ]
 }
 
 /// Files of any format, each of which takes as long as it takes.
@@ -216,6 +238,12 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/sessions/{session}/resume", Action::ResumeSession, post(sessions::resume), About::new("Let go on what rests because the server did not outlive it twice (OP5).").gives_nothing()),
         route("POST /api/v1/sessions/{session}/obstacles", Action::EditSession, post(obstacles::upload).layer(uploads(MAX_UPLOADS)), About::new("Place a glTF or OBJ model as an obstacle (OB6).").takes_file("model/gltf-binary").gives::<UploadedObstacle>(201)).up_to(MAX_MODEL_BYTES).within(UPLOAD_TIME),
         route("GET /api/v1/sessions/{session}/obstacles/{obstacle}", Action::SeeObstacle, get(obstacles::mesh), About::new("The mesh of an obstacle (OB5).").gives_parts("application/octet-stream")),
+        route("DELETE /api/v1/sessions/{session}/people/{person}", Action::ShareTree, delete(removals::remove), About::new("Remove somebody from the session and its tree (AC17); the number is that of `people`.").gives::<RemovedPerson>(200)).noted("remove"),
+        route("GET /api/v1/sessions/{session}/removals", Action::ShareTree, get(removals::list), About::new("Who is kept out of the session and its tree, and can be let back (AC17).").gives::<Vec<KeptOut>>(200)),
+        route("DELETE /api/v1/sessions/{session}/removals/{removal}", Action::ShareTree, delete(removals::let_back), About::new("Let somebody back before their time.").gives_nothing()).noted("let-back"),
+        route("GET /api/v1/sessions/{session}/owner", Action::SeeSession, get(owners::find), About::new("To whom the tree of the session was handed over (AC18).").gives::<TreeOwner>(200)),
+        route("PUT /api/v1/sessions/{session}/owner", Action::ShareTree, put(owners::hand_over), About::new("Hand the tree over to somebody who is in the session (AC18).").takes::<HandOver>().gives::<TreeOwner>(200)).noted("hand-over"),
+        route("DELETE /api/v1/sessions/{session}/owner", Action::ShareTree, delete(owners::take_back), About::new("The tree is handed over to nobody any more.").gives::<TreeOwner>(200)).noted("hand-over"),
         route("GET /api/v1/species", Action::Look, get(species::list), About::new("All species, in the order of a picker. Picking one is a `set_programme` with its `programme` and a `set_appearance` with the sections of its `appearance` but the background and the wind, both with one gesture.").gives::<Vec<Species>>(200)),
         route("GET /api/v1/species/{slug}/picture", Action::Look, get(species::picture).layer(at_once(MAX_PICTURES)), About::new("A tree of that species, with an `ETag`.").gives_parts("image/png")),
         route("GET /api/v1/grammars", Action::Look, get(grammars::list), About::new("Grammars that come with the program, in the order of a picker (GR7).").gives::<Vec<ShippedGrammar>>(200)),

@@ -8,7 +8,7 @@ use schemars::{JsonSchema, SchemaGenerator, generate::SchemaSettings};
 use serde_json::{Map, Value, json};
 
 use super::{
-    addresses::{SOCKET, about_socket, downloads, routes},
+    addresses::{OF_SOCKETS, downloads, routes, sockets},
     keys,
 };
 use crate::access::{Action, cookie};
@@ -128,7 +128,8 @@ fn all() -> Vec<(String, Option<Action>, About)> {
         let about = About { takes_keys: route.takes_keys(), ..route.about };
         (route.address.into_owned(), route.action, about)
     });
-    listed.chain([(SOCKET.to_owned(), Some(Action::JoinSession), about_socket())]).collect()
+    let sockets = sockets().map(|socket| (socket.address.to_owned(), Some(OF_SOCKETS), socket.about));
+    listed.chain(sockets).collect()
 }
 
 /// The description's text.

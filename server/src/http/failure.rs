@@ -96,7 +96,14 @@ impl Failure {
 impl From<Problem> for Failure {
     fn from(problem: Problem) -> Self {
         let status = match (problem.reason, problem.code) {
-            (Reason::Forbidden | Reason::OtherSite | Reason::TreeLocked, _) => StatusCode::FORBIDDEN,
+            (
+                Reason::Forbidden
+                | Reason::OtherSite
+                | Reason::TreeLocked
+                | Reason::Removed
+                | Reason::RemovedGuest,
+                _,
+            ) => StatusCode::FORBIDDEN,
             (Reason::WrongMethod, _) => StatusCode::METHOD_NOT_ALLOWED,
             (Reason::TooOften, _) => StatusCode::TOO_MANY_REQUESTS,
             (Reason::NotLetIn | Reason::WrongPassword, _) => StatusCode::UNAUTHORIZED,
@@ -185,7 +192,7 @@ impl From<OpenError> for Failure {
                 Self::new(Reason::NotOpened, "The session cannot be opened now.")
             }
             OpenError::Memory(full) => full.into(),
-            OpenError::Stopping => error.problem().into(),
+            OpenError::Ended | OpenError::Stopping => error.problem().into(),
             error => {
                 tracing::error!(%error, "a session cannot be opened");
                 error.problem().into()

@@ -9,7 +9,7 @@ use axum::{
     response::{IntoResponse, Response},
 };
 
-use espalier_proto::{Problem, Reason};
+use espalier_proto::{Problem, Reason, access::Role};
 use espalier_session::Principal;
 
 use super::{
@@ -17,11 +17,12 @@ use super::{
     audit::{self, Made},
     failure::{Failure, NoTree},
     keys::Repeated,
-    trees,
+    removals, trees,
 };
 use crate::{
     access::{Action, Caller, Object, Peer},
-    store::{Library, Locks},
+    store::{Library, Room, Standing, Standings, StoreError},
+    time::now,
 };
 
 /// The key of the client that asks, as in its hello.
@@ -162,24 +163,33 @@ impl Shared {
                 tree.as_ref().map_or(Object::Loose, |tree| Object::Tree(&tree.id))
             }
         };
-        if !caller.may(action, object) {
+        let standing = self.standing(caller, named).await?;
+        if let Some(removed) = standing.removed {
+            return Err(removals::problem(&removed).into());
+        }
+        let role = if standing.is_heir { caller.role().max(Role::Owner) } else { caller.role() };
+        if !caller.may_as(role, action, object) {
             return Err(espalier_session::forbidden().into());
         }
         // Who may do less is refused already, and owners are not locked out.
-        if caller.role().under_lock() >= action.least() {
-            return Ok(());
-        }
-        let lock = match named {
-            Named::Server => None,
-            Named::Tree(id) => self.store.lock_of(id).await?,
-            Named::Session(name) => self.store.lock_of_session(name).await?,
-        };
-        match lock {
+        match standing.locked_by.filter(|_| role.under_lock() < action.least()) {
             None => Ok(()),
             Some(by) => Err(Problem::new(Reason::TreeLocked, format!("{by} has locked the tree."))
                 .at("tree", "a tree that is not locked")
                 .into()),
         }
+    }
+
+    /// How somebody stands with what a request names.
+    pub(super) async fn standing(&self, caller: &Caller, named: Named<'_>) -> Result<Standing, StoreError> {
+        let room = match named {
+            // Owners of all trees are neither locked nor kept out of one.
+            _ if caller.role() >= Role::Owner => return Ok(Standing::default()),
+            Named::Server => return Ok(Standing::default()),
+            Named::Tree(id) => Room::Tree(id),
+            Named::Session(name) => Room::Session(name),
+        };
+        self.store.standing(room, &caller.person(), &now()).await
     }
 }
 

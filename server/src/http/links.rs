@@ -78,6 +78,7 @@ pub(super) async fn change(
     let role = role.into();
     match found {
         Some(pass) if shared.store.change_pass(&link, role).await? => {
+            shared.tell_standings();
             Ok(Json(described(Pass { role, ..pass })))
         }
         Some(_) | None => Err(no_link()),
@@ -92,6 +93,7 @@ pub(super) async fn revoke(
     trees::stored(&shared, &tree).await?;
     let is_there = of(&shared, &tree).await?.iter().any(|pass| pass.id == link);
     if is_there && shared.store.take_pass(&link).await? {
+        shared.tell_standings();
         return Ok(StatusCode::NO_CONTENT);
     }
     Err(no_link())

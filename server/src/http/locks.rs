@@ -40,6 +40,7 @@ pub(super) async fn unlock(
 
 async fn locked(shared: &Shared, tree: &str, by: Option<String>) -> Result<Json<TreeLock>, Failure> {
     if shared.store.lock_tree(tree, by.clone()).await? {
+        shared.tell_standings();
         Ok(Json(TreeLock { by }))
     } else {
         Err(Missing::Tree.into())

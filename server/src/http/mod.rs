@@ -21,8 +21,11 @@ mod links;
 mod locks;
 mod obstacles;
 mod origin;
+mod owners;
 mod proxies;
 mod ranges;
+mod removals;
+mod replays;
 mod reviews;
 mod revision;
 mod schematic;
@@ -43,7 +46,7 @@ use axum::{
     routing::{MethodRouter, any, get},
 };
 use espalier_proto::Reason;
-use tokio::sync::{Mutex, Notify};
+use tokio::sync::{Mutex, Notify, watch};
 use tower::ServiceBuilder;
 
 pub(crate) use self::comments::Said as SaidComment;
@@ -58,7 +61,7 @@ pub use self::{
     sessions::SessionsBegun,
 };
 use self::{
-    addresses::{Route, SOCKET, downloads, methods, path_of, routes},
+    addresses::{Route, downloads, methods, path_of, routes, sockets},
     failure::Failure,
     guard::Asked,
     keys::Keyed,
@@ -113,6 +116,8 @@ pub struct Shared {
     pub sessions_begun: Arc<SessionsBegun>,
     /// How many comments were written, by whom.
     pub comments_written: Arc<CommentsWritten>,
+    /// Tells when somebody may do more or less with a tree, so that open sockets hear of it at once.
+    pub standings: watch::Sender<()>,
     /// How often people have logged in.
     pub logins: Arc<Logins>,
     /// Checks passwords.
@@ -127,6 +132,13 @@ pub struct Shared {
     pub jobs: Jobs,
     /// Requests with keys that are being done.
     pub under_way: UnderWay,
+}
+
+impl Shared {
+    /// Somebody may do more or less with a tree from now on.
+    fn tell_standings(&self) {
+        self.standings.send_replace(());
+    }
 }
 
 /// Everything the server answers.
@@ -158,16 +170,18 @@ pub fn router(shared: Shared) -> Router {
         })
     };
     let methods_of = methods();
+    // A socket lasts as long as its drawing, so no time limit holds there.
+    let sockets = sockets()
+        .into_iter()
+        .fold(Router::new(), |router, socket| router.route(path_of(socket.address), socket.answer));
     Router::new()
+        .merge(sockets)
         .merge(api(routes()))
         .merge(api(downloads()))
         .route("/api/{*unknown}", any(failure::unknown_route))
         .route("/health", within(guard::TIME_LIMIT, get(status::health)))
         .route("/live", get(status::live))
         .route("/ready", within(guard::TIME_LIMIT, get(status::ready)))
-        // A socket lasts as long as its drawing, so no time limit holds here. Whoever may not come in is told so by its
-        // close, which a page can read.
-        .route(path_of(SOCKET), get(sessions::socket))
         .route("/", get(client::page))
         .route("/api", get(client::api_page))
         .route("/s/{name}", get(client::page))

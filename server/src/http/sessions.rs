@@ -16,6 +16,7 @@ use axum::{
 };
 use espalier_proto::{
     Problem, Reason,
+    access::Role,
     library::{NewSession, SessionCreated, SessionTree},
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
@@ -24,10 +25,10 @@ use espalier_session::{DocumentError, Principal, RestoreError, Session};
 use tokio::time::interval;
 
 use super::{
-    Shared,
+    Shared, addresses,
     failure::{Body, Failure, Path},
     guard::Named,
-    trees,
+    removals, replays, trees,
 };
 use crate::{
     SIMULATION_VERSION,
@@ -36,7 +37,8 @@ use crate::{
     memory::{self, Full, Growing, Need, Use},
     name,
     pool::Class,
-    store::{self, Library, Locks, Store, StoreError, StoredTree, TreeDocument, Visits},
+    store::{self, Library, Room, Standings, Store, StoreError, StoredTree, TreeDocument, Visits},
+    time::now,
 };
 
 /// Sessions that somebody from elsewhere begins in two minutes.
@@ -204,7 +206,36 @@ pub(super) async fn resume(
     Err(problem.at("session", "one whose `state` is paused by crashes").into())
 }
 
+/// What somebody connects with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum With {
+    Session,
+    /// A copy of it, to play it in (`RP1`).
+    Replay,
+}
+
 pub(super) async fn socket(
+    shared: State<Shared>,
+    name: Path<String>,
+    caller: Result<Caller, Failure>,
+    peer: Option<Extension<Peer>>,
+    upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
+) -> Response {
+    upgraded(With::Session, shared, name, caller, peer, upgrade).await
+}
+
+pub(super) async fn replay(
+    shared: State<Shared>,
+    name: Path<String>,
+    caller: Result<Caller, Failure>,
+    peer: Option<Extension<Peer>>,
+    upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
+) -> Response {
+    upgraded(With::Replay, shared, name, caller, peer, upgrade).await
+}
+
+async fn upgraded(
+    with: With,
     State(shared): State<Shared>,
     Path(name): Path<String>,
     caller: Result<Caller, Failure>,
@@ -224,7 +255,7 @@ pub(super) async fn socket(
     };
     let admitted = match admit(&shared, caller, &name).await.map_err(Failure::final_problem) {
         Ok(admitted) => Ok(admitted),
-        Err(Ok(problem)) => Err((CloseCode::CannotOpen, problem.in_close())),
+        Err(Ok(problem)) => Err(removals::close_of(&problem)),
         Err(Err(failure)) => return failure.into_response(),
     };
     let claim = shared.memory.take(Use::Socket, Need::Other, memory::SOCKET);
@@ -238,7 +269,7 @@ pub(super) async fn socket(
         .on_upgrade(async move |socket| {
             let connected = async {
                 match admitted {
-                    Ok((admitted, _claim)) => connect(socket, &shared, &name, admitted).await,
+                    Ok((admitted, _claim)) => connect(socket, &shared, (with, &name), admitted).await,
                     Err((code, sentence)) => live::turn_away(socket, code, &sentence).await,
                 }
             };
@@ -255,12 +286,17 @@ fn no_memory(full: &Full) -> (CloseCode, String) {
 /// Somebody who may join a session.
 async fn admit(shared: &Shared, caller: Result<Caller, Failure>, session: &str) -> Result<Caller, Failure> {
     let caller = caller?;
-    shared.ask(&caller, Action::JoinSession, Named::Session(session)).await?;
+    shared.ask(&caller, addresses::OF_SOCKETS, Named::Session(session)).await?;
     Ok(caller)
 }
 
-async fn connect(mut socket: WebSocket, shared: &Shared, name: &str, caller: Caller) {
-    let (code, sentence) = match live::open(&mut socket, &shared.sessions, name).await {
+async fn connect(mut socket: WebSocket, shared: &Shared, (with, name): (With, &str), caller: Caller) {
+    let opened = live::open(&mut socket, &shared.sessions, name).await;
+    let opened = match (with, opened) {
+        (With::Replay, Ok(Some(session))) => replays::copied(shared, name, &session).await.map(Some),
+        (_, opened) => opened,
+    };
+    let (code, sentence) = match opened {
         Ok(Some(session)) => {
             // On a full disk one comes in all the same.
             if let Err(error) = shared.store.visit(name, &caller.person()).await {
@@ -276,6 +312,7 @@ async fn connect(mut socket: WebSocket, shared: &Shared, name: &str, caller: Cal
             return live::turn_away(socket, code, &sentence).await;
         }
         Err(OpenError::Stopping) => (CloseCode::GoingAway, "The server is stopping."),
+        Err(OpenError::Ended) => (CloseCode::GoingAway, "The session is being put away; come back."),
         Err(error) => {
             tracing::error!(session = name, %error, "a session could not be opened");
             if error.is_final() {
@@ -290,30 +327,44 @@ async fn connect(mut socket: WebSocket, shared: &Shared, name: &str, caller: Cal
     live::turn_away(socket, code, sentence).await;
 }
 
-/// Waits until somebody is let in no longer, and says so (`AC4`); tells meanwhile what they may do when that changes
-/// (`AU3`).
-async fn let_out(shared: &Shared, session: &str, caller: Caller, grants: Grants) -> String {
+/// Waits until somebody is let in no longer (`AC4`) or removed (`AC17`), and says so; tells meanwhile what they may do when
+/// that changes (`AU3`).
+async fn let_out(shared: &Shared, session: &str, caller: Caller, grants: Grants) -> (CloseCode, String) {
     if !caller.is_revocable() {
         return pending().await;
     }
+    let mut changes = shared.standings.subscribe();
     let mut ticks = interval(LOOKING);
     // As they came in.
-    let mut role = caller.role();
+    let (mut role, person) = (caller.role(), caller.person());
     loop {
-        match caller.now(&*shared.store).await {
+        let caller = caller.now(&*shared.store).await;
+        // A database that cannot be read locks nobody out.
+        let standing =
+            shared.store.standing(Room::Session(session), &person, &now()).await.unwrap_or_default();
+        let own = caller.as_ref().ok().and_then(Option::as_ref).map(Caller::role);
+        if let Some(removed) = standing.removed.filter(|_| own < Some(Role::Owner)) {
+            // What they draw ends where it is.
+            grants.grant(Role::Viewer).await;
+            return removals::close_of(&removals::problem(&removed));
+        }
+        match caller {
             Ok(Some(caller)) => {
-                // A database that cannot be read locks nobody out.
-                let lock = shared.store.lock_of_session(session).await.unwrap_or_default();
-                let now = if lock.is_some() { caller.role().under_lock() } else { caller.role() };
+                let own = if standing.is_heir { caller.role().max(Role::Owner) } else { caller.role() };
+                let now = if standing.locked_by.is_some() { own.under_lock() } else { own };
                 if now != role {
                     grants.grant(now).await;
                     role = now;
                 }
             }
             Err(_) => {}
-            Ok(None) => return access::not_let_in().in_close(),
+            Ok(None) => return (CloseCode::CannotOpen, access::not_let_in().in_close()),
         }
-        ticks.tick().await;
+        tokio::select! {
+            _ = ticks.tick() => {}
+            // The sender lives as long as the server.
+            _ = changes.changed() => {}
+        }
     }
 }
 

@@ -10,6 +10,7 @@ mod paths;
 mod proxies;
 mod refusals;
 mod session_list;
+mod standings;
 mod status;
 
 use std::collections::BTreeSet;
@@ -32,7 +33,7 @@ use crate::{
     jobs::Order,
     name,
     recipe::Recipe,
-    store::{Collection, Finding, Library, MemoryStore, NewSession, Pass, PassKind, Passes, Store, tree},
+    store::{Collection, Finding, Library, NewSession, Pass, PassKind, Passes, Store, tree},
 };
 
 async fn server() -> (Router, Arc<AnyStore>) {
@@ -42,7 +43,7 @@ async fn server() -> (Router, Arc<AnyStore>) {
 }
 
 async fn shared() -> Shared {
-    let store = Arc::new(AnyStore::Memory(MemoryStore::default()));
+    let store = Arc::new(AnyStore::Memory(Box::default()));
     let pool = SimulationPool::new(None).unwrap();
     for (id, at) in [("ash", "2026-05-01T09:00:00.000Z"), ("yew", "2026-05-01T09:00:00.001Z")] {
         store.add_tree(tree(id, at)).await.unwrap();
@@ -76,6 +77,7 @@ async fn shared() -> Shared {
         tries_for: Arc::default(),
         sessions_begun: Arc::default(),
         comments_written: Arc::default(),
+        standings: watch::Sender::default(),
         logins: Arc::default(),
         passwords: Arc::default(),
         opening: Arc::default(),
@@ -148,6 +150,8 @@ fn filled(path: &str) -> String {
         .replace("{version}", "1")
         .replace("{job}", JOB)
         .replace("{link}", "a-link")
+        .replace("{person}", "1")
+        .replace("{removal}", "a-removal")
         .replace("{thread}", "1")
         .replace("{comment}", "1")
         .replace("{seed}", "1")

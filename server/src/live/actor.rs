@@ -19,25 +19,22 @@ use tokio_util::sync::CancellationToken;
 
 use super::{
     handle::{Outcome, Request, SessionFigures, SessionHandle},
+    keeping::Keeping,
     leaving::{End, Standing},
     outbox::{Outbox, Outgoing},
-    pins::pins_of_session,
     readers::Readers,
     restoring::Opened,
     turn::turn_of,
 };
 use crate::{
-    SIMULATION_VERSION,
     memory::{self, Growing, Memory, Need, Use},
     pool::{Class, Person, SimulationPool},
-    store::{AnyStore, Lease, NewSnapshot, Store},
+    store::AnyStore,
 };
 
 /// Requests waiting for a session; beyond that, sockets stop reading.
 const MAILBOX: usize = 256;
-/// A session without clients for so long is unloaded,
-const IDLE: Duration = Duration::from_secs(60);
-/// and one that nobody has asked for anything yet after so long.
+/// A session that nobody has asked for anything yet after so long is unloaded.
 const UNVISITED: Duration = Duration::from_secs(10);
 /// After so long a session that was opened lives, though there may be more to do.
 const LIVES: Duration = Duration::from_secs(30);
@@ -75,8 +72,7 @@ pub(super) struct Actor {
     /// Whether the store counts that it was tried to be opened.
     is_counted: bool,
     opened_at: Instant,
-    /// The right to write to the session.
-    lease: Lease,
+    keeping: Keeping,
     services: Services,
     requests: mpsc::Receiver<Request>,
     tasks: mpsc::UnboundedReceiver<ActorTask>,
@@ -101,7 +97,7 @@ impl Actor {
     pub(super) fn new(
         name: String,
         Opened { session, room, is_counted }: Opened,
-        lease: Lease,
+        keeping: Keeping,
         services: Services,
     ) -> (Self, SessionHandle) {
         room.settle(session.held_rows().unwrap_or(0));
@@ -115,7 +111,7 @@ impl Actor {
             room,
             is_counted,
             opened_at: Instant::now(),
-            lease,
+            keeping,
             services,
             requests,
             tasks,
@@ -169,11 +165,11 @@ impl Actor {
         // It rests for want of memory, and not because the server did not outlive it.
         if self.is_counted
             && self.session.paused() == Some(Pause::Memory)
-            && let Err(error) = self.services.store.forget_tries(&self.lease).await
+            && let Err(error) = self.keeping.forget_tries().await
         {
             tracing::warn!(session = self.name, %error, "that the session lives is not kept");
         }
-        self.services.store.release(self.lease).await;
+        self.keeping.release().await;
     }
 
     async fn live(&mut self) -> Result<End, Failed> {
@@ -215,7 +211,7 @@ impl Actor {
 
     /// What people have said of the tree before the session was opened.
     async fn read_pins(&mut self) -> Result<(), Failed> {
-        match pins_of_session(&self.name, &*self.services.store).await {
+        match self.keeping.pins(&self.name).await {
             Ok(places) if places.is_empty() => Ok(()),
             Ok(places) => self.handle(Input::Commented { places, threads: Vec::new() }),
             Err(error) => {
@@ -254,7 +250,7 @@ impl Actor {
     }
 
     fn requested(&mut self, request: Request) -> Option<Input> {
-        self.patience = IDLE;
+        self.patience = self.keeping.patience();
         Some(match request {
             Request::Join(outbox, entrant, answer) => {
                 let client = ClientId(self.next_client);
@@ -316,6 +312,14 @@ impl Actor {
                 Input::GoOn
             }
             Request::StoreFailed(reason) => Input::JournalFailed(reason),
+            Request::Person(number, asking, answer) => {
+                let _ = answer.send((self.session.person(number), self.session.called(&asking)));
+                return None;
+            }
+            Request::Register(answer) => {
+                let _ = answer.send(self.session.register().clone());
+                return None;
+            }
             Request::People(answer) => {
                 let _ = answer.send(self.session.people().cloned().collect());
                 return None;
@@ -409,11 +413,11 @@ impl Actor {
 
     fn journal(&mut self, entries: Vec<JournalEntry>) {
         let Some(last) = entries.last().map(|entry| entry.number) else { return };
-        let (store, lease, task) = (Arc::clone(&self.services.store), self.lease.clone(), self.task.clone());
+        let (keeping, task) = (self.keeping.clone(), self.task.clone());
         let session = self.name.clone();
         self.under_way += 1;
         tokio::spawn(async move {
-            let _ = task.send(match store.append(&lease, SIMULATION_VERSION, &entries).await {
+            let _ = task.send(match keeping.append(&entries).await {
                 Ok(()) => ActorTask::Journaled(last),
                 Err(error) => {
                     tracing::error!(session, %error, "the journal could not be written");
@@ -464,13 +468,12 @@ impl Actor {
     }
 
     fn keep_snapshot(&mut self, through: u64, bytes: Vec<u8>) {
-        let (store, lease, task) = (Arc::clone(&self.services.store), self.lease.clone(), self.task.clone());
+        let (keeping, task) = (self.keeping.clone(), self.task.clone());
         let session = self.name.clone();
         let metamers = self.session.metamers();
-        let snapshot = NewSnapshot { through, simulation_version: SIMULATION_VERSION, bytes, metamers };
         self.under_way += 1;
         tokio::spawn(async move {
-            let _ = task.send(match store.keep_snapshot(&lease, snapshot).await {
+            let _ = task.send(match keeping.keep_snapshot(through, bytes, metamers).await {
                 Ok(()) => ActorTask::SnapshotKept(through),
                 Err(error) => {
                     tracing::error!(session, %error, "a snapshot could not be kept; the journal holds what was done");
@@ -487,12 +490,12 @@ impl Actor {
     }
 
     fn forget_tries(&mut self) {
-        let (store, lease, task) = (Arc::clone(&self.services.store), self.lease.clone(), self.task.clone());
+        let (keeping, task) = (self.keeping.clone(), self.task.clone());
         let session = self.name.clone();
         self.under_way += 1;
         tokio::spawn(async move {
             // If this fails, it waits for an owner's word the sooner.
-            if let Err(error) = store.forget_tries(&lease).await {
+            if let Err(error) = keeping.forget_tries().await {
                 tracing::warn!(session, %error, "that the session lives is not kept");
             }
             let _ = task.send(ActorTask::Forgotten);
@@ -500,12 +503,12 @@ impl Actor {
     }
 
     fn forget_notices(&mut self) {
-        let (store, lease, task) = (Arc::clone(&self.services.store), self.lease.clone(), self.task.clone());
+        let (keeping, task) = (self.keeping.clone(), self.task.clone());
         let session = self.name.clone();
         self.under_way += 1;
         tokio::spawn(async move {
             // If this fails, clients are notified once more.
-            if let Err(error) = store.forget_notices(&lease).await {
+            if let Err(error) = keeping.forget_notices().await {
                 tracing::warn!(session, %error, "notices that were delivered could not be forgotten");
             }
             let _ = task.send(ActorTask::Forgotten);

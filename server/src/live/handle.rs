@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use espalier_proto::{Command, Mesh, Pause, PlacedObstacle, Problem, access::Role, comment::Pin};
-use espalier_session::{Anchor, ClientId, Entrant, Place, Principal, ReadDocument};
+use espalier_session::{Anchor, ClientId, Entrant, Place, Principal, ReadDocument, Register};
 use espalier_settings::ParameterValues;
 use tokio::sync::{mpsc, oneshot};
 use tokio_util::sync::CancellationToken;
@@ -31,6 +31,10 @@ pub(super) enum Request {
     Parameters(oneshot::Sender<ParameterValues>),
     Mesh(u32, oneshot::Sender<Option<Arc<Mesh>>>),
     People(oneshot::Sender<Vec<Principal>>),
+    /// Everybody who has been here.
+    Register(oneshot::Sender<Register>),
+    /// Whoever has a number in the session, and what whoever asks is called there.
+    Person(u32, Principal, oneshot::Sender<PersonHere>),
     /// The place of a row.
     Anchor(u32, oneshot::Sender<Option<Anchor>>),
     /// What people say of the tree has changed: all that is pinned, and the threads.
@@ -43,6 +47,9 @@ pub(super) enum Request {
     /// Nothing can be kept any more, for this reason.
     StoreFailed(String),
 }
+
+/// Whoever has a number, if they are here; and the name of whoever asks, if they are and have one.
+pub type PersonHere = (Option<Entrant>, Option<Arc<str>>);
 
 /// What became of a command from outside: the obstacle it placed, if it placed one.
 pub type Outcome = Result<Option<PlacedObstacle>, Problem>;
@@ -132,6 +139,20 @@ impl SessionHandle {
     pub async fn people(&self) -> Result<Vec<Principal>, Ended> {
         let (answer, answered) = oneshot::channel();
         self.send(Request::People(answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// Everybody who has been here, and what they are called.
+    pub async fn register(&self) -> Result<Register, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Register(answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// Whoever has a number here, and what whoever asks is called here.
+    pub(super) async fn person(&self, number: u32, asking: Principal) -> Result<PersonHere, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Person(number, asking, answer)).await?;
         answered.await.map_err(|_| Ended)
     }
 

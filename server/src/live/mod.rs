@@ -2,6 +2,7 @@
 
 mod actor;
 mod handle;
+mod keeping;
 mod leaving;
 mod loading;
 mod outbox;

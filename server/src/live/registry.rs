@@ -18,7 +18,8 @@ use tokio_util::{sync::CancellationToken, task::TaskTracker};
 
 use super::{
     actor::{Actor, Services},
-    handle::{SessionFigures, SessionHandle},
+    handle::{PersonHere, SessionFigures, SessionHandle},
+    keeping::Keeping,
     loading::{Opening, Progress},
     restoring::{self, OpenError, Opened},
 };
@@ -139,6 +140,15 @@ impl Sessions {
         }
     }
 
+    /// Runs a copy of a session that nobody else finds and of which nothing is kept. It ends when nobody looks on.
+    pub fn play(&self, name: &str, session: Session, room: Growing) -> SessionHandle {
+        let Inner { services, tasks, .. } = &*self.0;
+        let opened = Opened { session, room, is_counted: false };
+        let (actor, handle) = Actor::new(name.to_owned(), opened, Keeping::Nowhere, services.clone());
+        tasks.spawn(actor.run());
+        handle
+    }
+
     /// Who is in the session of this name; nobody where it is not in memory.
     pub async fn people(&self, name: &str) -> Vec<Principal> {
         let slot = self.0.slots().get(name).cloned();
@@ -153,6 +163,13 @@ impl Sessions {
         let slot = self.0.slots().get(name).cloned();
         let session = slot.as_ref().and_then(|slot| slot.session.get())?;
         timeout(LOOKING, session.look()).await.ok().and_then(Result::ok)
+    }
+
+    /// Whoever has this number in a session, and what whoever asks is called there; nothing where it is not in memory.
+    pub async fn person(&self, name: &str, number: u32, asking: &Principal) -> Option<PersonHere> {
+        let slot = self.0.slots().get(name).cloned();
+        let session = slot.as_ref().and_then(|slot| slot.session.get())?;
+        session.person(number, asking.clone()).await.ok()
     }
 
     /// Tells a session, where it is in memory, that what people say of its tree has changed.
@@ -242,7 +259,8 @@ impl Sessions {
     /// Runs a session in this slot.
     fn start(&self, name: &str, slot: &Arc<Slot>, opened: Opened, lease: Lease) -> SessionHandle {
         let Inner { services, tasks, .. } = &*self.0;
-        let (actor, handle) = Actor::new(name.to_owned(), opened, lease, services.clone());
+        let keeping = Keeping::Stored(Arc::clone(&services.store), lease);
+        let (actor, handle) = Actor::new(name.to_owned(), opened, keeping, services.clone());
         let place = Place {
             sessions: Arc::downgrade(&self.0),
             name: name.to_owned(),

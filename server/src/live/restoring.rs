@@ -3,7 +3,7 @@
 use espalier_proto::{Notice, Problem, Reason};
 use espalier_session::{DocumentError, JournalEntry, RestoreError, Session, Tail};
 
-use super::{actor::Services, loading::Progress};
+use super::{actor::Services, handle::Ended, loading::Progress, readers::Unread};
 use crate::{
     SIMULATION_VERSION,
     memory::{self, Full, Growing, Use},
@@ -35,6 +35,9 @@ pub enum OpenError {
     /// There is no memory for it.
     #[error("The server has no memory left to open this now; it is tried again.")]
     Memory(#[from] Full),
+    /// It has left the memory meanwhile.
+    #[error("The session has just ended; it is tried again.")]
+    Ended,
     /// The server is stopping.
     #[error("The server is stopping.")]
     Stopping,
@@ -62,6 +65,7 @@ impl OpenError {
             Self::Damaged(_) | Self::Restore(_) | Self::Panicked(_) => Reason::SessionDamaged,
             Self::Later(_) => Reason::NewerProgram,
             Self::Memory(_) => Reason::MemoryFull,
+            Self::Ended => Reason::SessionEnded,
             Self::Stopping => Reason::Stopping,
         };
         Problem::new(reason, self.to_string())
@@ -69,7 +73,7 @@ impl OpenError {
 
     /// Whether asking again is of no use.
     pub fn is_final(&self) -> bool {
-        !matches!(self, Self::Store(_) | Self::Memory(_) | Self::Stopping)
+        !matches!(self, Self::Store(_) | Self::Memory(_) | Self::Ended | Self::Stopping)
     }
 }
 
@@ -79,6 +83,21 @@ impl From<RestoreError> for OpenError {
             RestoreError::Document(DocumentError::Later(what)) => Self::Later(what),
             error => Self::Restore(error),
         }
+    }
+}
+
+impl From<Unread> for OpenError {
+    fn from(error: Unread) -> Self {
+        match error {
+            Unread::Ended => Self::Ended,
+            Unread::Memory(full) => Self::Memory(full),
+        }
+    }
+}
+
+impl From<Ended> for OpenError {
+    fn from(Ended: Ended) -> Self {
+        Self::Ended
     }
 }
 

@@ -50,9 +50,9 @@ impl Grants {
     }
 }
 
-/// Connects a socket with a session for somebody until one of them ends; or until they may not go on, for the
-/// reason that `let_out` gives, which also tells what they may do when that changes.
-pub async fn serve<LetOut: Future<Output = String>>(
+/// Connects a socket with a session for somebody until one of them ends; or until they may not go on, with the code and
+/// the reason that `let_out` gives, which also tells what they may do when that changes.
+pub async fn serve<LetOut: Future<Output = (CloseCode, String)>>(
     socket: WebSocket,
     session: SessionHandle,
     entrant: Entrant,
@@ -69,8 +69,8 @@ pub async fn serve<LetOut: Future<Output = String>>(
         let mut writing = pin!(write(sink, outgoings, &session, client));
         let let_out = let_out(Grants { session: session.clone(), client });
         let watching = async {
-            let sentence = let_out.await;
-            closing.decide(Farewell { code: CloseCode::CannotOpen, sentence });
+            let (code, sentence) = let_out.await;
+            closing.decide(Farewell { code, sentence });
             pending::<()>().await;
         };
         tokio::select! {

@@ -9,10 +9,11 @@ use espalier_session::JournalEntry;
 use super::MemoryStore;
 use super::{
     Answer, AnswerKey, Answering, Answers, Audit, Collection, CollectionChange, CommentChange, Comments,
-    Commits, Damage, Event, Finding, Group, Groups, Lease, Library, Locks, MostAnswers, NewComment,
-    NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes, Picture, SessionLine,
-    SessionQuery, SessionTree, SqliteStore, Store, StoreError, StoredSession, StoredThread, StoredTree,
-    StoredVersion, TreeChange, TreeDocument, TreeQuery, User, UserChange, Users, Visits,
+    Commits, Damage, Event, Finding, Group, Groups, Heir, Lease, Library, Locks, MostAnswers, NewComment,
+    NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes, Picture, Removal, Room,
+    SessionLine, SessionQuery, SessionTree, SqliteStore, Standing, Standings, Store, StoreError,
+    StoredSession, StoredThread, StoredTree, StoredVersion, TreeChange, TreeDocument, TreeQuery, User,
+    UserChange, Users, Visits,
 };
 use crate::access::SecretHash;
 
@@ -23,7 +24,7 @@ pub enum AnyStore {
     Sqlite(SqliteStore),
     /// The model, for tests.
     #[cfg(test)]
-    Memory(MemoryStore),
+    Memory(Box<MemoryStore>),
 }
 
 /// Hands a call on to the store there is.
@@ -332,9 +333,31 @@ impl Locks for AnyStore {
     async fn lock_of(&self, tree: &str) -> Result<Option<String>, StoreError> {
         delegate!(self.lock_of(tree))
     }
+}
 
-    async fn lock_of_session(&self, session: &str) -> Result<Option<String>, StoreError> {
-        delegate!(self.lock_of_session(session))
+impl Standings for AnyStore {
+    async fn keep_out(&self, removal: Removal, now: &str) -> Result<(), StoreError> {
+        delegate!(self.keep_out(removal, now))
+    }
+
+    async fn removals(&self, room: Room<'_>, now: &str) -> Result<Vec<Removal>, StoreError> {
+        delegate!(self.removals(room, now))
+    }
+
+    async fn let_back(&self, id: &str) -> Result<bool, StoreError> {
+        delegate!(self.let_back(id))
+    }
+
+    async fn hand_over(&self, tree: &str, to: Option<Heir>) -> Result<bool, StoreError> {
+        delegate!(self.hand_over(tree, to))
+    }
+
+    async fn heir_of(&self, tree: &str) -> Result<Option<Heir>, StoreError> {
+        delegate!(self.heir_of(tree))
+    }
+
+    async fn standing(&self, room: Room<'_>, person: &str, now: &str) -> Result<Standing, StoreError> {
+        delegate!(self.standing(room, person, now))
     }
 }
 

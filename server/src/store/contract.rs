@@ -8,6 +8,7 @@ mod groups;
 mod library;
 mod locks;
 mod passes;
+mod standings;
 mod users;
 mod visits;
 
@@ -41,6 +42,9 @@ use self::passes::{
     a_pass_for_a_tree_goes_with_it, a_pass_may_allow_something_else, one_of_those_who_take_a_pass_has_it,
     passes_are_listed_by_kind, passes_let_in_until_they_expire,
 };
+use self::standings::{
+    a_tree_is_handed_over_with_its_sessions, who_is_kept_out_of_a_tree_is_kept_out_of_its_sessions,
+};
 use self::users::{a_login_has_the_role_of_its_user, a_name_is_one_person};
 use self::visits::{
     pages_hold_each_session_once, sessions_are_listed_to_who_was_in_them, sessions_are_taken_off_lists,
@@ -48,12 +52,12 @@ use self::visits::{
 };
 use super::{
     Answers, Audit, Comments, Damage, Finding, Groups, Lease, Library, Locks, NewSession, NewSnapshot,
-    Passes, Store, StoreError, StoredSession, Users, Visits,
+    Passes, Standings, Store, StoreError, StoredSession, Users, Visits,
 };
 
 /// A store whose rows a test can damage.
 pub trait Breakable:
-    Store + Library + Finding + Passes + Users + Groups + Audit + Answers + Comments + Locks + Visits
+    Store + Library + Finding + Passes + Users + Groups + Audit + Answers + Comments + Locks + Standings + Visits
 {
     /// Changes a command in the row of the journal that begins with an entry.
     async fn break_journal(&self, session: &str, first: u64);
@@ -145,6 +149,8 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         sessions_are_taken_off_lists,
         pages_hold_each_session_once,
         sessions_know_their_size,
+        who_is_kept_out_of_a_tree_is_kept_out_of_its_sessions,
+        a_tree_is_handed_over_with_its_sessions,
         a_closed_store_takes_nothing,
     );
 }

@@ -9,7 +9,4 @@ pub trait Locks {
 
     /// Who has locked a tree, if anybody has.
     async fn lock_of(&self, tree: &str) -> Result<Option<String>, StoreError>;
-
-    /// Who has locked the tree that a session is of.
-    async fn lock_of_session(&self, session: &str) -> Result<Option<String>, StoreError>;
 }

@@ -8,6 +8,7 @@ mod groups;
 mod library;
 mod locks;
 mod passes;
+mod standings;
 mod users;
 mod visits;
 
@@ -21,8 +22,8 @@ use espalier_proto::Notice;
 use espalier_session::JournalEntry;
 
 use super::{
-    Collection, Damage, Group, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, Noted, Pass, Store,
-    StoreError, StoredSession, User,
+    Collection, Damage, Group, Heir, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, Noted, Pass, Removal,
+    Store, StoreError, StoredSession, User,
     lease::Leases,
     seal::{Found, JournalRow, SessionRow, SnapshotRow},
 };
@@ -51,6 +52,9 @@ struct Kept {
     last_event: u64,
     /// Who has locked which tree.
     locks: BTreeMap<String, String>,
+    removals: Vec<Removal>,
+    /// To whom trees were handed over.
+    heirs: BTreeMap<String, Heir>,
     /// By their trees and numbers.
     threads: BTreeMap<String, BTreeMap<u32, comments::Thread>>,
     /// By their folded names.

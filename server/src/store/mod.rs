@@ -1,6 +1,6 @@
 //! What is kept: sessions with their journals and snapshots, and the library of trees.
 //!
-//! [`Store`], [`Library`], [`Finding`], [`Passes`], [`Users`], [`Groups`], [`Audit`], [`Answers`], [`Comments`], [`Locks`] and [`Visits`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
+//! [`Store`], [`Library`], [`Finding`], [`Passes`], [`Users`], [`Groups`], [`Audit`], [`Answers`], [`Comments`], [`Locks`], [`Standings`] and [`Visits`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
 //! does, the model in `memory.rs` the second. The rest of the server knows [`AnyStore`] alone.
 
 mod answers;
@@ -20,6 +20,7 @@ mod memory;
 mod passes;
 mod seal;
 mod sqlite;
+mod standings;
 mod users;
 mod visits;
 
@@ -47,6 +48,7 @@ pub use self::{
     locks::Locks,
     passes::{Pass, PassKind, Passes},
     sqlite::{CareError, LibraryFile, OpenError, Report, SqliteStore, backup, check, restore},
+    standings::{Heir, Removal, Removed, Room, Standing, Standings},
     users::{User, UserChange, Users},
     visits::{LineTree, SessionLine, SessionPlace, SessionQuery, Visits},
 };

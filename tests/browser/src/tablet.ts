@@ -85,6 +85,8 @@ export class Tablet extends Glass {
     const page = await context.newPage();
     const tablet = new Tablet(context, page, await context.newCDPSession(page), darkroom, screen);
     await page.goto(address);
+    // An invitation leads to where it lets in.
+    if (address.includes("/pair#")) await page.waitForURL(/\/s\//);
     await tablet.untilReady();
     return tablet;
   }

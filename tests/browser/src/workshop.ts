@@ -53,8 +53,8 @@ export class Workshop<At extends RunningServer = RunningServer> {
   }
 
   /** The same with a server of the file's own, for tests that stop it, or that want its library for themselves. */
-  static withItsOwnServer(): Workshop<Server> {
-    const server = new Server();
+  static withItsOwnServer(options: readonly string[] = []): Workshop<Server> {
+    const server = new Server(options);
     beforeAll(() => server.start());
     afterAll(() => server.stop());
     const workshop = Workshop.#at(server);

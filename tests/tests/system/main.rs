@@ -23,6 +23,7 @@ mod obstacles;
 mod people;
 mod presence;
 mod python;
+mod removing;
 mod shaping;
 mod shared_tree;
 mod slow_clients;

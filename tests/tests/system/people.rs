@@ -40,7 +40,7 @@ pub(super) fn printed_by(server: &Server) -> String {
 }
 
 /// The secret of the first invitation in what was printed.
-fn secret_in(printed: &str) -> &str {
+pub(super) fn secret_in(printed: &str) -> &str {
     let (_, rest) = printed.split_once("/pair#").unwrap_or_else(|| panic!("no link in {printed}"));
     rest.split_whitespace().next().expect("a secret stands behind the hash")
 }
@@ -61,7 +61,7 @@ fn redeem(server: &Server, secret: &str) -> Answer {
 }
 
 /// The cookie of whoever has redeemed an invitation, as a header.
-fn cookie(server: &Server, secret: &str) -> String {
+pub(super) fn cookie(server: &Server, secret: &str) -> String {
     let answer = redeem(server, secret);
     assert_eq!(answer.status, 200, "{}", answer.text());
     let cookie = answer.header("set-cookie").expect("a device has a cookie");

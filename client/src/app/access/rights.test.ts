@@ -36,6 +36,26 @@ it.each([
   expect(rightsOf(new Rights(store(kept))), "the next page knows it from the start").toEqual(may);
 });
 
+it("AC18: what one may with the open tree is told apart from what one may elsewhere", async () => {
+  vi.stubGlobal("fetch", async () => new Response(JSON.stringify({ role: "editor", way: "login" })));
+  const kept = {};
+  const rights = new Rights(store(kept));
+  await rights.ask();
+  expect(rights.mayGovern).toBe(false);
+  rights.grant("owner");
+  await rights.ask();
+  expect([rights.mayGovern, rights.mayShare, rights.mayDelete], "of other trees no more than before").toEqual([
+    true,
+    false,
+    false,
+  ]);
+  expect(new Rights(store(kept)).mayGovern, "nor on the next page").toBe(false);
+  rights.grant("commenter");
+  expect([rights.mayComment, rights.mayChange.peek(), rights.mayBegin]).toEqual([true, false, true]);
+  rights.leave();
+  expect([rights.mayChange.peek(), rights.mayGovern]).toEqual([true, false]);
+});
+
 it("AC8: what was known stays where the server is silent", async () => {
   vi.stubGlobal("fetch", () => Promise.reject(new Error("no network")));
   const rights = new Rights(store({ "espalier.me": '{"role":"viewer","way":"device"}' }));

@@ -1,4 +1,4 @@
-import { computed, type Signal } from "@preact/signals";
+import { computed, type Signal, signal } from "@preact/signals";
 import { LEAST_ROLES, type Me, ROLES, type Role } from "../../wire/generated";
 import { kept } from "../page/settings";
 import { ask } from "../requests/request";
@@ -11,8 +11,10 @@ function may(role: Role, action: keyof typeof LEAST_ROLES): boolean {
 /** What whoever is at this page may do (`AC8`). Until the server has said it, it is what it said last time. */
 export class Rights {
   readonly me: Signal<Me | null>;
-  /** Whether they may draw, save, and whatever else changes trees. */
-  readonly mayChange = computed(() => may(this.me.value?.role ?? "owner", "EditSession"));
+  /** What they may do with the tree that is open, where its session has said so (`AU3`). */
+  readonly here = signal<Role | null>(null);
+  /** Whether they may draw, save, and whatever else changes the tree that is open. */
+  readonly mayChange = computed(() => may(this.#here, "EditSession"));
   /** The only tree they may see; null where the library is open to them. */
   readonly onlyTree = computed(() => this.me.value?.tree ?? null);
   /** The question on its way. */
@@ -24,42 +26,61 @@ export class Rights {
 
   /** Whether they may say what they think of trees. */
   get mayComment(): boolean {
-    return may(this.me.value?.role ?? "owner", "Comment");
+    return may(this.#here, "Comment");
   }
 
   /** Whether they may begin trees, and add to the library. */
   get mayBegin(): boolean {
-    return this.mayChange.value && this.onlyTree.value === null;
+    return may(this.#everywhere, "SaveTree") && this.onlyTree.value === null;
   }
 
   /** Whether they may delete trees, and take that back. */
   get mayDelete(): boolean {
-    return may(this.me.value?.role ?? "owner", "DeleteTree") && this.onlyTree.value === null;
+    return may(this.#everywhere, "DeleteTree") && this.onlyTree.value === null;
   }
 
-  /** Whether they may let others in for one tree. */
+  /** Whether they may let others in for any one tree. */
   get mayShare(): boolean {
-    return may(this.me.value?.role ?? "owner", "ShareTree") && this.onlyTree.value === null;
+    return may(this.#everywhere, "ShareTree") && this.onlyTree.value === null;
+  }
+
+  /** Whether they say who comes to the tree that is open, and who owns it. */
+  get mayGovern(): boolean {
+    return may(this.#here, "ShareTree");
   }
 
   /** Whether they may let go on what the server did not outlive (`OP5`). */
   get mayResume(): boolean {
-    return may(this.me.value?.role ?? "owner", "ResumeSession");
+    return may(this.#here, "ResumeSession");
   }
 
   /** Whether they may see how the server is (`SV2`). */
   get maySeeServer(): boolean {
-    return may(this.me.value?.role ?? "owner", "SeeServer") && this.onlyTree.value === null;
+    return may(this.#everywhere, "SeeServer") && this.onlyTree.value === null;
   }
 
   /** Whether they may have trees grown into files. */
   get mayOrder(): boolean {
-    return may(this.me.value?.role ?? "owner", "GrowTrees") && this.onlyTree.value === null;
+    return may(this.#everywhere, "GrowTrees") && this.onlyTree.value === null;
   }
 
-  /** They may do what this role may, from now on. */
+  /** They may do with the open tree what this role may, from now on; perhaps because they may it everywhere. */
   grant(role: Role): void {
-    this.me.value = { way: "machine", ...this.me.peek(), role };
+    this.here.value = role;
+    void this.ask().catch(() => {});
+  }
+
+  /** Another tree is opened, of which nothing is said yet, or in which everybody does the same. */
+  leave(role: Role | null = null): void {
+    this.here.value = role;
+  }
+
+  get #everywhere(): Role {
+    return this.me.value?.role ?? "owner";
+  }
+
+  get #here(): Role {
+    return this.here.value ?? this.#everywhere;
   }
 
   /** Asks the server, once for all who want to know; fails where it does not say, and what was known before stays. */

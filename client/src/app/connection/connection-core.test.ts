@@ -168,6 +168,17 @@ describe("handshake", () => {
     expect([core.phase, core.stopReason, core.effects()]).toEqual(["stopped", "cannot-open", []]);
   });
 
+  it("AC17: who was removed does not come back by themselves, and hears by whom", () => {
+    const { core, connect } = setUp();
+    connect();
+    core.effects();
+    core.closed(1, 4005, "removed: Ann");
+    expect(core.effects()).toEqual([{ kind: "cannot-open", sentence: "removed: Ann" }]);
+    core.wake(2);
+    core.tick(1e6);
+    expect([core.phase, core.effects()]).toEqual(["stopped", []]);
+  });
+
   it("OP3: a notice is handed on", () => {
     const { core, connect } = setUp();
     connect();

@@ -270,6 +270,7 @@ export class ConnectionCore {
         this.#stop("unknown-session");
         break;
       case CloseCode.CannotOpen:
+      case CloseCode.Removed:
         this.#stop("cannot-open");
         this.#effects.push({ kind: "cannot-open", sentence });
         break;

@@ -18,8 +18,12 @@ export async function findSession(session: string): Promise<SessionCreated | nul
   }
 }
 
-/** Where a session's socket is. */
-export function socketAddress(session: string, page: { protocol: string; host: string }): string {
+/** Where a session's socket is, or that of a copy to play it in (`RP1`). */
+export function socketAddress(
+  session: string,
+  page: { protocol: string; host: string },
+  door: "socket" | "replay" = "socket",
+): string {
   const scheme = page.protocol === "https:" ? "wss" : "ws";
-  return `${scheme}://${page.host}/api/v1/sessions/${encodeURIComponent(session)}/socket`;
+  return `${scheme}://${page.host}/api/v1/sessions/${encodeURIComponent(session)}/${door}`;
 }

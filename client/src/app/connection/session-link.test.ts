@@ -255,6 +255,43 @@ describe("another session", () => {
   });
 });
 
+describe("a replay", () => {
+  it("RP1: is a copy of the session on a socket of its own, which leaves nothing behind", async () => {
+    serveSessions([], []);
+    const { link, newest, sockets, lastSession, store, calls } = setUp("/s/oak");
+    await link.start();
+    newest().welcome();
+    link.replay(true);
+    expect(sockets.at(-1)!.address).toBe("wss://trees/api/v1/sessions/oak/replay");
+    expect([link.replaying.value, link.session.value, lastSession.value]).toEqual([true, "oak", "oak"]);
+    newest().welcome();
+    link.submit({ kind: "go_to", step: 0 });
+    link.leaving();
+    const after = setUp("/s/oak", { store });
+    await after.link.start();
+    after.newest().welcome();
+    expect(after.newest().commands, "nothing of it goes to the session").toEqual([]);
+    link.replay(false);
+    expect(sockets.at(-1)!.address).toBe("wss://trees/api/v1/sessions/oak/socket");
+    newest().welcome();
+    expect([link.replaying.value, newest().commands]).toEqual([false, []]);
+    expect(calls).not.toContain("parted");
+  });
+
+  it("CM1: what was unsent before it goes out after it", async () => {
+    serveSessions([], []);
+    const { link, newest } = setUp("/s/oak");
+    await link.start();
+    link.submit({ kind: "undo" });
+    link.replay(true);
+    newest().welcome();
+    expect(newest().commands).toEqual([]);
+    link.replay(false);
+    newest().welcome();
+    expect(newest().commands).toEqual([1]);
+  });
+});
+
 describe("a page that goes", () => {
   it("CM1: leaves what is unsent to the page after it", async () => {
     const before = setUp("/s/oak");

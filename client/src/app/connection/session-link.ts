@@ -22,11 +22,19 @@ const RETRY_START = 2000;
 /** So many attempts at a first connection are quietly made. */
 const SILENT_AFTER = 2;
 
+/** How a session is opened. */
+export interface Opening {
+  /** Whether it is a copy in which it is played (`RP1`). */
+  readonly isReplay: boolean;
+  /** Whether the page was in this very session before. */
+  readonly isSame: boolean;
+}
+
 /** The events of a session: those of its connection and its own. */
 export interface SessionEvents
   extends Omit<ConnectionEvents<AsideServerFrame>, "phase" | "commands" | "reload" | "rows" | "cannotOpen"> {
-  /** Another session is opened: nothing of the one before counts any more. */
-  opened(): void;
+  /** Another session is opened, or this one again, to play it or after that: nothing of the one before counts any more. */
+  opened(how: Opening): void;
   rows(): void;
   /** All commands up to a number are answered. */
   settled(settled: number): void;
@@ -80,6 +88,8 @@ export class SessionLink implements PageEvents {
   readonly loading = signal<number | null>(null);
   readonly sent = signal(0);
   readonly settled = signal(0);
+  /** Whether the page is in a copy of the session, to play it from its beginning. */
+  readonly replaying = signal(false);
   #options: SessionLinkOptions;
   #connection: Connection<Frame, AsideServerFrame> | null = null;
   #parted = new PartedSessions();
@@ -135,6 +145,14 @@ export class SessionLink implements PageEvents {
       return null;
     } finally {
       this.#changing = false;
+    }
+  }
+
+  /** Plays the design of this session in a copy that nobody else sees, or comes back from there. */
+  replay(isOn: boolean): void {
+    const session = this.session.peek();
+    if (session !== null && this.replaying.peek() !== isOn) {
+      this.#open(session, isOn);
     }
   }
 
@@ -244,7 +262,7 @@ export class SessionLink implements PageEvents {
     const { events, page } = this.#options;
     events.leaving();
     const session = this.session.peek();
-    if (session !== null && this.#connection) {
+    if (session !== null && this.#connection && !this.replaying.peek()) {
       leaveRecord(page.store, session, this.#connection.record());
     }
     this.#parted.leave(page.store);
@@ -269,20 +287,22 @@ export class SessionLink implements PageEvents {
     }
   }
 
-  #open(session: string): void {
+  #open(session: string, isReplay = false): void {
     const { page, rows, hindrance, dark, lastSession, events } = this.#options;
     this.leave();
     batch(() => {
+      const isSame = this.session.peek() === session;
+      this.replaying.value = isReplay;
       this.session.value = session;
       lastSession.value = session;
       // Another session does not make a browser draw that cannot.
       hindrance.value = dark() ? "no-webgl" : null;
-      events.opened();
+      events.opened({ isReplay, isSame });
     });
     this.#parted.come(page.store);
-    const parted = this.#parted.take(session);
-    const record = takeRecord(page.store, session) ?? parted;
-    const address = socketAddress(session, page.location);
+    // What was done in the session itself goes there, and nowhere else.
+    const record = isReplay ? null : (takeRecord(page.store, session) ?? this.#parted.take(session));
+    const address = socketAddress(session, page.location, isReplay ? "replay" : "socket");
     this.#connection = new Connection<Frame, AsideServerFrame>({
       openSocket: () => page.openSocket(address),
       clock: page.clock,
@@ -348,7 +368,13 @@ export class SessionLink implements PageEvents {
   #part(): void {
     const [session, connection] = [this.session.peek(), this.#connection];
     const gone = this.#options.hindrance.peek() === "unknown-session";
-    if (session === null || connection === null || gone || connection.settled >= connection.next - 1) {
+    if (
+      session === null ||
+      connection === null ||
+      gone ||
+      this.replaying.peek() ||
+      connection.settled >= connection.next - 1
+    ) {
       return;
     }
     this.#parted.keep(session, connection.record());

@@ -77,10 +77,15 @@ export function refusal(status: number, json: unknown): RequestFailed {
   return new RequestFailed(status, asProblem(json) ?? unexplained(status));
 }
 
-/** What the reason of a close says (`HS6`): a reason, a colon and a sentence. */
+/** What the reason of a close says (`HS6`): a reason, a colon and a sentence, or who did it (`AC17`). */
 export function turnedAway(text: string): RequestFailed {
   const [, reason, message = text] = /^([a-z-]+): ([\s\S]*)$/.exec(text) ?? [];
-  return new RequestFailed(0, { code: "refused", message, ...(reason && { reason: reason as Reason }) });
+  return new RequestFailed(0, {
+    code: "refused",
+    message,
+    cause: message,
+    ...(reason && { reason: reason as Reason }),
+  });
 }
 
 /** What no answer at all says. */

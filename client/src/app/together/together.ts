@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
 import type { OpenedFrame } from "../../wire/envelope";
-import type { ServerMessage } from "../../wire/generated";
+import type { Author, ServerMessage } from "../../wire/generated";
 
 export type PeopleHere = Extract<ServerMessage, { type: "people" }>;
 export type Gathered = Extract<ServerMessage, { type: "gathered" }>;
@@ -19,6 +19,8 @@ export interface Listener {
 export class Together {
   /** Who is here, as was told last; null while nobody knows. */
   readonly people = signal<PeopleHere | null>(null);
+  /** Who did what a replay shows, as it says. */
+  readonly authors = signal<readonly Author[]>([]);
   /** The device whose camera this page follows. */
   readonly followed = signal<number | null>(null);
   /** How often somebody has brought this page to their view. */
@@ -28,6 +30,7 @@ export class Together {
   /** What was told may be true no longer. */
   forget(): void {
     this.people.value = null;
+    this.authors.value = [];
     this.followed.value = null;
   }
 }

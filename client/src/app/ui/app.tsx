@@ -28,6 +28,7 @@ import {
   PANELS,
   PREDICTION,
   RECENT,
+  REPLAY,
   SHEETS,
   SLOWNESS,
   SUN,
@@ -124,7 +125,13 @@ function Workspace({ studio }: { studio: Studio }) {
       {CommentPins && hasComments(studio) && <CommentPins studio={studio} />}
       {company && <company.Company studio={studio} />}
       {VainMark && <VainMark studio={studio} />}
-      {studio.layout.bare.value ? <ShowAll studio={studio} /> : <Bars studio={studio} />}
+      {studio.link.replaying.value ? (
+        <ReplayBars studio={studio} />
+      ) : studio.layout.bare.value ? (
+        <ShowAll studio={studio} />
+      ) : (
+        <Bars studio={studio} />
+      )}
       {SunHandle && <SunHandle studio={studio} />}
       {prediction && <prediction.PredictionBar studio={studio} />}
       <HindranceCard studio={studio} />
@@ -207,6 +214,24 @@ function Bars({ studio }: { studio: Studio }) {
         {company && <company.CompanyChips studio={studio} />}
       </div>
       {DrawModeLegend && <DrawModeLegend studio={studio} />}
+    </>
+  );
+}
+
+/** What stands there while a design is played. */
+function ReplayBars({ studio }: { studio: Studio }) {
+  const ReplayBar = usePart(studio, REPLAY, true, true);
+  const Chips = usePart(studio, CHIPS, true);
+  return (
+    <>
+      <Status studio={studio} />
+      <div class="foot">
+        <RotationStrip studio={studio} />
+        {ReplayBar && <ReplayBar studio={studio} />}
+      </div>
+      <div class="chips" role="status">
+        {Chips && <Chips studio={studio} />}
+      </div>
     </>
   );
 }

@@ -125,6 +125,8 @@ export const DRAW_MODE_LEGEND = new Part(async () => (await import("./bars/draw-
 /** The line of time, once anything was done. */
 export const TIMELINE = new Part(async () => (await import("./timeline/timeline-strip")).TimelineStrip);
 
+export const REPLAY = new Part(async () => (await import("./replay/replay-bar")).ReplayBar);
+
 export const SYMMETRY = new Part(async () => (await import("./overlays/symmetry-mark")).SymmetryMark);
 
 export const VAIN = new Part(async () => (await import("./overlays/vain-mark")).VainMark);

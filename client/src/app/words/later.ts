@@ -17,6 +17,7 @@ import { LIBRARY } from "./library";
 import { LINKS } from "./links";
 import { PARAMETERS } from "./parameters";
 import { PROBLEMS, REFUSALS } from "./problems";
+import { REPLAY } from "./replay";
 import { SCENE } from "./scene";
 import { SERVER } from "./server";
 import { SETTINGS } from "./settings";
@@ -46,6 +47,7 @@ export const LATER = {
   ...SERVER,
   ...PROBLEMS,
   ...REFUSALS,
+  ...REPLAY,
   ...SCENE,
   ...SHEETS,
   ...ENTRY,

@@ -205,6 +205,14 @@ export const REFUSALS = {
     "The owner has locked this tree: it can be looked at and commented on.",
     "Dieser Baum ist gesperrt, wer ihn besitzt, hat das so gewollt: Du kannst ihn ansehen und kommentieren.",
   ],
+  "problems.removed": [
+    "{cause} has removed you from this tree for some hours, up to twelve. Whoever owns it can let you back before. Your other trees are as they were.",
+    "{cause} hat dich für einige Stunden, höchstens zwölf, von diesem Baum entfernt. Wer ihn besitzt, kann dich früher zurückholen. Deine anderen Bäume sind wie zuvor.",
+  ],
+  "problems.removed-guest": [
+    "{cause} has removed you from this tree. Your link works no longer; ask for another one if you should come back.",
+    "{cause} hat dich von diesem Baum entfernt. Dein Link gilt nicht mehr; bitte um einen neuen, wenn du zurückkommen sollst.",
+  ],
   "problems.comment-stays": [
     "A comment can be changed for 15 minutes only. Delete it, or write another one.",
     "Ein Kommentar lässt sich nur 15 Minuten lang ändern. Lösch ihn oder schreib einen neuen.",
@@ -340,6 +348,10 @@ export const PROBLEMS = {
     "Der letzte Teil der Aufzeichnung dieses Baums ist beschädigt, ab Eintrag {entry}. Du siehst den Baum, wie er davor war; der Rest liegt noch auf dem Server.",
   ],
   "problems.impossible": ["That value is not possible.", "Dieser Wert ist nicht möglich."],
+  "problems.no-tree.session": [
+    "Save the tree first: what is not saved cannot be handed over.",
+    "Speichere den Baum zuerst: Was nicht gespeichert ist, lässt sich nicht übergeben.",
+  ],
   "problems.too-many.tree": [
     "This tree has {most} links already; revoke one first.",
     "Dieser Baum hat schon {most} Links; widerrufe erst einen.",

@@ -139,7 +139,7 @@ impl Session {
     /// A command that its author may give, in good form, read back from the very text the journal will hold, so that a
     /// replay cannot differ.
     pub(super) fn check(&self, access: Access, mut command: Command) -> Result<(Command, String), Problem> {
-        access.check_edit()?;
+        access.check(&command.action)?;
         form::check(&command.action)?;
         if let Action::Stop { .. } = command.action {
             command.action = self.stop_now();

@@ -14,6 +14,7 @@ use crate::{
     entrant::Entrant,
     io::ClientId,
     principal::Principal,
+    rights::Access,
     to_proto::Held,
     window::Window,
 };
@@ -23,7 +24,7 @@ const HELLO_MS: u64 = 10_000;
 impl Session {
     pub(super) fn connect(&mut self, client: ClientId, entrant: Entrant) {
         self.forget(client);
-        let access = entrant.access();
+        let access = if self.is_replay { Access::Travel } else { entrant.access() };
         let state = Client { entrant, access, unread: 0, notified_after: None, connected: None };
         self.clients.insert(client, state);
         self.upkeep.hellos.push_back((self.now + HELLO_MS, client));
@@ -120,6 +121,9 @@ impl Session {
         }
         // As all others have it: what has changed since comes to everybody.
         self.send(client, &ServerMessage::Timeline(Box::new(self.told_timeline.clone())));
+        if self.is_replay {
+            self.send(client, &self.authors_message());
+        }
         self.show_pins(client);
         // Who resumes has been notified before, for the epoch is the same (`OP3`).
         let notices = if resumed { Vec::new() } else { self.notices.clone() };

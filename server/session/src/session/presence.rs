@@ -1,6 +1,6 @@
 //! Who is here and what they do, told to those who ask (`PS`). Nothing of it is journaled, acknowledged or queued.
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, sync::Arc};
 
 use espalier_proto::{
     Camera, ClientMessage, Device, Person, Problem, Reason, ServerMessage, Timeline, access::Role,
@@ -9,8 +9,9 @@ use espalier_proto::{
 
 use super::Session;
 use crate::{
-    clients::ConnectedClient,
+    clients::{Client, ConnectedClient},
     document::Document,
+    entrant::Entrant,
     io::{ClientId, Output},
     presence::{FramesOfTick, Presence, Register, Said},
     rights::{Access, forbidden},
@@ -48,9 +49,12 @@ impl Session {
     /// Somebody has said hello.
     pub(super) fn enter_room(&mut self, client: ClientId, principal: &crate::Principal) -> Presence {
         let here: Vec<_> = self.present().map(|presence| (presence.device, presence.person)).collect();
-        let person =
-            self.clients.get(&client).map(|client| client.entrant.person.clone()).unwrap_or_default();
+        let entrant = self.clients.get(&client).map(|client| client.entrant.clone());
+        let Entrant { person, name, .. } = entrant.unwrap_or_else(|| Entrant::new("", Role::Viewer));
         let (device, person) = self.room.register.enter(principal, &person, &here);
+        if let Some(given) = name {
+            self.room.register.give_name(person, given);
+        }
         self.room.people_changed = true;
         Presence::new(device, person, self.now)
     }
@@ -77,7 +81,7 @@ impl Session {
             (said.radius.is_some(), "radius"),
             (!said.sketch.is_empty(), "sketch"),
         ];
-        let shown = shows.into_iter().find(|(is_there, _)| *is_there && state.access == Access::Look);
+        let shown = shows.into_iter().find(|(is_there, _)| *is_there && state.access != Access::Edit);
         if let Some((_, field)) = shown {
             let problem = forbidden().at(field, "nothing, of somebody who may not edit");
             return self.send(client, &ServerMessage::Problem { problem });
@@ -101,7 +105,7 @@ impl Session {
     pub(super) fn gather(&mut self, client: ClientId, camera: Camera) {
         let Some(state) = self.clients.get(&client) else { return };
         let Some(by) = state.connected.as_ref().map(|connected| connected.presence.device) else { return };
-        let problem = if state.access == Access::Look {
+        let problem = if state.access != Access::Edit {
             Some(forbidden().at("type", "gather of somebody who may edit"))
         } else if self.now < self.room.gather_due {
             let left = (self.room.gather_due - self.now).div_ceil(1000);
@@ -137,12 +141,13 @@ impl Session {
 
     /// Somebody may do more or less from now on (`AU3`).
     pub(super) fn grant(&mut self, client: ClientId, role: Role) {
-        let Some(state) = self.clients.get_mut(&client) else { return };
+        // In a replay everybody does the same, whoever they are.
+        let Some(state) = self.clients.get_mut(&client).filter(|_| !self.is_replay) else { return };
         state.entrant.role = role;
         state.access = state.entrant.access();
         let access = state.access;
         let Some(connected) = state.connected.as_mut() else { return };
-        if access == Access::Look {
+        if access != Access::Edit {
             connected.presence.lay_down();
         }
         let principal = connected.principal.clone();
@@ -213,6 +218,23 @@ impl Session {
             };
             self.send(client, &ServerMessage::People { you, people: people.clone(), more });
         }
+    }
+
+    /// Whoever has this number and is here, called as others see them.
+    pub fn person(&self, number: u32) -> Option<Entrant> {
+        let is_it = |client: &&Client| {
+            client.connected.as_ref().is_some_and(|connected| connected.presence.person == number)
+        };
+        let client = self.clients.values().filter(is_it).max_by_key(|client| client.entrant.role)?;
+        let name = self.room.register.name_of(number).map(Arc::from);
+        Some(Entrant { name: name.or_else(|| client.entrant.name.clone()), ..client.entrant.clone() })
+    }
+
+    /// What whoever is at a device is called, if they are here and have a name.
+    pub fn called(&self, at: &crate::Principal) -> Option<Arc<str>> {
+        let is_it = |connected: &&ConnectedClient| connected.principal == *at;
+        let found = self.clients.values().filter_map(|client| client.connected.as_ref()).find(is_it)?;
+        self.person(found.presence.person)?.name
     }
 
     /// Those who are shown to each other, and how many devices are here beside theirs.

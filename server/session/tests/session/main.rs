@@ -33,6 +33,7 @@ mod overlaps;
 mod pausing;
 mod presence;
 mod refusals;
+mod replaying;
 mod rights;
 mod rows;
 mod schema;

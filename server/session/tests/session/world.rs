@@ -92,9 +92,23 @@ impl World {
 
     /// A session that starts from a first snapshot.
     pub fn opened_with(origin: Option<Vec<u8>>) -> Self {
+        let session = Session::restore("plane-tree", 1, origin.as_deref(), SEED, []).unwrap();
+        Self { origin, ..Self::around(session) }
+    }
+
+    /// A replay of the session as it is now.
+    pub fn replay(&mut self) -> Self {
+        self.handle(Input::Read(ReadId(1)));
+        self.settle();
+        let (_, read) = self.documents.pop().unwrap();
+        let people = self.session.register().clone();
+        Self::around(Session::replay("plane-tree", 77, &read.bytes, people).unwrap())
+    }
+
+    fn around(session: Session) -> Self {
         Self {
-            session: Session::restore("plane-tree", 1, origin.as_deref(), SEED, []).unwrap(),
-            origin,
+            session,
+            origin: None,
             now: 0,
             peers: BTreeMap::new(),
             disk: Vec::new(),

@@ -11,7 +11,7 @@ use super::{refusals::bodies, *};
 use crate::store::{Comments, NewComment};
 
 /// Parts of paths that are whole numbers.
-const NUMBERS: [&str; 5] = ["version", "obstacle", "seed", "thread", "comment"];
+const NUMBERS: [&str; 6] = ["version", "obstacle", "seed", "thread", "comment", "person"];
 
 struct Answer {
     status: StatusCode,
@@ -69,7 +69,7 @@ fn filled_with(path: &str, part: &str, text: &str) -> String {
 #[tokio::test]
 async fn er1_a_path_that_cannot_be_read_is_a_problem() {
     let (server, _) = server().await;
-    for address in addresses().into_iter().chain([SOCKET.to_owned()]) {
+    for address in addresses().into_iter().chain(sockets().map(|socket| socket.address.to_owned())) {
         let (method, path) = (method_of(&address), path_of(&address));
         for part in parts(path) {
             let numbers: &[&str] = if NUMBERS.contains(&part) { &["x", "-1", "4294967296"] } else { &[] };
@@ -86,7 +86,7 @@ async fn er1_a_path_that_cannot_be_read_is_a_problem() {
 async fn er1_a_wrong_method_is_a_problem_that_names_the_right_ones() {
     let (server, _) = server().await;
     let mut taken: BTreeMap<String, Vec<Method>> = BTreeMap::new();
-    for address in addresses().into_iter().chain([SOCKET.to_owned()]) {
+    for address in addresses().into_iter().chain(sockets().map(|socket| socket.address.to_owned())) {
         taken.entry(filled(path_of(&address))).or_default().push(method_of(&address));
     }
     for path in ["/", "/api", "/pair", "/s/oak", "/health"] {
@@ -199,6 +199,8 @@ async fn what_is_not_there_is_named_by_the_field_of_the_body() {
 #[tokio::test]
 async fn the_address_of_a_socket_says_that_it_is_one() {
     let (server, _) = server().await;
-    let answer = ask(&server, &Method::GET, &filled(path_of(SOCKET)), &Value::Null, None).await;
-    answer.assert(StatusCode::BAD_REQUEST, "upgrade", "a plain GET");
+    for socket in sockets() {
+        let answer = ask(&server, &Method::GET, &filled(path_of(socket.address)), &Value::Null, None).await;
+        answer.assert(StatusCode::BAD_REQUEST, "upgrade", socket.address);
+    }
 }

@@ -22,7 +22,7 @@ use crate::{
     SIMULATION_VERSION,
     memory::{Need, Use},
     pool::{Class, Person, Turn},
-    store::{Breakable, Lease, MemoryStore, NewSession, NewSnapshot},
+    store::{Breakable, Lease, NewSession, NewSnapshot},
 };
 
 const HELLO: &str = r#"{"type":"hello","protocol":1,"client":"test-client"}"#;
@@ -36,7 +36,7 @@ struct House {
 
 impl House {
     async fn new() -> Self {
-        let house = Self::at(Arc::new(AnyStore::Memory(MemoryStore::default())));
+        let house = Self::at(Arc::new(AnyStore::Memory(Box::default())));
         house.begin("oak", SIMULATION_VERSION, None).await;
         house
     }

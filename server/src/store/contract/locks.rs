@@ -1,11 +1,11 @@
 //! The contract of locks.
 
 use super::{
-    super::{Library, Locks, NewSession, Store},
+    super::{Library, Locks, NewSession, Room, Standings, Store},
     library::tree,
 };
 
-pub(super) async fn a_tree_is_locked_with_its_sessions(store: &(impl Locks + Library + Store)) {
+pub(super) async fn a_tree_is_locked_with_its_sessions(store: &(impl Locks + Standings + Library + Store)) {
     for id in ["ash", "yew"] {
         store.add_tree(tree(id, "2026-05-01T12:00:00.000Z")).await.unwrap();
     }
@@ -15,8 +15,8 @@ pub(super) async fn a_tree_is_locked_with_its_sessions(store: &(impl Locks + Lib
     }
     let locks = async || {
         let [ash, yew] = [store.lock_of("ash").await.unwrap(), store.lock_of("yew").await.unwrap()];
-        let [oak, ashen] =
-            [store.lock_of_session("oak").await.unwrap(), store.lock_of_session("ashen").await.unwrap()];
+        let of = async |name| store.standing(Room::Session(name), "machine", "2026").await.unwrap().locked_by;
+        let [oak, ashen] = [of("oak").await, of("ashen").await];
         [ash, yew, oak, ashen]
     };
     assert_eq!(locks().await, [None, None, None, None]);

@@ -286,6 +286,7 @@ impl Library for MemoryStore {
             kept.trees.remove(id);
             kept.threads.remove(id);
             kept.locks.remove(id);
+            kept.heirs.remove(id);
             kept.favourites.retain(|(_, tree)| tree != id);
             kept.passes.retain(|(_, pass)| pass.tree.as_ref() != Some(id));
         }

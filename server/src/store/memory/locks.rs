@@ -21,10 +21,4 @@ impl Locks for MemoryStore {
     async fn lock_of(&self, tree: &str) -> Result<Option<String>, StoreError> {
         Ok(self.kept().locks.get(tree).cloned())
     }
-
-    async fn lock_of_session(&self, session: &str) -> Result<Option<String>, StoreError> {
-        let kept = self.kept();
-        let tree = kept.sessions.get(session).and_then(|session| session.tree.as_ref());
-        Ok(tree.and_then(|(tree, _)| kept.locks.get(tree)).cloned())
-    }
 }

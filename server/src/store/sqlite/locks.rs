@@ -24,16 +24,6 @@ impl Locks for SqliteStore {
             .await?;
         Ok(found.flatten())
     }
-
-    async fn lock_of_session(&self, session: &str) -> Result<Option<String>, StoreError> {
-        let found: Option<Option<String>> = sqlx::query_scalar(
-            "SELECT locked_by FROM sessions JOIN trees ON trees.id = sessions.tree WHERE sessions.name = ?",
-        )
-        .bind(session)
-        .fetch_optional(&self.readers)
-        .await?;
-        Ok(found.flatten())
-    }
 }
 
 impl LockWrite {

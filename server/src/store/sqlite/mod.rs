@@ -17,6 +17,7 @@ mod place;
 mod reserve;
 mod sessions;
 mod shrinking;
+mod standings;
 mod tree_writes;
 mod trees;
 mod users;

@@ -39,6 +39,7 @@ const MIGRATIONS: &[(&str, &str)] = &[
     ("0015_comments", include_str!("../../../../migrations/0015_comments.sql")),
     ("0016_locked_trees", include_str!("../../../../migrations/0016_locked_trees.sql")),
     ("0017_groups", include_str!("../../../../migrations/0017_groups.sql")),
+    ("0018_standings", include_str!("../../../../migrations/0018_standings.sql")),
     ("0019_people_of_sessions", include_str!("../../../../migrations/0019_people_of_sessions.sql")),
 ];
 

@@ -30,6 +30,7 @@ use super::{
     reserve::Reserve,
     sessions::SessionWrite,
     shrinking,
+    standings::StandingWrite,
     tree_writes::TreeWrite,
     users::UserWrite,
     visits::VisitWrite,
@@ -61,6 +62,7 @@ pub(super) enum Write {
     Comment(CommentWrite),
     Lock(LockWrite),
     Visit(VisitWrite),
+    Standing(StandingWrite),
     #[cfg(test)]
     Raw(String),
 }
@@ -93,6 +95,7 @@ impl Write {
             Self::Comment(write) => write.apply(connection).await,
             Self::Lock(write) => write.apply(connection).await,
             Self::Visit(write) => write.apply(connection).await,
+            Self::Standing(write) => write.apply(connection).await,
             #[cfg(test)]
             Self::Raw(sql) => {
                 let query = sqlx::query(sqlx::AssertSqlSafe(sql.clone()));

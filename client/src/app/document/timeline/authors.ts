@@ -1,4 +1,4 @@
-import type { PeopleHere } from "../../together/together";
+import type { Together } from "../../together/together";
 import { say } from "../../words/say";
 
 /** Hues that are distinguished on the strip and in the tree, light or dark. */
@@ -14,8 +14,8 @@ export function personColour(person: number): string {
   return `oklch(62% 0.14 ${HUES[(person - 1) % HUES.length] ?? HUES[0]})`;
 }
 
-/** What an author is called: by name if they are here and have one, else by number. */
-export function authorName(author: number, here: PeopleHere | null): string {
-  const name = here?.people.find(({ person }) => person === author)?.name;
-  return name ?? say("timeline.person", { number: author });
+/** What an author is called: by name if they are here and have one, or if a replay knows it, else by number. */
+export function authorName(author: number, { people, authors }: Pick<Together, "people" | "authors">): string {
+  const known = [...(people.value?.people ?? []), ...authors.value];
+  return known.find(({ person }) => person === author)?.name ?? say("timeline.person", { number: author });
 }

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { TimelineFuture, TimelineOperation } from "../../../wire/generated";
-import { branchings, changed, clusters, edgeBeside, forks, NOTHING_DONE, peopleOf, TimeScale } from "./timeline";
+import { changed, edgeBeside, NOTHING_DONE, TimeScale } from "./timeline";
+import { branchings, clusters, forks, peopleOf } from "./timeline-signs";
 
 const operation = (kind: TimelineOperation["kind"], first: number, last: number): TimelineOperation => ({
   kind,

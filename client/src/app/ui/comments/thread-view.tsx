@@ -77,7 +77,7 @@ function CommentView({ studio, conversation, thread, comment }: CommentViewProps
   const now = studio.time.timeline.value;
   const isOtherStep =
     bookmark !== undefined && now !== null && bookmark.line === now.line && bookmark.step !== now.step;
-  const mayDelete = studio.rights.mayComment && (comment.own || studio.rights.mayDelete);
+  const mayDelete = studio.rights.mayComment && (comment.own || studio.rights.mayGovern);
   return (
     <li data-own={comment.own}>
       <p class="comment-head">

@@ -32,7 +32,7 @@ export function Status({ studio }: { studio: Studio }) {
           {attempts > 0 && unsent > 0 && <span class="quiet">{say("notices.kept")}</span>}
         </p>
       )}
-      {!studio.rights.mayChange.value && studio.link.session.value !== null && (
+      {!studio.rights.mayChange.value && studio.link.session.value !== null && !studio.link.replaying.value && (
         <p class="note">{say("notices.looking-only")}</p>
       )}
       {full && <p class="note full">{say("notices.full")}</p>}

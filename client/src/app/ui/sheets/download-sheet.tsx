@@ -6,6 +6,7 @@ import type { Studio } from "../../studio";
 import { numberText } from "../../words/number-text";
 import { say } from "../../words/say";
 import { Segments } from "../controls/segments";
+import { isWorthShowing } from "../timeline/has-timeline";
 import { ExportOptions, useFormats } from "./export-options";
 import { usualName } from "./name-field";
 
@@ -36,6 +37,11 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
     } else if (size) {
       void studio.exports.png(name, size);
     }
+  };
+
+  const replay = () => {
+    studio.layout.sheet.value = null;
+    studio.link.replay(true);
   };
 
   return (
@@ -93,6 +99,11 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
           {say("sheets.download.act")}
         </button>
       </div>
+      {isWorthShowing(studio.time.timeline.value) && (
+        <button type="button" onClick={replay}>
+          {say("replay.from-download")}
+        </button>
+      )}
     </form>
   );
 }

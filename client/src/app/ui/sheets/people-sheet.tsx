@@ -4,12 +4,14 @@ import type { Studio } from "../../studio";
 import { companions, nameOf } from "../../together/people";
 import { descriptorOf, TOOL_NAMES } from "../../tools/tools";
 import { say } from "../../words/say";
+import { Governing, PersonActs, useGoverning } from "./governing";
 
 /** Who has the tree open, where they are, and what they do; to follow them, or to bring them here. */
 export function PeopleSheet({ studio }: { studio: Studio }) {
   const { together, layout, rights, toasts } = studio;
   const here = together.people.value;
   const others = companions(here);
+  const governing = useGoverning(studio);
   const close = () => {
     layout.sheet.value = null;
   };
@@ -24,10 +26,18 @@ export function PeopleSheet({ studio }: { studio: Studio }) {
       {others.length === 0 && <p>{say("together.alone")}</p>}
       <ul class="people">
         {here?.people.map((person) => (
-          <PersonRow key={person.person} studio={studio} person={person} you={here.you} close={close} />
+          <PersonRow
+            key={person.person}
+            studio={studio}
+            person={person}
+            you={here.you}
+            close={close}
+            onHandedOver={governing.look}
+          />
         ))}
       </ul>
       {here !== null && here.more > 0 && <p class="quiet">{say("together.more", { count: here.more })}</p>}
+      {rights.mayGovern && <Governing governing={governing} />}
       <label class="field">
         <span>{say("together.name")}</span>
         <input
@@ -59,9 +69,10 @@ interface PersonRowProps {
   /** This page's own device. */
   readonly you: number;
   readonly close: () => void;
+  readonly onHandedOver: () => Promise<void>;
 }
 
-function PersonRow({ studio, person, you, close }: PersonRowProps) {
+function PersonRow({ studio, person, you, close, onHandedOver }: PersonRowProps) {
   const isYou = person.devices.some(({ device }) => device === you);
   const name = nameOf(person);
   const { followed } = studio.together;
@@ -93,6 +104,9 @@ function PersonRow({ studio, person, you, close }: PersonRowProps) {
             )}
           </p>
         ))}
+        {!isYou && studio.rights.mayGovern && (
+          <PersonActs studio={studio} person={person} name={name} onDone={onHandedOver} />
+        )}
       </div>
     </li>
   );

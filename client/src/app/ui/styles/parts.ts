@@ -23,3 +23,4 @@ import "./structure.css";
 import "./grammars.css";
 import "./comments.css";
 import "./wind.css";
+import "./replay.css";

@@ -3,6 +3,9 @@ import type { Studio } from "../../studio";
 
 /** Whether the strip lies along the bottom; who only looks does not travel. */
 export function hasTimeline(studio: Studio): boolean {
+  if (studio.link.replaying.value) {
+    return true;
+  }
   return (
     studio.rights.mayChange.value && isWorthShowing(studio.time.timeline.value) && studio.settings.timelineOpen.value
   );

@@ -1,8 +1,8 @@
 import { useRef, useState } from "preact/hooks";
 import { authorColour, authorName } from "../../document/timeline/authors";
-import { type Branching, forks, peopleOf } from "../../document/timeline/timeline";
+import { type Branching, forks, peopleOf } from "../../document/timeline/timeline-signs";
 import type { Studio } from "../../studio";
-import type { PeopleHere } from "../../together/together";
+import type { Together } from "../../together/together";
 import { language, say } from "../../words/say";
 import { useDismissal } from "../use-dismissal";
 import { stepsOf } from "./step-count";
@@ -21,7 +21,6 @@ export function Forks({ studio, width }: { studio: Studio; width: number }) {
   const found = forks(timeline?.futures ?? [], studio.time.scale.value, width, ROOM);
   const shown = found.find(({ futures }) => futures[0]?.future.future === open);
   const people = timeline ? peopleOf(timeline) : 0;
-  const here = studio.together.people.value;
   useDismissal(host, open !== null, () => setOpen(null));
   return (
     <div class="timeline-forks" ref={host}>
@@ -55,7 +54,7 @@ export function Forks({ studio, width }: { studio: Studio; width: number }) {
               <FutureButton
                 branching={branching}
                 people={people}
-                here={here}
+                together={studio.together}
                 take={() => {
                   setOpen(null);
                   studio.time.take(branching.future.future);
@@ -72,11 +71,11 @@ export function Forks({ studio, width }: { studio: Studio; width: number }) {
 interface FutureProps {
   readonly branching: Branching;
   readonly people: number;
-  readonly here: PeopleHere | null;
+  readonly together: Together;
   readonly take: () => void;
 }
 
-function FutureButton({ branching: { future }, people, here, take }: FutureProps) {
+function FutureButton({ branching: { future }, people, together, take }: FutureProps) {
   const { operations } = future;
   const authors = [...new Set(operations.map(({ author }) => author))];
   const left = operations.length - MOST_SIGNS;
@@ -104,7 +103,9 @@ function FutureButton({ branching: { future }, people, here, take }: FutureProps
           {people > 1 && authors.length > 0
             ? say("timeline.summary.by", {
                 step: future.from,
-                people: new Intl.ListFormat(language.value).format(authors.map((author) => authorName(author, here))),
+                people: new Intl.ListFormat(language.value).format(
+                  authors.map((author) => authorName(author, together)),
+                ),
               })
             : say("timeline.summary.from", { step: future.from })}
         </em>

@@ -84,6 +84,31 @@ export const ForthIcon = () => (
   </Icon>
 );
 
+export const PlayIcon = () => (
+  <Icon>
+    <path d="M8 5.5v13l10.5-6.5Z" />
+  </Icon>
+);
+
+export const PauseIcon = () => (
+  <Icon>
+    <path d="M8.5 5.5v13M15.5 5.5v13" />
+  </Icon>
+);
+
+/** A strip of film. */
+export const FilmIcon = () => (
+  <Icon>
+    <path d="M4.5 5.5h15v13h-15ZM8.5 5.5v13M15.5 5.5v13M4.5 10h4M4.5 14.2h4M15.5 10h4M15.5 14.2h4" />
+  </Icon>
+);
+
+export const CloseIcon = () => (
+  <Icon>
+    <path d="m6.5 6.5 11 11M17.5 6.5l-11 11" />
+  </Icon>
+);
+
 export const FoldIcon = () => (
   <Icon>
     <path d="m6 9.5 6 6 6-6" />

@@ -1,15 +1,15 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { Timeline } from "../../../wire/generated";
 import { authorColour, authorName } from "../../document/timeline/authors";
-import { clusters, peopleOf } from "../../document/timeline/timeline";
+import { clusters, peopleOf } from "../../document/timeline/timeline-signs";
 import type { Studio } from "../../studio";
-import type { PeopleHere } from "../../together/together";
+import type { Together } from "../../together/together";
 import { say } from "../../words/say";
 import { DepthStepper } from "./depth-stepper";
 import { isWorthShowing } from "./has-timeline";
 import { stepsOf } from "./step-count";
 import { Forks } from "./timeline-forks";
-import { BackIcon, FoldIcon, ForthIcon, sortOf, TimeIcon } from "./timeline-icons";
+import { BackIcon, FoldIcon, ForthIcon, PlayIcon, sortOf, TimeIcon } from "./timeline-icons";
 import { useScrubbing } from "./use-scrubbing";
 
 /** Signs nearer to each other than this, in pixels, become one. */
@@ -75,11 +75,20 @@ export function TimelineStrip({ studio }: { studio: Studio }) {
         <ForthIcon />
       </button>
       {studio.grammar.inForce.value !== null && <DepthStepper studio={studio} />}
+      <button
+        type="button"
+        class="tool"
+        aria-label={say("replay.open")}
+        title={say("replay.open.title")}
+        onClick={() => studio.link.replay(true)}
+      >
+        <PlayIcon />
+      </button>
     </section>
   );
 }
 
-function Track({ studio, timeline }: { studio: Studio; timeline: Timeline }) {
+export function Track({ studio, timeline }: { studio: Studio; timeline: Timeline }) {
   const track = useRef<HTMLDivElement>(null);
   const width = useWidth(track);
   const scrubbing = useScrubbing(studio, track);
@@ -99,7 +108,7 @@ function Track({ studio, timeline }: { studio: Studio; timeline: Timeline }) {
         aria-valuemin={0}
         aria-valuemax={timeline.last_step}
         aria-valuenow={step}
-        aria-valuetext={speech(timeline, step, studio.together.people.value)}
+        aria-valuetext={speech(timeline, step, studio.together)}
         data-pulled={scrubbing.place !== null}
         {...scrubbing.handlers}
       >
@@ -110,7 +119,7 @@ function Track({ studio, timeline }: { studio: Studio; timeline: Timeline }) {
         <Marks timeline={timeline} edges={scale.edges} step={step} />
         <span class="timeline-head" style={{ left: `${100 * place}%` }} />
       </div>
-      {width > 0 && <Forks studio={studio} width={width} />}
+      {width > 0 && studio.rights.mayChange.value && <Forks studio={studio} width={width} />}
       {(scrubbing.shown || scrubbing.looked !== null) && (
         <Bubble
           studio={studio}
@@ -184,7 +193,6 @@ interface BubbleProps {
 
 /** What was done here, by whom, and which step this is. */
 function Bubble({ studio, timeline, operation, place, step }: BubbleProps) {
-  const here = studio.together.people.value;
   const done = operation === null ? undefined : timeline.operations[operation];
   const people = peopleOf(timeline);
   const sort = done && sortOf(done.kind);
@@ -194,7 +202,7 @@ function Bubble({ studio, timeline, operation, place, step }: BubbleProps) {
         <span class="timeline-what" style={{ "--author": authorColour(done.author, people) }}>
           <sort.Icon />
           {say(sort.name)}
-          {people > 1 && <em>{authorName(done.author, here)}</em>}
+          {people > 1 && <em>{authorName(done.author, studio.together)}</em>}
         </span>
       )}
       <span class="timeline-when">
@@ -219,7 +227,7 @@ function useWidth(element: { readonly current: HTMLElement | null }): number {
   return width;
 }
 
-function speech(timeline: Timeline, step: number, here: PeopleHere | null): string {
+function speech(timeline: Timeline, step: number, together: Together): string {
   const at = operationAtStep(timeline, step);
   const operation = at === null ? undefined : timeline.operations[at];
   const where = { step, last: timeline.last_step };
@@ -228,12 +236,12 @@ function speech(timeline: Timeline, step: number, here: PeopleHere | null): stri
   }
   const what = say(sortOf(operation.kind).name);
   return peopleOf(timeline) > 1
-    ? say("timeline.step-of.who", { ...where, what, who: authorName(operation.author, here) })
+    ? say("timeline.step-of.who", { ...where, what, who: authorName(operation.author, together) })
     : say("timeline.step-of.what", { ...where, what });
 }
 
 /** The operation that led to a step. */
-function operationAtStep({ operations, done }: Timeline, step: number): number | null {
+export function operationAtStep({ operations, done }: Timeline, step: number): number | null {
   for (let i = operations.length - 1; i >= 0; i -= 1) {
     const { first, last } = operations[i] ?? { first: 0, last: 0 };
     if (first < last ? first < step : first < step || (first === step && i < done)) {

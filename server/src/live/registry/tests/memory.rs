@@ -13,7 +13,7 @@ const NAMES: [&str; 12] =
 
 /// A server that may take so much memory, and waits for none.
 fn short_of(bytes: u64) -> House {
-    let store = Arc::new(AnyStore::Memory(MemoryStore::default()));
+    let store = Arc::new(AnyStore::Memory(Box::default()));
     House::with(store, Memory::with_patience(bytes, Duration::from_millis(50)))
 }
 

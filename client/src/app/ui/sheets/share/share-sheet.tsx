@@ -20,7 +20,7 @@ export function ShareSheet({ studio }: { studio: Studio }) {
   return tree === null ? (
     <div class="stack">
       <Session studio={studio} />
-      {studio.rights.mayShare && <OnPage studio={studio} />}
+      {studio.rights.mayGovern && <OnPage studio={studio} />}
     </div>
   ) : (
     <div class="stack">

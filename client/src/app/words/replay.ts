@@ -1,0 +1,33 @@
+/** A design that is played from its beginning. */
+export const REPLAY = {
+  "replay.open": ["Replay", "Abspielen"],
+  "replay.open.title": ["Replay the design from its beginning", "Den Entwurf von Anfang an abspielen"],
+  "replay.from-download": ["How it came about: replay, video", "Wie er entstand: abspielen, Video"],
+  "replay.label": ["Replay", "Wiedergabe"],
+  "replay.play": ["Play", "Abspielen"],
+  "replay.play.title": ["Play (space bar)", "Abspielen (Leertaste)"],
+  "replay.pause": ["Pause", "Anhalten"],
+  "replay.pause.title": ["Pause (space bar)", "Anhalten (Leertaste)"],
+  "replay.speed": ["Speed", "Tempo"],
+  "replay.speed.now": ["Speed: {speed} times", "Tempo: {speed}-fach"],
+  "replay.times": ["{speed}×", "{speed}×"],
+  "replay.close": ["Back to the tree", "Zurück zum Baum"],
+  "replay.close.title": ["Back to the tree (Esc)", "Zurück zum Baum (Esc)"],
+  "replay.beginning": ["The beginning", "Der Anfang"],
+  "replay.record": ["Save as a video or pictures", "Als Video oder Bilder speichern"],
+  "replay.form": ["Form", "Form"],
+  "replay.video": ["Video", "Video"],
+  "replay.frames": ["Pictures (PNG in a ZIP file)", "Bilder (PNG in einer ZIP-Datei)"],
+  "replay.video.none": [
+    "This browser encodes no video here. Pages that come by https, or from this machine, may.",
+    "Dieser Browser kodiert hier kein Video. Seiten, die per https oder von diesem Rechner kommen, dürfen es.",
+  ],
+  "replay.length": ["Length", "Länge"],
+  "replay.seconds": ["{seconds} s", "{seconds} s"],
+  "replay.record.advice": [
+    "It is recorded as you see it, {rate} pictures a second, from the beginning to where the design stands. Turn the tree first.",
+    "Aufgenommen wird, wie du es siehst, {rate} Bilder in der Sekunde, vom Anfang bis zum jetzigen Stand. Dreh den Baum vorher.",
+  ],
+  "replay.record.start": ["Record", "Aufnehmen"],
+  "replay.recorded": ["The recording is saved", "Die Aufnahme ist gespeichert"],
+} as const;
