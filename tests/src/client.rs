@@ -114,7 +114,12 @@ pub async fn open(port: u16, session: &str) -> Socket {
 
 /// The same with more headers.
 pub async fn open_with(port: u16, session: &str, headers: &[(&'static str, &str)]) -> Socket {
-    let url = format!("ws://127.0.0.1:{port}/api/v1/sessions/{session}/socket");
+    open_door(port, session, "socket", headers).await
+}
+
+/// The same to a socket of another name: `replay`.
+pub async fn open_door(port: u16, session: &str, door: &str, headers: &[(&'static str, &str)]) -> Socket {
+    let url = format!("ws://127.0.0.1:{port}/api/v1/sessions/{session}/{door}");
     let mut request = url.into_client_request().expect("it is an address");
     for (name, value) in headers {
         request.headers_mut().insert(*name, value.parse().expect("it is a header"));

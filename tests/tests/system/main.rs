@@ -24,6 +24,7 @@ mod people;
 mod presence;
 mod python;
 mod removing;
+mod replaying;
 mod shaping;
 mod shared_tree;
 mod slow_clients;

@@ -15,7 +15,7 @@ use tokio_tungstenite::tungstenite::Message;
 use super::people::{ask, cookie, name, secret_in};
 
 /// A server with users of these names and roles, and their cookies as headers.
-fn studio<const N: usize>(database: &Path, users: [(&str, &str); N]) -> (Server, [String; N]) {
+pub(super) fn studio<const N: usize>(database: &Path, users: [(&str, &str); N]) -> (Server, [String; N]) {
     let server = Server::start_with(database, 0, &["--auth"]);
     let cookies = users.map(|(user, role)| {
         for arguments in [&["add", user][..], &["role", user, role]] {
@@ -32,7 +32,7 @@ fn studio<const N: usize>(database: &Path, users: [(&str, &str); N]) -> (Server,
 }
 
 /// A saved tree and its session.
-fn tree(server: &Server, owner: &str) -> (String, String) {
+pub(super) fn tree(server: &Server, owner: &str) -> (String, String) {
     let begun = ask(server, "POST", "/api/v1/sessions", owner, r#"{"seed":7}"#).json();
     let session = begun["session"].as_str().expect("it has a name").to_owned();
     let save = json!({ "session": session, "name": "Oak" }).to_string();
@@ -41,9 +41,20 @@ fn tree(server: &Server, owner: &str) -> (String, String) {
 }
 
 /// Somebody comes in and says that they are here, as this client.
-async fn come(server: &Server, session: &str, cookie: &str, client: &str) -> Socket {
+pub(super) async fn come(server: &Server, session: &str, cookie: &str, client: &str) -> Socket {
+    come_to(server, session, "socket", cookie, client).await
+}
+
+/// The same by another socket.
+pub(super) async fn come_to(
+    server: &Server,
+    session: &str,
+    door: &str,
+    cookie: &str,
+    client: &str,
+) -> Socket {
     let value = cookie.strip_prefix("cookie: ").expect("it is a header");
-    let mut socket = client::open_with(server.port(), session, &[("cookie", value)]).await;
+    let mut socket = client::open_door(server.port(), session, door, &[("cookie", value)]).await;
     for message in [json!({ "type": "hello", "protocol": 1, "client": client }), json!({ "type": "here" })] {
         socket.send(client::text(&message)).await.expect("it is sent");
     }
@@ -51,7 +62,7 @@ async fn come(server: &Server, session: &str, cookie: &str, client: &str) -> Soc
 }
 
 /// Messages come until one is as wanted.
-async fn until(socket: &mut Socket, is_it: impl Fn(&Value) -> bool) -> Value {
+pub(super) async fn until(socket: &mut Socket, is_it: impl Fn(&Value) -> bool) -> Value {
     loop {
         match client::next(socket).await {
             Some(Message::Text(text)) => {
@@ -67,7 +78,7 @@ async fn until(socket: &mut Socket, is_it: impl Fn(&Value) -> bool) -> Value {
 }
 
 /// The number of somebody by their name, once they are told of.
-async fn number_of(socket: &mut Socket, name: &str) -> u64 {
+pub(super) async fn number_of(socket: &mut Socket, name: &str) -> u64 {
     let named = |message: &Value| {
         let people = message["people"].as_array()?;
         people.iter().find(|person| person["name"] == name)?["person"].as_u64()
