@@ -69,12 +69,17 @@ impl Seek for Spool {
     }
 }
 
+impl Slices {
+    /// Lets those who draw go first, and ends what nobody wants any more.
+    fn go_on(&self) -> io::Result<()> {
+        self.pool.give_way(PATIENCE);
+        if self.stop.is_cancelled() { Err(ErrorKind::ConnectionAborted.into()) } else { Ok(()) }
+    }
+}
+
 impl Write for Slices {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.pool.give_way(PATIENCE);
-        if self.stop.is_cancelled() {
-            return Err(ErrorKind::ConnectionAborted.into());
-        }
+        self.go_on()?;
         if self.written.load(Ordering::Relaxed).saturating_add(bytes.len() as u64) > self.bytes_left {
             return Err(ErrorKind::QuotaExceeded.into());
         }
@@ -83,7 +88,9 @@ impl Write for Slices {
         Ok(count)
     }
 
+    /// What takes long and writes nothing asks here whether to go on.
     fn flush(&mut self) -> io::Result<()> {
+        self.go_on()?;
         self.file.flush()
     }
 }
@@ -125,6 +132,15 @@ mod tests {
         stop.cancel();
         let error = spool.write_all(&vec![0; 2 * SLICE]).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::ConnectionAborted);
+    }
+
+    #[test]
+    fn whoever_draws_for_a_file_that_nobody_wants_hears_it_when_it_is_flushed() {
+        let stop = CancellationToken::new();
+        let mut spool = spool(&stop);
+        spool.flush().unwrap();
+        stop.cancel();
+        assert_eq!(spool.flush().unwrap_err().kind(), ErrorKind::ConnectionAborted);
     }
 
     #[test]

@@ -1,5 +1,10 @@
 //! Files in the PNG format (ISO/IEC 15948).
 
+use std::{
+    cell::RefCell,
+    io::{self, Write},
+};
+
 use crate::{ExportError, Sink};
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Filter};
 
@@ -26,8 +31,9 @@ pub(crate) fn animated(
     pictures: impl Iterator<Item = Vec<[u8; 3]>>,
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
+    let out = RefCell::new(out);
     let write = || -> Result<(), EncodingError> {
-        let mut encoder = Encoder::new(out, width as u32, height as u32);
+        let mut encoder = Encoder::new(Shared(&out), width as u32, height as u32);
         encoder.set_color(ColorType::Rgb);
         encoder.set_depth(BitDepth::Eight);
         encoder.set_compression(Compression::Balanced);
@@ -37,6 +43,8 @@ pub(crate) fn animated(
         let mut writer = encoder.write_header()?;
         for picture in pictures {
             writer.write_image_data(picture.as_flattened())?;
+            // Whoever gives the file up hears no later than with the next picture.
+            out.borrow_mut().flush()?;
         }
         writer.finish()
     };
@@ -44,6 +52,19 @@ pub(crate) fn animated(
         EncodingError::IoError(error) => error.into(),
         _ => ExportError::TooLarge,
     })
+}
+
+/// A file that its writer flushes beside the encoder, which has it.
+struct Shared<'a, 'b>(&'a RefCell<&'b mut dyn Sink>);
+
+impl Write for Shared<'_, '_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.borrow_mut().write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.borrow_mut().flush()
+    }
 }
 
 fn file(

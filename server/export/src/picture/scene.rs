@@ -5,6 +5,8 @@ mod meshes;
 mod shading;
 mod sun;
 
+use std::convert::Infallible;
+
 use espalier_growth::species::{Species, Stand};
 use espalier_mesh::Style;
 use espalier_plant::Plant;
@@ -113,18 +115,31 @@ impl Stage {
     }
 
     pub(super) fn seen(&self, view: &View, size: [usize; 2]) -> Canvas {
+        // What nobody gives up is drawn to its end.
+        let drawn: Result<_, Infallible> = self.seen_while(view, size, || Ok(()));
+        drawn.unwrap_or_else(|never| match never {})
+    }
+
+    /// The same, unless whoever wants it has given it up; that is asked before each band.
+    pub(super) fn seen_while<E>(
+        &self,
+        view: &View,
+        size: [usize; 2],
+        mut go_on: impl FnMut() -> Result<(), E>,
+    ) -> Result<Canvas, E> {
         let [width, height] = size;
         let lawn = self.lawn(view, size);
         // A large picture is drawn in bands, since a sample takes far more than what is kept of it.
         let rows = (MOST_AT_ONCE / width.max(1)).clamp(1, height.max(1));
         let mut canvas = Canvas::new(width, height, Vec3::ZERO);
         for top in (0..height).step_by(rows) {
+            go_on()?;
             let rows = rows.min(height - top);
             let view = view.below_row((top * SAMPLES) as f32);
             let band = self.scene.paint(&view, &lawn, width * SAMPLES, rows * SAMPLES);
             canvas.paste(&band.reduced(SAMPLES), 0, top);
         }
-        canvas
+        Ok(canvas)
     }
 }
 

@@ -39,6 +39,8 @@ impl Camera {
 
 /// A picture from a camera as PNG, or so many from cameras all around, beginning with it, as an animated one.
 ///
+/// While it is drawn the file is flushed time and again: one that nobody wants any more fails there.
+///
 /// # Errors
 /// Where the file cannot be written.
 pub fn turntable(
@@ -53,7 +55,8 @@ pub fn turntable(
     let stage = Stage::of(plant, style, look);
     if frames <= 1 {
         let view = stage.framed(camera.eye(), size, &Framing::default());
-        return Ok(out.write_all(&stage.seen(&view, size).png())?);
+        let picture = stage.seen_while(&view, size, || out.flush())?;
+        return Ok(out.write_all(&picture.png())?);
     }
     let pictures = around(&stage, size, camera, frames).map(|picture| picture.pixels());
     png::animated(size, [ROUND, frames], pictures, out)
@@ -85,9 +88,48 @@ fn around(stage: &Stage, size: [usize; 2], camera: Camera, frames: u16) -> impl 
 
 #[cfg(test)]
 mod tests {
+    use std::io::{self, Cursor, Seek, SeekFrom, Write};
+
     use espalier_plant::{AxisId, Internode};
 
     use super::*;
+
+    /// A file that is given up when it is asked for the second time.
+    #[derive(Default)]
+    struct GivenUp {
+        file: Cursor<Vec<u8>>,
+        asked: usize,
+    }
+
+    impl Write for GivenUp {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            self.file.write(bytes)
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            self.asked += 1;
+            if self.asked > 1 { Err(io::ErrorKind::ConnectionAborted.into()) } else { Ok(()) }
+        }
+    }
+
+    impl Seek for GivenUp {
+        fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+            self.file.seek(to)
+        }
+    }
+
+    #[test]
+    fn a_picture_that_is_given_up_is_drawn_no_further() {
+        let plant = Plant::new(Vec3::ZERO);
+        // A still of two bands, and a turntable.
+        for (size, frames) in [([1200, 950], 1), ([24, 24], 12)] {
+            let mut out = GivenUp::default();
+            let (style, look) = (Style::default(), Look::default());
+            let drawn = turntable(&plant, &style, &look, size, Camera::default(), frames, &mut out);
+            assert!(matches!(drawn, Err(ExportError::Write(io::ErrorKind::ConnectionAborted))), "{drawn:?}");
+            assert_eq!(out.asked, 2);
+        }
+    }
 
     #[test]
     fn a_strip_shows_a_plant_from_all_sides_in_turn() {
