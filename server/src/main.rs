@@ -139,6 +139,7 @@ fn done(result: Result<(), HeadlessError>) -> ExitCode {
         | HeadlessError::Import { .. }
         | HeadlessError::Options(_)
         | HeadlessError::Design { .. }
+        | HeadlessError::Grammar { .. }
         | HeadlessError::OneName
         | HeadlessError::NoFormat(_)
         | HeadlessError::Output(OutputError::Terminal(_))

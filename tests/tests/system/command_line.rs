@@ -184,6 +184,40 @@ fn replay_derives_grammars_as_grow_does() {
 }
 
 #[test]
+fn a_grammar_that_is_none_is_told_from_one_that_ends() {
+    let scratch = Scratch::new();
+    let path = scratch.path("own.lsys");
+    let bomb = "axiom: A\nA --> FAAAAAAAAAAAAAAAA\n";
+    for (text, code, said) in [("axiom: A\nA --> F[+A\n", 2, "line 2, column 8"), (bomb, 1, "of 12")] {
+        fs::write(&path, text).expect("it can be written");
+        let path = path.to_str().expect("a plain name");
+        let finished = program::run(&["grow", "--grammar", path, "--depth", "12"]);
+        assert_eq!(finished.code, code, "{text}: {}", finished.stderr);
+        assert!(finished.stderr.contains(said), "{text}: {}", finished.stderr);
+    }
+}
+
+#[test]
+fn what_a_grammar_writes_leaves_in_every_format_and_sways() {
+    let scratch = Scratch::new();
+    let path = scratch.path("own.lsys");
+    let text = "axiom: A\nA --> F[+(30)FA][-(30)FA]/(90)FA\n";
+    fs::write(&path, text).expect("it can be written");
+    let path = path.to_str().expect("a plain name");
+    for ending in ["glb", "usda", "obj.zip", "mtg", "ply", "joints.csv", "png"] {
+        let out = scratch.path(&format!("tree.{ending}"));
+        let file = out.to_str().expect("a plain name");
+        let finished = program::run(&["grow", "--grammar", path, "--depth", "5", "--export", file]);
+        assert_eq!(finished.code, 0, "{ending}: {}", finished.stderr);
+        let bytes = fs::metadata(&out).expect("the file was written").len();
+        assert!(bytes > 500, "{ending}: {bytes} bytes");
+    }
+    // A joint for each limb, so that all of them move.
+    let joints = fs::read_to_string(scratch.path("tree.joints.csv")).expect("it is text");
+    assert!(joints.lines().count() > 40, "{joints}");
+}
+
+#[test]
 fn the_plant_is_the_same_on_any_number_of_threads() {
     let scratch = Scratch::new();
     let script = script(&scratch, "tree.jsonl", &tree());
