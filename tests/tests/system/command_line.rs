@@ -175,7 +175,7 @@ fn replay_derives_grammars_as_grow_does() {
     write(&[
         &planted,
         r#"{"kind":"set_grammar_values","values":[{"name":"a","value":50}]}"#,
-        r#"{"kind":"prune","rows":[2]}"#,
+        r#"{"kind":"prune","rows":[5]}"#,
         r#"{"kind":"undo"}"#,
         r#"{"kind":"undo"}"#,
         r#"{"kind":"derive","steps":3}"#,
