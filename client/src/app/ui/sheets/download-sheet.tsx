@@ -100,9 +100,11 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
         </button>
       </div>
       {isWorthShowing(studio.time.timeline.value) && (
-        <button type="button" onClick={replay}>
-          {say("replay.from-download")}
-        </button>
+        <div class="actions">
+          <button type="button" class="small" onClick={replay}>
+            {say("replay.from-download")}
+          </button>
+        </div>
       )}
     </form>
   );
