@@ -22,14 +22,17 @@ describe("a tap of several fingers", () => {
         await tablet.touch("touchStart", fingers(count));
         await tablet.touch("touchEnd", []);
       });
-    await tap(2);
-    await page.getByText("Undone: Stroke").waitFor();
+    /** Taps, and is there when it is said: what is said goes by itself. */
+    const told = async (count: number, text: string) => {
+      const said = page.getByText(text).waitFor();
+      await tap(count);
+      await said;
+    };
+    await told(2, "Undone: Stroke");
     await tablet.until("it is undone", (facts) => facts.metamers === 0);
-    await tap(3);
-    await page.getByText("Redone: Stroke").waitFor();
+    await told(3, "Redone: Stroke");
     const again = await tablet.until("it is there again", (facts) => facts.metamers === metamers);
-    await tap(3);
-    await page.getByText("There is nothing to redo.").waitFor();
+    await told(3, "There is nothing to redo.");
     // A pinch is no tap.
     await tablet.swipe([way(fingers(1)[0]!, { x: 700, y: 300 }), way(fingers(2)[1]!, { x: 970, y: 300 })]);
     expect((await tablet.untilQuiet()).sent).toBe(again.sent);
