@@ -110,6 +110,9 @@ test.each([
     Object.assign(window, { setTimeout: patient });
   });
   const right = screen.width - 30;
+  // The bar has its room before a finger is drawn beside it.
+  await page.locator(".tool-bar").waitFor();
+  await tablet.untilSettled();
   await tablet.swipe([way({ x: right, y: 20 + 64 }, { x: right - 50, y: 20 + 74 })]);
   const said = page.locator(".vain > span");
   await said.waitFor();
