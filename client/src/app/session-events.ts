@@ -175,6 +175,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
 /** Another session was opened: nothing of the one before counts. */
 function forget(page: SessionTargets, { isReplay, isSame }: Opening): void {
   page.document.value = null;
+  page.finished.value = 0;
   page.growing.clear();
   page.growth.forget();
   page.looks.clear();

@@ -103,12 +103,6 @@ export const FilmIcon = () => (
   </Icon>
 );
 
-export const CloseIcon = () => (
-  <Icon>
-    <path d="m6.5 6.5 11 11M17.5 6.5l-11 11" />
-  </Icon>
-);
-
 export const FoldIcon = () => (
   <Icon>
     <path d="m6 9.5 6 6 6-6" />
