@@ -212,6 +212,7 @@ impl Document {
     /// now, if anything lay ahead.
     fn leave_future(&mut self) -> Option<u32> {
         self.complete_line();
+        self.know_design_here();
         let now = self.plant().step();
         let history = &mut self.history;
         let in_part = history.is_in_part(now);
@@ -278,6 +279,7 @@ impl Document {
         let fork = self.futures.all[at].fork;
         self.travel(fork.step);
         self.complete_line();
+        self.know_design_here();
         let Future { operations, states, rows, .. } = self.futures.all.remove(at);
         let left = self.history.operations.split_off(fork.shared.min(self.history.operations.len()));
         let left_states = self.history.cut_states(fork, if left.is_empty() { &operations } else { &left });

@@ -52,6 +52,13 @@ impl Document {
         self.show_design(last.as_ref());
     }
 
+    /// Knows which wood of a design stands in the present step, before operations of a complete line are taken away.
+    pub(in crate::document) fn know_design_here(&mut self) {
+        if let Some(last) = last_of(&self.history.operations, self.plant().step()) {
+            self.shown(&last);
+        }
+    }
+
     /// Whether the plants have all rows of the line, and each step of a design as the line leaves it.
     pub(in crate::document) fn is_line_complete(&self) -> bool {
         let Some(shown) = &self.designs.shown else { return true };
