@@ -1,3 +1,4 @@
+import { signal } from "@preact/signals";
 import { useEffect, useState } from "preact/hooks";
 import { listTrees } from "../../library/library-api";
 import { unsavedSessions } from "../../library/unsaved-sessions";
@@ -21,10 +22,12 @@ interface Recent {
   readonly open: () => Promise<unknown>;
 }
 
+/** The session in which somebody has hidden them: they stay so where the card goes and comes again beside a stroke. */
+const hiddenIn = signal<string | null>(null);
+
 /** On a page on which nothing has grown yet: the trees that were worked on last, to go on with. */
 export function RecentTrees({ studio }: { studio: Studio }) {
   const [saved, setSaved] = useState<readonly Recent[]>([]);
-  const [hidden, setHidden] = useState(false);
   const remembered = studio.unsaved.list.value;
   const [unsaved, setUnsaved] = useState<readonly UnsavedTree[]>(remembered);
   useEffect(() => {
@@ -55,14 +58,21 @@ export function RecentTrees({ studio }: { studio: Studio }) {
       return { key: session, name: say("sheets.unsaved"), at, thumbnail, open: () => studio.trees.goOnWith(session) };
     });
   const recent = [...left, ...saved].sort((a, b) => Date.parse(b.at) - Date.parse(a.at)).slice(0, MOST);
-  if (hidden || recent.length === 0) {
+  if (hiddenIn.value === here || recent.length === 0) {
     return null;
   }
   return (
     <section class="panel recent" aria-label={say("sheets.recent")}>
       <header>
         <h2>{say("sheets.recent")}</h2>
-        <button type="button" class="tool" aria-label={say("sheets.recent.hide")} onClick={() => setHidden(true)}>
+        <button
+          type="button"
+          class="tool"
+          aria-label={say("sheets.recent.hide")}
+          onClick={() => {
+            hiddenIn.value = here;
+          }}
+        >
           <CloseIcon />
         </button>
       </header>
