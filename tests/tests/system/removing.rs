@@ -184,6 +184,8 @@ async fn ac16_who_draws_comments_on_a_locked_tree_and_draws_again_afterwards() {
     let (server, [ann, bo, cy]) = studio(&scratch.path("trees.db"), users);
     let (session, tree) = tree(&server, &ann);
     let mut bos = come(&server, &session, &bo, "client-of-bo").await;
+    // Only who is inside is told of another role.
+    until(&mut bos, |message| message["type"] == "welcome").await;
     let lock = format!("/api/v1/trees/{tree}/lock");
     assert_eq!(ask(&server, "PUT", &lock, &ann, "").status, 200);
     assert_eq!(role(&mut bos).await, "commenter");
