@@ -136,6 +136,7 @@ pub const FORMATS: &[FormatRow] = &[
             option::BY_LIMB,
             option::LIGHTMAP,
             option::SWAY,
+            option::WIND_WEIGHTS,
             option::AUTHOR,
             option::LICENCE,
         ],
@@ -298,6 +299,7 @@ const SHARES: &[(&str, [f64; 2])] = &[
     (option::INSTANCED, [1.0, 0.08]),
     (option::LIGHTMAP, [1.12, 1.12]),
     (option::SWAY, [1.23, 1.23]),
+    (option::WIND_WEIGHTS, [1.25, 1.25]),
 ];
 
 impl FormatRow {

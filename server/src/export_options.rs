@@ -53,6 +53,9 @@ pub struct ExportOptions {
     /// Add at most so many bones for each plant, with animations of its sway in the wind that is set, or in a breeze.
     #[arg(long, value_name = "BONES", requires = "export", conflicts_with = "instanced")]
     pub sway: Option<Bones>,
+    /// Add numbers to each vertex by which shaders of engines move it in the wind.
+    #[arg(long, requires = "export", conflicts_with = "instanced")]
+    pub wind_weights: bool,
     /// Pixels of a picture across and down.
     #[arg(long, value_name = "WIDTHxHEIGHT", requires = "export")]
     pub size: Option<Size>,
@@ -89,6 +92,7 @@ pub mod option {
     pub const BY_LIMB: &str = "by_limb";
     pub const LIGHTMAP: &str = "lightmap";
     pub const SWAY: &str = "sway";
+    pub const WIND_WEIGHTS: &str = "wind_weights";
     pub const SIZE: &str = "size";
     pub const TURN: &str = "turn";
     pub const RISE: &str = "rise";
@@ -114,6 +118,7 @@ impl ExportOptions {
             (option::BY_LIMB, self.by_limb),
             (option::LIGHTMAP, self.lightmap.is_some()),
             (option::SWAY, self.sway.is_some()),
+            (option::WIND_WEIGHTS, self.wind_weights),
             (option::SIZE, self.size.is_some()),
             (option::TURN, self.turn.is_some()),
             (option::RISE, self.rise.is_some()),
@@ -129,17 +134,18 @@ impl ExportOptions {
     pub fn check(&self, options: &[&str]) -> Result<(), NotOfFormat> {
         let other = self.given().into_iter().find(|name| !options.contains(name));
         // Leaves that are places of few meshes stand still: their sway would have to be left out.
-        let other = other.or((self.sway.is_some() && self.instanced).then_some(option::SWAY));
+        let moves = [option::SWAY, option::WIND_WEIGHTS].into_iter().find(|name| self.given().contains(name));
+        let other = other.or(moves.filter(|_| self.instanced));
         other.map_or(Ok(()), |name| Err(NotOfFormat(name)))
     }
 
     /// What it says about triangles.
     pub fn model(&self) -> Model {
-        let &Self { quantised, compressed, instanced, hull, by_limb, .. } = self;
+        let &Self { quantised, compressed, instanced, hull, by_limb, wind_weights, .. } = self;
         let detail = self.lod.map_or(Detail::Level(0), |lod| lod.0);
         let lightmap = self.lightmap.map(|texels| texels.0);
         let sway = self.sway.map(|bones| bones.0);
-        Model { detail, quantised, compressed, instanced, hull, by_limb, lightmap, sway }
+        Model { detail, quantised, compressed, instanced, hull, by_limb, lightmap, sway, wind_weights }
     }
 
     /// Where the first picture is taken from.
@@ -296,5 +302,8 @@ mod tests {
         let both = [option::SWAY, option::INSTANCED];
         assert_eq!(options.check(&both), Err(NotOfFormat("sway")), "leaves that are instances stand still");
         assert_eq!(ExportOptions { instanced: false, ..options }.check(&both), Ok(()));
+        let options = ExportOptions { wind_weights: true, instanced: true, ..ExportOptions::default() };
+        let both = [option::WIND_WEIGHTS, option::INSTANCED];
+        assert_eq!(options.check(&both), Err(NotOfFormat("wind_weights")));
     }
 }

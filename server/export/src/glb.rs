@@ -24,6 +24,7 @@ use crate::{
     assembly::{Assembly, Builder, Part, Scatter, Surface},
     gltf::{Asset, Scene},
     swaying::Swaying,
+    wind_weights::WindWeights,
 };
 
 /// Bytes for the JSON: of materials and the scene, and of a part with its node, mesh, accessors and views.
@@ -46,7 +47,8 @@ pub fn glb(
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
     let scale = about.scale()?;
-    let swaying = model.sway.map(|_| Swaying::of(plant, style, &appearance.wind, scale));
+    let sways = model.sway.is_some() || model.wind_weights;
+    let swaying = sways.then(|| Swaying::of(plant, style, &appearance.wind, scale));
     let assembly = Assembly::of(plant, style, appearance, about.species, model).moved_by(swaying.as_ref());
     let asset = Asset {
         version: "2.0",
@@ -63,15 +65,18 @@ pub fn glb(
         }
     };
     let packing = Packing { is_quantised: model.quantised, is_compressed: model.compressed };
-    let mut file = File { writer: Writer::new(out, asset, scale, packing, capacity)?, skeleton: None };
+    let weights = swaying.as_ref().filter(|_| model.wind_weights).map(WindWeights::of);
+    let writer = Writer::new(out, asset, scale, packing, capacity)?;
+    let mut file = File { writer, skeleton: None, weights };
     assembly.build(&mut file)?;
     file.writer.finish()
 }
 
-/// A file, and the bones of the plant that is written.
+/// A file, the bones of the plant that is written, and how vertices move where they say so.
 struct File<'w, 's> {
     writer: Writer<'w>,
     skeleton: Option<Skeleton<'s>>,
+    weights: Option<WindWeights<'s>>,
 }
 
 impl<'s> Builder<'s> for File<'_, 's> {
@@ -92,8 +97,9 @@ impl<'s> Builder<'s> for File<'_, 's> {
 
     fn part(&mut self, part: &Part<'_>) -> Result<(), ExportError> {
         // What is not quantised has no bounds.
-        let Self { writer, skeleton } = self;
+        let Self { writer, skeleton, weights } = self;
         let skeleton = skeleton.as_ref().filter(|_| part.rides);
+        let weights = weights.as_ref().filter(|_| part.rides);
         let reach = if writer.packing.is_quantised { part.reach(writer.origin())? } else { 1.0 };
         if !(reach * writer.scale).is_finite() {
             return Err(ExportError::NotFinite);
@@ -105,6 +111,9 @@ impl<'s> Builder<'s> for File<'_, 's> {
         if skeleton.is_some() {
             vertices = vertices.with_bones();
         }
+        if let Some(weights) = weights {
+            vertices = vertices.with_wind(&weights.measures().told());
+        }
         let mut triangles = [Vec::new(), Vec::new()];
         (part.blocks)(&mut |block| {
             let first = vertices.count();
@@ -112,9 +121,12 @@ impl<'s> Builder<'s> for File<'_, 's> {
                 let (normal, uv) = (block.mesh.normals[index], block.mesh.uvs[index]);
                 let (tangent, colour) = (block.tangents[index], block.colours[index]);
                 let lit = block.places.map_or(Vec2::ZERO, |places| places[index]);
-                let rider = block.riders.get(index).zip(skeleton);
-                let bound = rider.map(|(&rider, skeleton)| skeleton.bound(rider)).unwrap_or_default();
-                vertices.vertex(writer, &Vertex { place, normal, tangent, uv, colour, lit, bound })?;
+                let rider = block.riders.get(index).copied();
+                let bound = rider.zip(skeleton).map(|(rider, skeleton)| skeleton.bound(rider));
+                let metres = place * writer.scale;
+                let wind = rider.zip(weights).map(|(rider, weights)| weights.of_vertex(rider, metres));
+                let (bound, wind) = (bound.unwrap_or_default(), wind.unwrap_or_default());
+                vertices.vertex(writer, &Vertex { place, normal, tangent, uv, colour, lit, bound, wind })?;
             }
             for (to, from) in triangles.iter_mut().zip([&block.mesh.indices[..], block.second]) {
                 to.extend(from.iter().map(|&index| first + index));
@@ -143,8 +155,8 @@ impl<'s> Builder<'s> for File<'_, 's> {
         for (&place, &normal) in mesh.positions.iter().zip(&mesh.normals) {
             let tangent: Vec4 = normal.any_orthonormal_vector().extend(1.0);
             let (uv, colour) = (Vec2::ZERO, Vec3::ONE);
-            let bound = Default::default();
-            let vertex = Vertex { place, normal, tangent, uv, colour, lit: uv, bound };
+            let (bound, wind) = Default::default();
+            let vertex = Vertex { place, normal, tangent, uv, colour, lit: uv, bound, wind };
             vertices.vertex(writer, &vertex)?;
         }
         let surface = Surface::Plain(COLLISION, HULL);

@@ -116,6 +116,10 @@ pub(crate) struct Attributes {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub texcoord_1: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub texcoord_2: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub texcoord_3: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub color_0: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joints_0: Option<usize>,

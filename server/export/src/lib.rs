@@ -26,6 +26,7 @@ mod structure;
 mod surface;
 mod swaying;
 mod usd;
+mod wind_weights;
 mod zip;
 
 pub use about::About;

@@ -19,6 +19,8 @@ pub struct Model {
     pub lightmap: Option<u32>,
     /// At most so many bones for each plant, and animations of its sway (`glTF`).
     pub sway: Option<u32>,
+    /// Numbers for each vertex by which shaders move it in the wind (`glTF`).
+    pub wind_weights: bool,
 }
 
 /// How finely plants are drawn.

@@ -23,6 +23,8 @@ const SEED: u32 = 7;
 pub(crate) struct Rider {
     pub row: u32,
     pub share: f32,
+    /// How much it flutters besides: 1 at the tips of leaves, 0 where they hang and on wood.
+    pub flutter: f32,
 }
 
 /// The joints of all plants of a scene, and how they move.
@@ -70,14 +72,14 @@ impl Swaying {
             })
             .collect();
         let nearest = |vertex: &Vec3| {
-            let mut best = (f32::INFINITY, Rider { row: 0, share: 0.0 });
+            let mut best = (f32::INFINITY, Rider { row: 0, share: 0.0, flutter: 0.0 });
             for &(row, from, way) in &pieces {
                 let squared = way.length_squared();
                 let share =
                     if squared > 0.0 { ((*vertex - from).dot(way) / squared).clamp(0.0, 1.0) } else { 1.0 };
                 let away = (from + share * way).distance_squared(*vertex);
                 if away < best.0 {
-                    best = (away, Rider { row, share });
+                    best = (away, Rider { row, share, flutter: 0.0 });
                 }
             }
             best.1

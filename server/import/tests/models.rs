@@ -26,6 +26,7 @@ const PLAIN: Model = Model {
     by_limb: false,
     lightmap: None,
     sway: None,
+    wind_weights: false,
 };
 
 type Export = fn(

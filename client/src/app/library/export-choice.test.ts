@@ -31,6 +31,10 @@ describe("a choice", () => {
     const swaying = { ...GLB, options: ["sway", "instanced"] };
     const choice = { ...FIRST_CHOICE, sway: "64", on: ["instanced"] };
     expect([...optionsOf(choice, swaying)], "leaves that are instances stand still").toEqual([["sway", "64"]]);
+    const weighed = { ...GLB, options: ["wind_weights", "instanced"] };
+    expect([...optionsOf({ ...choice, on: ["instanced", "wind_weights"] }, weighed)]).toEqual([
+      ["wind_weights", "true"],
+    ]);
     expect([...optionsOf({ ...choice, sway: "" }, swaying)]).toEqual([["instanced", "true"]]);
     expect([
       isExportChoice({ ...FIRST_CHOICE, lightmap: "1024" }),

@@ -40,13 +40,18 @@ export function isExportChoice(value: unknown): boolean {
   );
 }
 
+/** Whether leaves have to move in the file: those that are instances stand still. */
+export function moves({ sway, on }: ExportChoice, { options }: ExportFormat): boolean {
+  const sways = options.includes("sway") && (sway ?? "") !== "";
+  return sways || (options.includes("wind_weights") && on.includes("wind_weights"));
+}
+
 /** What of a choice the format can do, as the server is asked for it. */
 export function optionsOf(choice: ExportChoice, format: ExportFormat): ReadonlyMap<string, string> {
-  const sways = format.options.includes("sway") && (choice.sway ?? "") !== "";
+  const still = moves(choice, format) ? "instanced" : null;
   const all: [string, string][] = [
     ["lod", choice.lod === "0" ? "" : choice.lod],
-    // Leaves that are instances stand still.
-    ...choice.on.filter((name) => !(sways && name === "instanced")).map((name): [string, string] => [name, "true"]),
+    ...choice.on.filter((name) => name !== still).map((name): [string, string] => [name, "true"]),
     ["lightmap", choice.lightmap ?? ""],
     ["sway", choice.sway ?? ""],
     ["frames", choice.frames],

@@ -20,6 +20,7 @@ export const EXPORTS = {
   "exports.lightmap.none": ["None", "Keine"],
   "exports.sway": ["Bones that sway in wind", "Knochen, die im Wind schwingen"],
   "exports.sway.none": ["None", "Keine"],
+  "exports.wind_weights": ["Weights for wind shaders", "Gewichte für Wind-Shader"],
   "exports.frames": ["Pictures", "Bilder"],
   "exports.author": ["Author", "Urheber"],
   "exports.licence": ["Licence", "Lizenz"],

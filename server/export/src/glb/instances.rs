@@ -80,13 +80,11 @@ fn prototype(writer: &mut Writer<'_>, scatter: &Scatter<'_>, which: usize) -> Re
     let mut cards = Cards::default();
     scatter.form.add_prototype(&mut cards, which);
     let mut part = writer.begin_plain();
+    let (bound, wind) = Default::default();
     for (index, &place) in cards.mesh.positions.iter().enumerate() {
         let (normal, uv) = (cards.mesh.normals[index], cards.mesh.uvs[index]);
         let (tangent, colour) = (cards.tangents[index], Vec3::ONE);
-        part.vertex(
-            writer,
-            &Vertex { place, normal, tangent, uv, colour, lit: uv, bound: Default::default() },
-        )?;
+        part.vertex(writer, &Vertex { place, normal, tangent, uv, colour, lit: uv, bound, wind })?;
     }
     let mesh = part
         .mesh(writer, format!("{} {which}", scatter.name), &[(&cards.mesh.indices, scatter.surface)])?

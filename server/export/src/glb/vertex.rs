@@ -3,9 +3,10 @@
 use glam::{Vec2, Vec3, Vec4};
 
 use crate::gltf::{BYTE, FLOAT, SHORT, UNSIGNED_BYTE, UNSIGNED_SHORT};
+use crate::wind_weights::Weights;
 
 /// The most bytes that a vertex has.
-const MOST: usize = 72;
+const MOST: usize = 88;
 
 /// One vertex, lengths in internodes.
 pub(super) struct Vertex {
@@ -20,6 +21,8 @@ pub(super) struct Vertex {
     pub lit: Vec2,
     /// The bones it goes along with, and by which shares of 255, where there are any.
     pub bound: ([u16; 4], [u8; 4]),
+    /// How it moves in the wind, where that is asked for.
+    pub wind: Weights,
 }
 
 /// Where one attribute stands in the bytes of a vertex.
@@ -41,6 +44,8 @@ pub(super) struct Layout {
     pub lit: Option<Attribute>,
     /// Bones and their shares.
     pub bound: Option<[Attribute; 2]>,
+    /// How far it goes with trunk and limb; its phase and how it flutters.
+    pub wind: Option<[Attribute; 2]>,
     pub stride: usize,
 }
 
@@ -56,6 +61,7 @@ const PLAIN: Layout = Layout {
     colour: at(48, UNSIGNED_BYTE, "VEC4"),
     lit: None,
     bound: None,
+    wind: None,
     stride: 52,
 };
 /// For places in an atlas, which are between 0 and 1.
@@ -67,6 +73,7 @@ const SMALL: Layout = Layout {
     colour: at(20, UNSIGNED_BYTE, "VEC4"),
     lit: None,
     bound: None,
+    wind: None,
     stride: 24,
 };
 /// For bark, which repeats itself along a limb.
@@ -97,6 +104,14 @@ impl Layout {
         Self { bound: Some([bones, shares]), stride: self.stride + 12, ..self }
     }
 
+    /// The same with how it moves in the wind behind all others.
+    pub(super) fn with_wind(self) -> Self {
+        let is_small = self.place.component_type != FLOAT;
+        let (component_type, bytes) = if is_small { (UNSIGNED_SHORT, 4) } else { (FLOAT, 8) };
+        let pair = [0, bytes].map(|beyond| at(self.stride + beyond, component_type, "VEC2"));
+        Self { wind: Some(pair), stride: self.stride + 2 * bytes, ..self }
+    }
+
     /// The bytes of a vertex whose `place` is in the units of its node, and the place as its accessor counts it.
     pub(super) fn encode(&self, vertex: &Vertex, place: Vec3) -> ([u8; MOST], Vec3) {
         let Vertex { normal, tangent, uv, colour, lit, .. } = vertex;
@@ -123,6 +138,10 @@ impl Layout {
         put(self.uv, &[uv.x, 1.0 - uv.y]);
         if let Some(attribute) = self.lit {
             put(attribute, &[lit.x, 1.0 - lit.y]);
+        }
+        if let Some([far, flutter]) = self.wind {
+            put(far, &[vertex.wind.trunk, vertex.wind.limb]);
+            put(flutter, &[vertex.wind.phase, vertex.wind.flutter]);
         }
         put(self.colour, &colour.clamp(Vec3::ZERO, Vec3::ONE).extend(1.0).to_array());
         if let Some([bones, shares]) = self.bound {

@@ -298,7 +298,17 @@ pub(super) struct Part {
 impl Part {
     /// Its vertices have places in a light map, of which the mesh says this; none have been added yet.
     pub(super) fn with_lightmap(self, about: &Value) -> Self {
-        Self { layout: self.layout.with_lightmap(), extras: Some(json!({ "lightmap": about })), ..self }
+        Self { layout: self.layout.with_lightmap(), ..self }.saying("lightmap", about)
+    }
+
+    /// Its vertices say how they move in the wind, of which the mesh says this; none have been added yet.
+    pub(super) fn with_wind(self, about: &Value) -> Self {
+        Self { layout: self.layout.with_wind(), ..self }.saying("wind", about)
+    }
+
+    fn saying(mut self, key: &str, about: &Value) -> Self {
+        self.extras.get_or_insert_with(|| json!({}))[key] = about.clone();
+        self
     }
 
     /// Its vertices go along with bones; none have been added yet.
@@ -405,21 +415,25 @@ impl Part {
             tangent: is_textured.then(|| accessor(layout.tangent)),
             texcoord_0: is_textured.then(|| accessor(layout.uv)),
             texcoord_1: layout.lit.map(&mut accessor),
+            texcoord_2: layout.wind.map(|[far, _]| accessor(far)),
+            texcoord_3: layout.wind.map(|[_, flutter]| accessor(flutter)),
             color_0: is_textured.then(|| accessor(layout.colour)),
             joints_0: None,
             weights_0: layout.bound.map(|[_, shares]| accessor(shares)),
         };
         let bones = layout.bound.map(|[bones, _]| writer.accessor(view, bones, false, count));
-        let attributes = Attributes { joints_0: bones, ..attributes };
+        // Sets of places are numbered without a gap: where there is no light map the second set is the first again.
+        let second = attributes.texcoord_1.or(attributes.texcoord_0.filter(|_| layout.wind.is_some()));
+        let attributes = Attributes { joints_0: bones, texcoord_1: second, ..attributes };
         let places = &mut writer.root.accessors[attributes.position];
         (places.min, places.max) = (Some(low.to_array().to_vec()), Some(high.to_array().to_vec()));
         let mut primitives = Vec::new();
         for (indices, surface) in triangles.iter().filter(|(indices, _)| !indices.is_empty()) {
             let attributes = match surface {
-                // The colour of bark is not that of wood below it. Sets of places are numbered without a gap.
+                // The colour of bark is not that of wood below it. A second set of places needs the first.
                 Surface::Plain(..) => Attributes {
                     tangent: None,
-                    texcoord_0: attributes.texcoord_0.filter(|_| layout.lit.is_some()),
+                    texcoord_0: attributes.texcoord_0.filter(|_| attributes.texcoord_1.is_some()),
                     color_0: None,
                     ..attributes
                 },

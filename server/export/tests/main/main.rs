@@ -8,6 +8,7 @@ mod scenes;
 mod species;
 mod structure;
 mod swaying;
+mod wind_weights;
 
 use espalier_export::{About, ExportError, Model, in_memory};
 use espalier_mesh::{Style, StyleOptions, leaves, wood};

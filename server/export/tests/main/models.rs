@@ -18,6 +18,7 @@ const PLAIN: Model = Model {
     by_limb: false,
     lightmap: None,
     sway: None,
+    wind_weights: false,
 };
 
 fn file(plant: &Plant, options: &Model) -> Vec<u8> {

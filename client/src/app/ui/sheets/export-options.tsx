@@ -1,6 +1,6 @@
 import { useEffect, useState } from "preact/hooks";
 import { type ExportFormat, MAX_NAME_CHARACTERS } from "../../../wire/generated";
-import type { ExportChoice } from "../../library/export-choice";
+import { type ExportChoice, moves } from "../../library/export-choice";
 import { ask } from "../../requests/request";
 import { type Key, say } from "../../words/say";
 import { Segments } from "../controls/segments";
@@ -10,7 +10,7 @@ const LIGHTMAPS = ["", "512", "1024", "2048", "4096"] as const;
 /** The most bones of a plant; some programs take 64, most 256. */
 const BONES = ["", "64", "256", "1024"] as const;
 const FRAMES = ["24", "36", "72"] as const;
-const SWITCHES = ["quantised", "compressed", "instanced", "hull", "by_limb"] as const;
+const SWITCHES = ["quantised", "compressed", "instanced", "hull", "by_limb", "wind_weights"] as const;
 const TEXTS = ["author", "licence"] as const;
 
 interface OptionsProps {
@@ -68,7 +68,7 @@ export function ExportOptions({ format, choice, choose }: OptionsProps) {
         <label key={option} class="switch">
           <input
             type="checkbox"
-            disabled={option === "instanced" && has("sway") && (choice.sway ?? "") !== ""}
+            disabled={option === "instanced" && moves(choice, format)}
             checked={choice.on.includes(option)}
             onChange={({ currentTarget: { checked } }) =>
               choose({ on: [...choice.on.filter((other) => other !== option), ...(checked ? [option] : [])] })
