@@ -21,12 +21,15 @@ export interface Shot {
 
 /** A sketch of the gallery. */
 export interface Entry {
-  /** Of its script `sketches/NAME.jsonl` and of its picture `NAME.jpg`. */
+  /** Of its picture `NAME.jpg`, and of its script `sketches/NAME.jsonl` unless `script` names another one. */
   readonly name: string;
+  readonly script?: string;
   readonly seed: number;
   readonly shot: Shot;
   /** So many operations are taken back for a second picture, which is put on the left of the first. */
   readonly undone?: number;
+  /** Commands that are done once the camera stands: a wind, in which it stands where it did in the calm. */
+  readonly then?: readonly object[];
 }
 
 /** All sketches, in the order of the gallery. */

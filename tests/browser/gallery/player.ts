@@ -25,6 +25,8 @@ const CANVAS_ALONE = `
 `;
 /** A processor that has other work as well may need long for a picture, in milliseconds. */
 const PATIENCE = 240_000;
+/** So long a wind blows before its picture is taken, in milliseconds. */
+const BLOWN = 30000;
 
 /** Plays sketches on a real server and takes their pictures in a real browser. */
 export class Player {
@@ -57,7 +59,10 @@ export class Player {
   }
 
   /** Takes the picture of the session at an address as JPEG. */
-  async photograph(address: string, { shot, undone = 0 }: Pick<Entry, "shot" | "undone">): Promise<Buffer> {
+  async photograph(
+    address: string,
+    { shot, undone = 0, then = [] }: Pick<Entry, "shot" | "undone" | "then">,
+  ): Promise<Buffer> {
     const { size, oversampling } = this.#care;
     const [width, height] = [Math.round(shot.width * size), Math.round(shot.height * size)];
     const screen = { width, height, detail: oversampling, watched: true };
@@ -66,6 +71,15 @@ export class Player {
       tablet.page.setDefaultTimeout(PATIENCE);
       await tablet.untilQuiet();
       await tablet.page.addStyleTag({ content: CANVAS_ALONE });
+      if (then.length > 0) {
+        await atRest(tablet.page);
+        const commands = then.map((command) => JSON.stringify(command));
+        await perform(this.blank, sessionAt(address), commands);
+        // The wind has come, and is held where it is: a picture that moves is never finished.
+        await tablet.page.waitForSelector("canvas:not([data-still])", { state: "attached" });
+        await tablet.page.waitForTimeout(BLOWN);
+        await tablet.page.keyboard.press("a");
+      }
       const pictures = [await atRest(tablet.page)];
       if (undone > 0) {
         // The camera stays where it is: the two can be compared.
