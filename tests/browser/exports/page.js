@@ -1,4 +1,4 @@
-// Shows a glTF file as any viewer that is built on three.js does.
+// Shows a file as any viewer that is built on three.js does.
 import {
   Box3,
   Color,
@@ -11,14 +11,14 @@ import {
   Vector3,
   WebGLRenderer,
 } from "three";
-import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { read } from "./readers.js";
 
 /** three.js divides the light of diffuse surfaces by this, the page does not. */
 const LAMBERT = Math.PI;
 
-/** Draws the file at an address by a shot, and gives what the loader found in it. */
+/** Draws the file at an address by a shot, and gives what its loader found in it. */
 globalThis.show = async (address, { eye, target, angle, light }) => {
-  const { scene: tree, asset } = await new GLTFLoader().loadAsync(address);
+  const { tree, generator } = await read(address);
   const renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
   renderer.setPixelRatio(devicePixelRatio);
   renderer.setSize(innerWidth, innerHeight);
@@ -44,18 +44,21 @@ globalThis.show = async (address, { eye, target, angle, light }) => {
   const sky = new HemisphereLight(new Color(...light.above), new Color(...light.below), LAMBERT);
   scene.add(sun, sun.target, sky);
 
-  const counts = { meshes: 0, triangles: 0, textures: 0 };
+  const counts = { meshes: 0, triangles: 0, points: 0, textures: 0 };
   tree.traverse((node) => {
+    if (node.isPoints) counts.points += node.geometry.attributes.position.count;
     if (!node.isMesh) return;
     node.castShadow = node.receiveShadow = true;
     counts.meshes += 1;
-    counts.triangles += node.geometry.index.count / 3;
-    counts.textures += ["map", "normalMap", "roughnessMap"].filter((map) => node.material[map]).length;
+    const { index, attributes } = node.geometry;
+    counts.triangles += (index ?? attributes.position).count / 3;
+    for (const material of [node.material].flat())
+      counts.textures += ["map", "normalMap", "roughnessMap"].filter((map) => material[map]).length;
   });
 
   const camera = new PerspectiveCamera(angle, innerWidth / innerHeight, 0.01 * reach, 20 * reach);
   camera.position.set(...eye);
   camera.lookAt(...target);
   renderer.render(scene, camera);
-  return { generator: asset.generator, names: tree.children.map((node) => node.name), ...counts };
+  return { generator, names: tree.children.map((node) => node.name), ...counts };
 };

@@ -5,7 +5,6 @@ import { promisify } from "node:util";
 import type { Browser } from "playwright-core";
 import { perform } from "../gallery/performance";
 import { FINAL, Player } from "../gallery/player";
-import { treeAt } from "../src/by-hand";
 import { program, type Server } from "../src/server";
 import { STUDIO, shotOf, VIEW } from "./shot";
 import { type Found, Viewer } from "./viewer";
@@ -15,11 +14,23 @@ const run = promisify(execFile);
 /** Those whose looks differ most: needles, blossom, hanging sprays, lobed leaves. */
 export const SPECIES = ["scots-pine", "cherry", "weeping-willow", "maple"];
 
+/** three.js reads text by splitting it: the browser's memory ends with files larger than this, in bytes. */
+const LARGEST = 64e6;
+
 /** A species as the page shows it, and as three.js shows its glTF file: same eye, same lamp. PNG, several pixels to one. */
 export interface Pair {
   readonly onScreen: Buffer;
   readonly inFile: Buffer;
   readonly found: Found;
+}
+
+/** A species that has grown, as the page shows it and as others show what the program writes of it. */
+export interface Stood {
+  readonly onScreen: Buffer;
+  /** What three.js shows of its file in the format of an ending, at the finest level of detail that it can load. */
+  file(ending: string): Promise<{ readonly level: number; readonly picture: Buffer; readonly found: Found }>;
+  /** The picture that the server makes, from the same side. */
+  picture(): Promise<Buffer>;
 }
 
 /** Takes pictures of species, on the screen and in files. */
@@ -36,14 +47,31 @@ export class Pairs {
 
   /** Pictures as wide as they are high, of so many pixels a side once their detail is averaged. */
   async of(species: string, side: number): Promise<Pair> {
+    const stood = await this.stand(species, side);
+    const seen = await stood.file("glb");
+    return { onScreen: stood.onScreen, inFile: seen.picture, found: seen.found };
+  }
+
+  /** A grown species with the page's picture of it. */
+  async stand(species: string, side: number): Promise<Stood> {
     const address = await sessionOf(species, this.server);
     await perform(this.player.blank, address.slice(address.lastIndexOf("/") + 1), [
       JSON.stringify({ kind: "set_appearance", appearance: { background: STUDIO } }),
     ]);
     const onScreen = await this.player.photograph(address, { shot: { ...VIEW, width: side, height: side } });
-    const skeleton = await fetch(`${address.replace("/s/", "/api/v1/sessions/")}/tree.json`);
-    const seen = await this.viewer.see(await treeAt(address), side, side, shotOf(await skeleton.json()));
-    return { onScreen, inFile: seen.picture, found: seen.found };
+    const exported = (ending: string, options = "") =>
+      bytesAt(`${address.replace("/s/", "/api/v1/sessions/")}/tree.${ending}${options}`);
+    const shot = shotOf(JSON.parse((await exported("json")).toString()));
+    return {
+      onScreen,
+      file: async (ending) => {
+        let level = 0;
+        let bytes = await exported(ending);
+        if (bytes.length > LARGEST) bytes = await exported(ending, `?lod=${++level}`);
+        return { level, ...(await this.viewer.see({ ending, bytes }, side, side, shot)) };
+      },
+      picture: () => exported("png", `?size=${2 * side}x${2 * side}&turn=${VIEW.yaw}&rise=${VIEW.pitch}`),
+    };
   }
 }
 
@@ -62,4 +90,10 @@ async function posted(address: string, body: Buffer | string): Promise<{ id: str
   const answer = await fetch(address, { method: "POST", headers: { "content-type": type }, body: sent });
   if (!answer.ok) throw new Error(`${address}: ${await answer.text()}`);
   return (await answer.json()) as { id: string; session: string };
+}
+
+async function bytesAt(address: string): Promise<Buffer> {
+  const answer = await fetch(address);
+  if (!answer.ok) throw new Error(`nothing at ${address}: ${await answer.text()}`);
+  return Buffer.from(await answer.arrayBuffer());
 }

@@ -7,11 +7,13 @@ import type { Shot } from "./shot";
 
 /** What three.js found in a file. */
 export interface Found {
-  readonly generator: string;
+  /** The program that the file says it is from, where three.js reads that. */
+  readonly generator: string | null;
   /** Of the plants. */
   readonly names: readonly string[];
   readonly meshes: number;
   readonly triangles: number;
+  readonly points: number;
   readonly textures: number;
 }
 
@@ -23,7 +25,13 @@ const three = dirname(
   dirname(createRequire(join(import.meta.dirname, "../../../client/package.json")).resolve("three")),
 );
 
-/** Loads a glTF file with three.js and takes a picture of it. */
+/** A file of the program, in the format of its ending. */
+export interface Exported {
+  readonly ending: string;
+  readonly bytes: Buffer;
+}
+
+/** Loads files with three.js and takes pictures of them. */
 export class Viewer {
   private constructor(
     private readonly browser: Browser,
@@ -47,18 +55,23 @@ export class Viewer {
     return new Viewer(browser, chunk.code);
   }
 
-  async see(file: Buffer, width: number, height: number, shot: Shot): Promise<{ found: Found; picture: Buffer }> {
+  async see(
+    { ending, bytes }: Exported,
+    width: number,
+    height: number,
+    shot: Shot,
+  ): Promise<{ found: Found; picture: Buffer }> {
     const page = await this.browser.newPage({ viewport: { width, height }, deviceScaleFactor: DETAIL });
     try {
       const address = "http://viewer.test/";
       await page.route(`${address}**`, (route) =>
-        route.request().url().endsWith(".glb")
-          ? route.fulfill({ body: file, contentType: "model/gltf-binary" })
+        route.request().url().endsWith(`.${ending}`)
+          ? route.fulfill({ body: bytes, contentType: "application/octet-stream" })
           : route.fulfill({ body: "<!doctype html><body style='margin:0'></body>", contentType: "text/html" }),
       );
       await page.goto(address);
       await page.addScriptTag({ content: this.script });
-      const found = (await page.evaluate(`show("/tree.glb", ${JSON.stringify(shot)})`)) as Found;
+      const found = (await page.evaluate(`show("/tree.${ending}", ${JSON.stringify(shot)})`)) as Found;
       return { found, picture: await page.screenshot() };
     } finally {
       await page.close();
