@@ -29,6 +29,8 @@ export class Exports {
   /** A picture in the making; its progress counts hundredths, not bytes. */
   readonly picture = new Transfer();
   #options: ExportsOptions;
+  /** The file before, for each of these: one is made after the other, as they were asked for. */
+  #before = new WeakMap<Transfer, Promise<void>>();
 
   constructor(options: ExportsOptions) {
     this.#options = options;
@@ -38,7 +40,7 @@ export class Exports {
   async file(ending: string, name: string, options: ReadonlyMap<string, string> = new Map()): Promise<void> {
     const session = this.#options.session();
     if (session !== null) {
-      await this.#give(name, ending, () =>
+      await this.#give(this.transfer, name, ending, () =>
         this.transfer.run(async (signal, tell) => {
           const place = `/api/v1/sessions/${encodeURIComponent(session)}`;
           const ticket = newClientKey();
@@ -64,7 +66,7 @@ export class Exports {
 
   /** The view as a picture of so many pixels. */
   async png(name: string, size: { readonly width: number; readonly height: number }): Promise<void> {
-    await this.#give(name, "png", () =>
+    await this.#give(this.picture, name, "png", () =>
       this.picture.run(async (stop, tell) => {
         try {
           return await this.#options.photograph(size, stop, (share) =>
@@ -77,7 +79,13 @@ export class Exports {
     );
   }
 
-  async #give(name: string, ending: string, make: () => Promise<Blob | null>): Promise<void> {
+  #give(by: Transfer, name: string, ending: string, make: () => Promise<Blob | null>): Promise<void> {
+    const given = (this.#before.get(by) ?? Promise.resolve()).then(() => this.#made(name, ending, make));
+    this.#before.set(by, given);
+    return given;
+  }
+
+  async #made(name: string, ending: string, make: () => Promise<Blob | null>): Promise<void> {
     try {
       const file = await make();
       if (file) {

@@ -94,6 +94,24 @@ describe("exports", () => {
     expect([given, failures, exports.transfer.progress.peek()]).toEqual([[], [], null]);
   });
 
+  it("what is asked for while one is made comes after it, in order", async () => {
+    const given: string[] = [];
+    const open: (() => void)[] = [];
+    const exports = new Exports({
+      session: () => "s",
+      photograph: () => new Promise((done) => open.push(() => done(new Blob()))),
+      give: (_, name) => void given.push(name),
+      failed: (error) => expect.unreachable(String(error)),
+    });
+    const all = ["oak", "beech"].map((name) => exports.png(name, { width: 4, height: 3 }));
+    await expect.poll(() => open.length).toBe(1);
+    open[0]!();
+    await expect.poll(() => [open.length, given]).toEqual([2, ["oak.png"]]);
+    open[1]!();
+    await Promise.all(all);
+    expect(given).toEqual(["oak.png", "beech.png"]);
+  });
+
   it("a picture is named after the tree, tells how far it is, and can be given up", async () => {
     const notified: (Progress | null)[] = [];
     const given: string[] = [];

@@ -16,7 +16,8 @@ export function TransferChip({ transfer, name }: TransferChipProps) {
     return null;
   }
   const { bytes, total, isMaking = false } = progress;
-  const percent = total === null || total === 0 ? null : Math.min(100, Math.round((100 * bytes) / total));
+  // How much it will be is a guess while it is made.
+  const percent = total ? Math.min(isMaking ? 99 : 100, Math.round((100 * bytes) / total)) : null;
   const figures = new Intl.NumberFormat(language.value, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
   const megabytes = (count: number) => figures.format(count / 1e6);
   const text =
