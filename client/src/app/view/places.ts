@@ -21,15 +21,17 @@ export function nearestBase(table: TreeTable, view: BrushView, x: number, y: num
   return nearest;
 }
 
-/** Where seeds lie that have not grown yet, at most `most`. */
+/** Where seeds lie that have not grown yet, and no plant stands, at most `most`. */
 export function seedsToGrow(table: TreeTable, most: number): Vec3[] {
-  const seeds: Vec3[] = [];
-  for (let row = 0; row < table.rows && seeds.length < most; row += 1) {
-    if (table.parent[row] === -1 && (table.successor[row] ?? -1) < 0) {
-      seeds.push([0, 1, 2].map((axis) => table.position[3 * row + axis] ?? 0) as [number, number, number]);
+  const seeds = new Map<string, Vec3 | null>();
+  for (let row = 0; row < table.rows; row += 1) {
+    if (table.parent[row] === -1) {
+      const place = [0, 1, 2].map((axis) => table.position[3 * row + axis] ?? 0) as [number, number, number];
+      if (table.successor[row]! >= 0) seeds.set(`${place}`, null);
+      else if (!seeds.has(`${place}`)) seeds.set(`${place}`, place);
     }
   }
-  return seeds;
+  return [...seeds.values()].filter((place) => place !== null).slice(0, most);
 }
 
 /** How many pixels an internode is long at a point. */
