@@ -133,7 +133,10 @@ export const REFUSALS = {
     "Something has grown on the designed tree, so its design rests. Undo what grew; or let the design go, and it is wood like any other; or begin another design.",
     "Auf dem entworfenen Baum ist etwas gewachsen, darum ruht der Entwurf. Nimm zurück, was gewachsen ist; oder lass den Entwurf los, dann ist alles gewöhnliches Holz; oder beginne einen anderen Entwurf.",
   ],
-  "problems.design-refused": ["The design does not take this.", "Der Entwurf lässt das nicht zu."],
+  "problems.design-refused": [
+    "The design does not take this. Most often it would have too many branches: try a lower density, or fewer orders.",
+    "Der Entwurf lässt das nicht zu. Meist hätte er zu viele Äste: versuche es mit geringerer Dichte oder weniger Ordnungen.",
+  ],
   "problems.being-drawn": [
     "Someone is drawing; wait until the brush is lifted.",
     "Jemand zeichnet gerade; warte, bis der Pinsel abgehoben ist.",

@@ -5,6 +5,7 @@ import {
   type DesignKey,
   type DesignModel,
   isPoints,
+  type KeyName,
   keysOf,
   type Resolved,
   ROOT,
@@ -13,6 +14,8 @@ import {
 } from "../../../document/design/design-model";
 import { type Key, say } from "../../../words/say";
 import { Slider } from "../../controls/slider";
+import { Switch } from "../../controls/switch";
+import type { Scale } from "../../controls/travel";
 import { titleOf } from "./branch-list";
 import { FunctionEditor } from "./function-editor";
 import { type EnvelopeValue, OutlineEditor } from "./outline-editor";
@@ -24,6 +27,17 @@ interface ValuesProps {
 
 /** Kinds of values that hands set, or files, and no editor here. */
 const BY_HAND = new Set(["curve", "material"]);
+
+/** The part of a wide range that trees have, which gets most of a slider. */
+const TRAVEL: Partial<Record<KeyName, readonly [number, number]>> = {
+  height: [10, 150],
+  stem: [0.2, 5],
+  reach: [0.3, 1.7],
+  turn: [-90, 90],
+  roll: [-90, 90],
+  pull: [-2, 2],
+  leaf_size: [0.2, 3],
+};
 
 /** All parameters of the chosen branch, and what can be done with it as a whole. */
 export function BranchValues({ editing, model }: ValuesProps) {
@@ -83,7 +97,7 @@ function ValueRow({ editing, model, path, of }: ValueRowProps) {
         }}
       >
         <StatusMark resolved={resolved} />
-        {say(`structure.status.${resolved.status}`)}
+        {say(resolved.origin === null ? "structure.status.standard" : `structure.status.${resolved.status}`)}
         {resolved.isPrivate && <span title={say("structure.private")}> 🔒</span>}
       </button>
       {isShown && (
@@ -190,11 +204,11 @@ function ownOf(model: DesignModel, path: string, of: DesignKey, resolved: Resolv
   return resolved.status === "factor" ? setting?.multiply : resolved.value;
 }
 
-function rangeOf(of: DesignKey, status: Status): { readonly least: number; readonly most: number } {
+function rangeOf(of: DesignKey, status: Status): Omit<Scale, "step"> {
   if (status === "offset") {
     return { least: of.least - of.most, most: of.most - of.least };
   }
-  return status === "factor" ? { least: 0, most: 10 } : of;
+  return status === "factor" ? { least: 0, most: 10 } : { least: of.least, most: of.most, travel: TRAVEL[of.name] };
 }
 
 function Editor({ editing, model, path, of, resolved }: ValueRowProps & { readonly resolved: Resolved }) {
@@ -209,8 +223,7 @@ function Editor({ editing, model, path, of, resolved }: ValueRowProps & { readon
       label={props.label}
       help={help}
       unit={unitOf(of)}
-      least={range.least}
-      most={range.most}
+      {...range}
       step={of.kind === "whole" ? 1 : stepOf(range.most - range.least)}
       value={props.value}
       standard={props.standard}
@@ -221,6 +234,17 @@ function Editor({ editing, model, path, of, resolved }: ValueRowProps & { readon
   );
   if (typeof own === "number") {
     const standard = typeof resolved.inherited === "number" ? resolved.inherited : own;
+    if (of.kind === "whole" && of.most === 1) {
+      return (
+        <Switch
+          label={label}
+          help={help}
+          value={own === 1}
+          standard={standard === 1}
+          onCommit={(value) => (value === (standard === 1) ? back() : editing.commit(of, value ? 1 : 0))}
+        />
+      );
+    }
     return slider({ label, value: own, standard, whole: (value) => value });
   }
   if (of.kind === "function" && isPoints(own)) {
