@@ -93,6 +93,7 @@ const WHOLE = [
   ["library", { sheet: "library" }],
   ["share", { sheet: "share" }],
   ["people", { sheet: "people" }],
+  ["comments", { panel: "comments" }],
   ["variations", { sheet: "variations" }],
   ["download", { sheet: "download" }],
   ["install"],

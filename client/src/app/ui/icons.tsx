@@ -63,8 +63,7 @@ export const NewIcon = () => (
 
 export const SaveIcon = () => (
   <Icon>
-    <path d="M12 4v10.5M7.8 10.5l4.2 4.2 4.2-4.2" />
-    <path d="M4.5 15.5v2.7a1.8 1.8 0 0 0 1.8 1.8h11.4a1.8 1.8 0 0 0 1.8-1.8v-2.7" />
+    <path d="M4.5 4.5h12l3 3v12h-15ZM8.5 4.5v5h6v-5M8 19.5v-6h8v6" />
   </Icon>
 );
 
@@ -86,8 +85,8 @@ export const ShareIcon = () => (
 
 export const DownloadIcon = () => (
   <Icon>
-    <path d="m12 3.5 7.4 4.2v8.6L12 20.5l-7.4-4.2V7.7L12 3.5Z" />
-    <path d="m4.8 7.9 7.2 4.1 7.2-4.1M12 12v8.3" />
+    <path d="M12 4v10.5M7.8 10.5l4.2 4.2 4.2-4.2" />
+    <path d="M4.5 15.5v2.7a1.8 1.8 0 0 0 1.8 1.8h11.4a1.8 1.8 0 0 0 1.8-1.8v-2.7" />
   </Icon>
 );
 

@@ -235,6 +235,15 @@ export const HELP = {
     "link together people invite collaborate multiplayer url send qr code guest revoke",
     "Link zusammen Leute einladen gemeinsam schicken Adresse QR-Code Gast widerrufen",
   ],
+  "help.topic.comments": ["Comments", "Kommentare"],
+  "help.topic.comments.text": [
+    "Say something of a place on a branch: a pin stands there, and goes along as the tree grows and bends. Others answer, and close what is done; a summary of all can be read, sent and printed",
+    "Sage etwas zu einer Stelle an einem Ast: dort steht eine Nadel, die mitgeht, wenn der Baum wächst und sich biegt. Andere antworten und schließen, was erledigt ist; eine Zusammenfassung von allem lässt sich lesen, schicken und drucken",
+  ],
+  "help.topic.comments.words": [
+    "note pin thread answer reply review mention feedback discuss summary",
+    "Notiz Nadel Faden Antwort Rückmeldung besprechen erwähnen Zusammenfassung",
+  ],
   "help.topic.people": ["Who is here", "Wer hier ist"],
   "help.topic.people.text": [
     "Others who have this tree open: their pointers in their colours, the tool they hold, and whether they are away. Follow what somebody sees until your first own touch, or bring everyone to what you see",
