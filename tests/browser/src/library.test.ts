@@ -89,7 +89,7 @@ test("a tree is saved as the next version of its own, with a note, and versions 
   await page.locator("[data-version='1']").getByText("As it began").waitFor();
   await choose(tablet, "version 1", "New tree from it");
   await page.getByText("“Oak, from version 1” is in the library").waitFor();
-  await choose(tablet, "version 1", "Make it the newest again");
+  await choose(tablet, "version 1", "Restore as the newest");
   await page.locator("[data-version='3']").getByText("as version 1").waitFor();
   await page.locator(".toast-row", { hasText: "as version 3" }).getByRole("button", { name: "Open" }).tap();
   await tablet.until("it is as it was", (facts) => facts.metamers === metamers);
@@ -220,4 +220,26 @@ test("a new tree begins with a template, or as a species", async () => {
   await tablet.show("templates");
   await species.tap();
   await tablet.until("a seedling", (facts) => facts.metamers === 0 && facts.rows > 0 && facts.operations !== "");
+});
+
+test("all that can be done with chosen trees is in sight at the foot of a phone", async () => {
+  const { tablet } = await grown(PHONE);
+  const { page } = tablet;
+  await saveAs(tablet, "Whitebeam");
+  await open(tablet, "Library");
+  await page.getByRole("button", { name: "Select", exact: true }).tap();
+  const bar = page.getByRole("toolbar", { name: "Selected trees" });
+  await page.getByRole("button", { name: "Select Whitebeam" }).first().tap();
+  await bar.getByText("1 selected").waitFor();
+  await tablet.show("library-chosen-phone");
+  const { y, height } = await tablet.boxOf(bar);
+  expect(Math.round(y + height), "it stands at the foot").toBe(PHONE.height);
+  for (const name of ["Done", "Duplicate", "Make it a template", "Delete"]) {
+    const { x, width } = await tablet.boxOf(bar.getByRole("button", { name, exact: true }));
+    expect([x >= 0, x + width <= PHONE.width], name).toEqual([true, true]);
+  }
+  const copies = () => cards(tablet).filter({ hasText: "Whitebeam" }).count();
+  const before = await copies();
+  await bar.getByRole("button", { name: "Duplicate" }).tap();
+  await expect.poll(copies).toBe(before + 1);
 });

@@ -112,7 +112,7 @@ export const LIBRARY = {
   "library.compare.how": ["Tick two versions to compare them.", "Hake zwei Versionen an, um sie zu vergleichen."],
   "library.compare-version": ["Compare version {number}", "Version {number} vergleichen"],
   "library.between": ["{time} and {count} metamers between them", "Dazwischen: {time} und {count} Metamere"],
-  "library.restore": ["Make it the newest again", "Wieder zur neuesten machen"],
+  "library.restore": ["Restore as the newest", "Als neueste wiederherstellen"],
   "library.restored": [
     "Version {number} is the newest again, as version {version}",
     "Version {number} ist wieder die neueste, als Version {version}",
