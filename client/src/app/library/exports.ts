@@ -1,12 +1,6 @@
-import type { ExportProgress } from "../../wire/generated";
-import { newClientKey } from "../connection/client-record";
-import { ask, askFor } from "../requests/request";
-import { bytesOf, type Progress, Transfer } from "../requests/transfer";
+import { Transfer } from "../requests/transfer";
 import { say } from "../words/say";
 import { fileName } from "./file-name";
-
-/** How often the server is asked how far a file is. */
-const EVERY = 500;
 
 /** Makes a picture of so many pixels across and down as PNG, and tells what share of it is done. */
 export type Photographer = (
@@ -41,25 +35,9 @@ export class Exports {
     const session = this.#options.session();
     if (session !== null) {
       await this.#give(this.transfer, name, ending, () =>
-        this.transfer.run(async (signal, tell) => {
-          const place = `/api/v1/sessions/${encodeURIComponent(session)}`;
-          const ticket = newClientKey();
-          let isMaking = true;
-          const watch = setInterval(
-            () => void tellProgress(`${place}/exports/${ticket}`, (progress) => isMaking && tell(progress)),
-            EVERY,
-          );
-          try {
-            const asked = new URLSearchParams([...options, ["ticket", ticket]]);
-            const answer = await askFor("GET", `${place}/tree.${ending}?${asked}`, undefined, signal);
-            isMaking = false;
-            clearInterval(watch);
-            return await bytesOf(answer, tell);
-          } finally {
-            isMaking = false;
-            clearInterval(watch);
-          }
-        }),
+        this.transfer.run(async (stop, tell) =>
+          (await import("./served-file")).servedFile(session, ending, options, stop, tell),
+        ),
       );
     }
   }
@@ -105,12 +83,4 @@ export function keepFile(file: Blob, name: string): void {
   link.click();
   // Safari reads it after the click.
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
-}
-
-/** Tells how far a file is that the server makes; it is no loss where the server does not say. */
-async function tellProgress(path: string, tell: (progress: Progress) => void): Promise<void> {
-  const progress = await ask<ExportProgress>("GET", path).catch(() => null);
-  if (progress) {
-    tell({ bytes: progress.written, total: progress.expected, isMaking: true });
-  }
 }

@@ -2,7 +2,8 @@ import { signal } from "@preact/signals";
 import { IMPORT_ENDINGS, MAX_NAME_CHARACTERS, MAX_WOOD_BYTES, type SavedTree } from "../../wire/generated";
 import type { ToastAction } from "../page/toasts";
 import { sentence } from "../problems/plain-words";
-import { type Progress, send, Transfer } from "../requests/transfer";
+import { send } from "../requests/send";
+import { type Progress, Transfer } from "../requests/transfer";
 import { say } from "../words/say";
 
 const MEGABYTE = 1024 * 1024;

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { Exports } from "../library/exports";
-import { bytesOf, type Progress, Transfer } from "./transfer";
+import { bytesOf } from "./bytes-of";
+import { type Progress, Transfer } from "./transfer";
 
 /** Work that goes on until it is aborted. */
 function endless() {

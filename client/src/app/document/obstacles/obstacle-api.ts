@@ -1,7 +1,7 @@
 import type { TriangleMesh } from "../../../scene/obstacle-meshes";
 import { MAX_MESH_TRIANGLES, MAX_MESH_VERTICES, MAX_MODEL_BYTES, type UploadedObstacle } from "../../../wire/generated";
 import { askFor } from "../../requests/request";
-import { type Progress, send } from "../../requests/transfer";
+import type { Progress } from "../../requests/transfer";
 import { say } from "../../words/say";
 import type { ModelFile } from "./model-file";
 
@@ -38,6 +38,7 @@ export async function uploadModel(
   if (model.body.size > MAX_MODEL_BYTES) {
     throw new Error(say("scene.too-large", { limit: MAX_MODEL_BYTES / 1024 / 1024 }));
   }
+  const { send } = await import("../../requests/send");
   return (await send(addressOf(session), model, signal, tell)) as UploadedObstacle;
 }
 
