@@ -14,7 +14,7 @@ const run = promisify(execFile);
 /** Those whose looks differ most: needles, blossom, hanging sprays, lobed leaves. */
 export const SPECIES = ["scots-pine", "cherry", "weeping-willow", "maple"];
 
-/** three.js reads text by splitting it: the browser's memory ends with files larger than this, in bytes. */
+/** Files larger than this, in bytes, are shown coarser: with a text of 118 MB three.js ran out of the browser's memory. */
 const LARGEST = 64e6;
 
 /** A species as the page shows it, and as three.js shows its glTF file: same eye, same lamp. PNG, several pixels to one. */
