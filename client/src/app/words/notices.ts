@@ -95,6 +95,7 @@ export const NOTICES = {
     "Lebende Metamere: Internodien mit ihren Knospen und Blättern",
   ],
   "notices.size": ["{height} high, {spread} wide, {age}", "{height} hoch, {spread} breit, {age}"],
+  "notices.size.ageless": ["{height} high, {spread} wide", "{height} hoch, {spread} breit"],
   "notices.size.title": [
     "The living wood, and the age of the oldest tree: each step of growth counts as a year",
     "Das lebende Holz, und das Alter des ältesten Baums: Jeder Wachstumsschritt zählt als ein Jahr",

@@ -67,7 +67,8 @@ function Size({ studio }: { studio: Studio }) {
   const metres = (internodes: number) => metresText(internodes * internode);
   return (
     <span class="size" data-place="size" title={say("notices.size.title")}>
-      {say("notices.size", {
+      {/* A design has not grown. */}
+      {say(measures.age > 0 ? "notices.size" : "notices.size.ageless", {
         height: metres(measures.height),
         spread: metres(measures.spread),
         age: yearsText(measures.age),
