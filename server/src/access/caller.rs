@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     hosts,
-    store::{Pass, PassKind, Passes, StoreError, Users, folded},
+    store::{Pass, PassKind, Passes, StoreError, Users, person_of},
     time::written,
 };
 
@@ -148,7 +148,7 @@ impl Caller {
     pub fn person(&self) -> String {
         match &self.pass {
             None => "machine".to_owned(),
-            Some(Held { kind: PassKind::Login, name, .. }) => format!("login {}", folded(name)),
+            Some(Held { kind: PassKind::Login, name, .. }) => person_of(name),
             Some(Held { hash, .. }) => format!("pass {}", BASE64_URL_SAFE_NO_PAD.encode(hash)),
         }
     }

@@ -77,7 +77,7 @@ pub trait Comments {
 }
 
 /// A comment to be kept.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NewComment {
     /// Who writes it, as the server knows them.
     pub person: String,

@@ -48,7 +48,7 @@ use self::standings::{
 use self::users::{a_login_has_the_role_of_its_user, a_name_is_one_person};
 use self::visits::{
     pages_hold_each_session_once, sessions_are_listed_to_who_was_in_them, sessions_are_taken_off_lists,
-    sessions_know_their_size,
+    sessions_know_their_size, who_is_removed_was_in_no_session,
 };
 use super::{
     Answers, Audit, Comments, Damage, Finding, Groups, Lease, Library, Locks, NewSession, NewSnapshot,
@@ -149,6 +149,7 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         sessions_are_taken_off_lists,
         pages_hold_each_session_once,
         sessions_know_their_size,
+        who_is_removed_was_in_no_session,
         who_is_kept_out_of_a_tree_is_kept_out_of_its_sessions,
         a_tree_is_handed_over_with_its_sessions,
         a_closed_store_takes_nothing,

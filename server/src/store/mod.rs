@@ -49,7 +49,7 @@ pub use self::{
     passes::{Pass, PassKind, Passes},
     sqlite::{CareError, LibraryFile, OpenError, Report, SqliteStore, backup, check, restore},
     standings::{Heir, Removal, Removed, Room, Standing, Standings},
-    users::{User, UserChange, Users},
+    users::{User, UserChange, Users, person_of},
     visits::{LineTree, SessionLine, SessionPlace, SessionQuery, Visits},
 };
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use espalier_proto::access::Role;
 
-use super::StoreError;
+use super::{StoreError, folded};
 
 /// Keeps users. Two whose names differ in large and small letters or accents alone would be taken for each other, so their
 /// names are one.
@@ -19,8 +19,13 @@ pub trait Users {
     /// Changes somebody; whether they are there.
     async fn change_user(&self, name: &str, change: UserChange) -> Result<bool, StoreError>;
 
-    /// Removes somebody with all their logins; whether they were there.
+    /// Removes somebody with all their logins, what sessions they were in, and what they have read; whether they were there.
     async fn remove_user(&self, name: &str) -> Result<bool, StoreError>;
+}
+
+/// Whom what a user does counts for, by their name.
+pub fn person_of(user: &str) -> String {
+    format!("login {}", folded(user))
 }
 
 /// Somebody who logs in.

@@ -1,7 +1,12 @@
 //! The contract of who has been in which session.
 
+use espalier_proto::access::Role;
+
 use super::{
-    super::{Library, NewSession, NewSnapshot, SessionLine, SessionQuery, Store, Visits},
+    super::{
+        Comments, Library, NewComment, NewSession, NewSnapshot, SessionLine, SessionQuery, Store, User,
+        Users, Visits, person_of,
+    },
     entries,
     library::tree,
 };
@@ -79,6 +84,33 @@ pub(super) async fn sessions_are_taken_off_lists(store: &(impl Store + Visits)) 
     assert!(store.has_session("sketch").await.unwrap(), "its link leads to it still");
     store.visit("sketch", ANN).await.unwrap();
     assert_eq!((names(store, of(BO)).await.len(), names(store, of(ANN)).await.len()), (0, 1));
+}
+
+pub(super) async fn who_is_removed_was_in_no_session(
+    store: &(impl Store + Library + Visits + Users + Comments),
+) {
+    let [ann, bo] = ["Änn", "Bo"].map(|name| (name, person_of(name)));
+    assert_eq!((&*ann.1, &*bo.1), (ANN, BO));
+    store.add_tree(tree("ash", "2026")).await.unwrap();
+    let said = NewComment { person: BO.into(), ..NewComment::default() };
+    store.add_thread("ash", None, said).await.unwrap();
+    begin(store, "sketch", ANN, None).await;
+    store.visit("sketch", BO).await.unwrap();
+    for (name, person) in [&ann, &bo] {
+        let created_at = "2026-04-01T12:00:00.000Z".into();
+        let (name, password) = ((*name).into(), String::new());
+        store
+            .add_user(User { name, role: Role::Editor, group_role: None, password, created_at })
+            .await
+            .unwrap();
+        assert!(store.see_thread("ash", person, 1, 1).await.unwrap());
+    }
+    assert!(store.remove_user("ann").await.unwrap());
+    // Whoever is called so next begins with nothing; the other keeps what was theirs.
+    assert_eq!((names(store, of(ANN)).await, names(store, of(BO)).await), (vec![], vec!["sketch".into()]));
+    assert_eq!(store.seen_threads("ash", ANN).await.unwrap(), []);
+    assert_eq!(store.seen_threads("ash", BO).await.unwrap(), [(1, 1)]);
+    assert!(store.has_session("sketch").await.unwrap());
 }
 
 pub(super) async fn pages_hold_each_session_once(store: &(impl Store + Visits)) {

@@ -32,6 +32,10 @@ impl Thread {
         pictures.map(|picture| picture.bytes.len() as u64).sum()
     }
 
+    pub(super) fn forget_reader(&mut self, person: &str) {
+        self.seen.remove(person);
+    }
+
     fn add(&mut self, new: NewComment) -> u32 {
         let NewComment { person, author, written_at, said, picture } = new;
         let number = self.comments.len() as u32 + 1;

@@ -1,7 +1,7 @@
 //! Users in the model.
 
 use super::{
-    super::{Pass, PassKind, StoreError, User, UserChange, Users, folding::folded},
+    super::{Pass, PassKind, StoreError, User, UserChange, Users, folding::folded, person_of},
     Kept, MemoryStore,
 };
 
@@ -48,6 +48,9 @@ impl Users for MemoryStore {
         let mut kept = self.writing()?;
         end_logins(&mut kept, name);
         kept.leave_all(name);
+        let person = person_of(name);
+        kept.sessions.values_mut().for_each(|session| _ = session.people.remove(&person));
+        kept.threads.values_mut().flatten().for_each(|(_, thread)| thread.forget_reader(&person));
         Ok(kept.users.remove(&folded(name)).is_some())
     }
 }

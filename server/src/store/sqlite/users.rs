@@ -4,7 +4,7 @@ use espalier_proto::access::Role;
 use sqlx::sqlite::SqliteConnection;
 
 use super::{
-    super::{StoreError, User, UserChange, Users, folding::folded},
+    super::{StoreError, User, UserChange, Users, folding::folded, person_of},
     SqliteStore,
     groups::most,
     writer::Write,
@@ -82,7 +82,15 @@ impl UserWrite {
                     .bind(password)
                     .bind(folded(name))
             }
-            Self::Remove(name) => sqlx::query("DELETE FROM users WHERE folded = ?").bind(folded(name)),
+            Self::Remove(name) => {
+                for sql in [
+                    "DELETE FROM session_people WHERE person = ?",
+                    "DELETE FROM comments_seen WHERE person = ?",
+                ] {
+                    sqlx::query(sql).bind(person_of(name)).execute(&mut *connection).await?;
+                }
+                sqlx::query("DELETE FROM users WHERE folded = ?").bind(folded(name))
+            }
         };
         Ok(query.execute(connection).await?.rows_affected())
     }
