@@ -4,6 +4,8 @@
 
 pub mod client;
 pub mod dice;
+#[cfg(target_os = "linux")]
+pub mod full_disk;
 pub mod http;
 pub mod program;
 pub mod scratch;

@@ -55,9 +55,26 @@ impl Server {
         Self::start_before(Readers::Some, database, port, options)
     }
 
+    /// Starts a server on a free port of this machine, with more in its environment.
+    pub fn start_in(environment: &[(&str, PathBuf)], database: &Path) -> Self {
+        let mut command = program::command();
+        command.envs(environment.iter().map(|(name, value)| (name, value)));
+        Self::start_by(command, Readers::Some, database, 0, &[])
+    }
+
     /// The same where standard error is read, or not.
     pub fn start_before(readers: Readers, database: &Path, port: u16, options: &[&str]) -> Self {
-        let mut child = program::command()
+        Self::start_by(program::command(), readers, database, port, options)
+    }
+
+    fn start_by(
+        mut command: Command,
+        readers: Readers,
+        database: &Path,
+        port: u16,
+        options: &[&str],
+    ) -> Self {
+        let mut child = command
             .args(["serve", "--host", "127.0.0.1", "--port", &port.to_string(), "--database"])
             .arg(database)
             .args(options)

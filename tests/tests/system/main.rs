@@ -9,6 +9,8 @@ mod commands;
 mod crashes;
 mod designs;
 mod exports;
+#[cfg(target_os = "linux")]
+mod full_disk;
 mod guiding;
 mod handshake;
 mod imports;

@@ -304,10 +304,16 @@ fn is_damage(error: &sqlx::Error) -> bool {
     }
 }
 
+/// What SQLite answers where there is no room for the index of its log (`SQLITE_IOERR_SHMSIZE`).
+const NO_ROOM_FOR_INDEX: u32 = 4874;
+
 /// Sentences for the ways in which SQLite refuses, by its primary result code.
 fn in_words(error: &sqlx::Error) -> Option<&'static str> {
     let sqlx::Error::Database(error) = error else { return None };
     let code: u32 = error.code()?.parse().ok()?;
+    if code == NO_ROOM_FOR_INDEX {
+        return Some(super::FULL_DISK);
+    }
     Some(match code & 0xff {
         5 | 6 => "another program holds it locked",
         8 => "it is read-only",

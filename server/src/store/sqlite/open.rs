@@ -17,7 +17,8 @@ use sqlx::{
 };
 
 use super::{
-    finding, identity, in_words, parts::Keeping, place::Place, reserve::Reserve, shrinking, writer::Writer,
+    super::FULL_DISK, finding, identity, in_words, parts::Keeping, place::Place, reserve::Reserve, shrinking,
+    writer::Writer,
 };
 
 /// The schema: one file of `migrations/` for each change, in order.
@@ -83,7 +84,15 @@ pub struct SqliteStore {
 impl SqliteStore {
     /// Opens the file, or makes it together with its folder.
     pub async fn open(path: &Path) -> Result<Self, OpenError> {
-        Self::try_open(path).await.map_err(|reason| OpenError::new(path, reason))
+        let mut opened = Self::try_open(path).await;
+        // SQLite needs a little room to open a database; what was kept for deleting is enough for both.
+        if opened.as_ref().is_err_and(|reason| reason == FULL_DISK) && Reserve::beside(path).give_up() {
+            tracing::warn!(
+                "the disk is full; what was kept for that is given up, so that the server can start"
+            );
+            opened = Self::try_open(path).await;
+        }
+        opened.map_err(|reason| OpenError::new(path, reason))
     }
 
     /// Whether a server uses the file.
