@@ -1,4 +1,8 @@
-use std::fs;
+use std::{
+    fs,
+    io::{Read, Write},
+    net::{Shutdown, TcpStream},
+};
 
 use espalier_proto::version::MAX_WOOD_BYTES;
 use espalier_tests::{
@@ -11,7 +15,7 @@ use espalier_tests::{
 use serde_json::{Value, json};
 
 /// A trunk and a branch, as a scanner's program has them.
-const SCAN: &str = include_str!("../../fuzz/seeds/rtwig.csv");
+pub const SCAN: &str = include_str!("../../fuzz/seeds/rtwig.csv");
 
 fn post(server: &Server, query: &str, file: &str) -> Answer {
     let path = format!("/api/v1/trees/import?{query}");
@@ -49,11 +53,15 @@ async fn im1_what_cannot_be_read_is_refused_and_not_kept() {
     let scratch = Scratch::new();
     let server = Server::start(&scratch.path("trees.db"));
     let good = "name=Oak&format=csv";
+    let graph = include_str!("../../fuzz/seeds/own.mtg");
     let ring = SCAN.replacen("1,0,20", "1,3,20", 1);
     let cases = [
         (good, SCAN.replace("0.02,0.5", "NaN,0.5"), "out_of_range", json!("line 3, column 10")),
         (good, ring, "malformed", json!("line 2")),
+        (good, SCAN.replace("0.02,0.5", "-0.02,0.5"), "out_of_range", json!("line 3, column 10")),
+        (good, "name,height,dbh\noak,12,0.4\n".to_owned(), "malformed", json!("line 1")),
         (good, "../../etc/passwd".to_owned(), "malformed", json!("line 1")),
+        ("name=Oak&format=mtg", graph[..graph.len() / 3].to_owned(), "malformed", json!("body")),
         ("name=Oak&format=mtg", SCAN.to_owned(), "malformed", json!("line 1")),
         ("name=Oak&format=exe", SCAN.to_owned(), "out_of_range", json!("format")),
         ("name=Oak&format=csv&unit=0", SCAN.to_owned(), "out_of_range", json!("unit")),
@@ -68,6 +76,52 @@ async fn im1_what_cannot_be_read_is_refused_and_not_kept() {
         assert_eq!((&problem["code"], &problem["field"]), (&json!(code), &field), "{problem}");
     }
     assert_eq!(saved(&server), 0);
+}
+
+#[tokio::test]
+async fn im1_of_a_file_that_breaks_off_nothing_is_kept() {
+    let scratch = Scratch::new();
+    let server = Server::start(&scratch.path("trees.db"));
+    for cut in [0, 1, SCAN.len() / 2, SCAN.len() - 1] {
+        let mut stream = TcpStream::connect(("127.0.0.1", server.port())).expect("the server listens");
+        let head = format!(
+            "POST /api/v1/trees/import?name=Oak&format=csv HTTP/1.1\r\nhost: 127.0.0.1:{}\r\n\
+             content-type: text/csv\r\ncontent-length: {}\r\n\r\n{}",
+            server.port(),
+            SCAN.len(),
+            &SCAN[..cut]
+        );
+        stream.write_all(head.as_bytes()).expect("it takes the request");
+        stream.shutdown(Shutdown::Write).expect("it is open");
+        let mut answer = String::new();
+        // It may be told that the file is not whole, or nothing.
+        let _ = stream.read_to_string(&mut answer);
+        assert!(!answer.starts_with("HTTP/1.1 2"), "after {cut} bytes: {answer}");
+    }
+    assert_eq!(saved(&server), 0);
+    assert_eq!(post(&server, "name=Oak&format=csv", SCAN).status, 201, "and the whole file is taken");
+}
+
+#[tokio::test]
+async fn im1_a_name_is_no_path() {
+    let scratch = Scratch::new();
+    let server = Server::start(&scratch.path("trees.db"));
+    let answer = post(&server, "name=../../etc/passwd&format=csv", SCAN);
+    assert_eq!(answer.status, 201, "{}", answer.text());
+    let tree = answer.json();
+    assert_eq!(tree["name"], "../../etc/passwd", "it is a name like any other");
+    let id = tree["id"].as_str().expect("an identifier");
+    let path = format!("/api/v1/trees/{id}/versions/1/tree.mtg");
+    let file = http::get(server.port(), &path).expect("the server answers");
+    let name = file.header("content-disposition").expect("it has a name").to_owned();
+    assert!(
+        file.status == 200 && !name.contains('/') && !name.contains("%2F") && !name.contains(".."),
+        "{name}"
+    );
+    for id in ["..%2F..%2Fetc%2Fpasswd", "%2E%2E", "..%5C"] {
+        let path = format!("/api/v1/trees/{id}/versions/1/tree.mtg");
+        assert_eq!(http::get(server.port(), &path).expect("the server answers").status, 404, "{id}");
+    }
 }
 
 #[tokio::test]
