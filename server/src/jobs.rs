@@ -268,6 +268,7 @@ mod tests {
     use std::num::NonZeroUsize;
 
     use espalier_proto::{Steps, access::Role};
+    use espalier_session::LeftOut;
 
     use super::*;
     use crate::{
@@ -286,6 +287,7 @@ mod tests {
             species: None,
             row: FORMATS.iter().find(|row| row.ending == "mtg").unwrap(),
             options: ExportOptions::default(),
+            left_out: LeftOut::default(),
         }
     }
 

@@ -49,6 +49,7 @@ pub use self::{
     bytes::{DocumentError, MAX_METAMER_BUDGET, plain},
     pins::{Anchor, Search, Whereabouts},
     transplanting::TransplantError,
+    variation::LeftOut,
 };
 pub(crate) use self::{
     deeds::Switched,

@@ -34,7 +34,8 @@ mod work;
 
 pub use command_script::{ScriptError, read_commands};
 pub use document::{
-    Anchor, Document, DocumentError, Figures, MAX_METAMER_BUDGET, Search, TransplantError, Whereabouts, plain,
+    Anchor, Document, DocumentError, Figures, LeftOut, MAX_METAMER_BUDGET, Search, TransplantError,
+    Whereabouts, plain,
 };
 pub use entrant::Entrant;
 pub use form::read_command;

@@ -2,6 +2,7 @@
 
 mod archive;
 mod list;
+mod notes;
 
 use std::{borrow::Cow, collections::BTreeSet, fmt};
 
@@ -14,7 +15,7 @@ use axum::{
 use espalier_growth::species;
 use espalier_proto::{NotAllowed, Problem, Reason, Steps, reading::in_field};
 use espalier_reading::{Between, Bounded};
-use espalier_session::{Document, DocumentError};
+use espalier_session::{Document, DocumentError, LeftOut};
 use espalier_settings::{AppearancePatch, ParametersPatch};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{
@@ -23,6 +24,7 @@ use serde::{
 };
 use serde_json::Value;
 
+use self::notes::{JobNote, notes_of};
 pub(super) use self::{
     archive::archive,
     list::{JobPage, Page, list},
@@ -243,6 +245,9 @@ pub(super) struct JobNow {
     /// Why it ended before it was done.
     #[serde(skip_serializing_if = "Option::is_none")]
     problem: Option<Problem>,
+    /// What is to be known of all its trees (JB10).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    notes: Vec<JobNote>,
 }
 
 /// A tree under way.
@@ -309,6 +314,7 @@ impl JobNow {
             results: results.collect(),
             failed: failed.into_iter().map(|(seed, problem)| FailedTree { seed, problem }).collect(),
             problem,
+            notes: notes_of(&job.order.left_out),
             id,
         }
     }
@@ -337,33 +343,33 @@ pub(super) async fn grow(
     let range = Between(1, budget);
     let metamers = metamers.map(|metamers| in_field("metamers", &metamers, Bounded(range, &range)));
     let metamers = metamers.transpose()?;
-    let (recipe, species) = match &template {
+    let (recipe, species, left_out) = match &template {
         None if steps.is_none() && metamers.is_none() => {
             let message = "There is no template, so that nothing says how far the trees grow.";
             let problem = Problem::new(Reason::Malformed, message);
             return Err(problem.at("metamers", "metamers, steps or a template").into());
         }
-        None => (Recipe::default(), None),
+        None => (Recipe::default(), None, LeftOut::default()),
         Some(template) => recipe_of(&shared, &caller, template).await?,
     };
     let recipe = Recipe { parameters, appearance, steps, metamers, budget, ..recipe };
     recipe.check()?;
     let WantedSeeds(seeds) = seeds;
-    let order = Order { by: caller.clone(), recipe, seeds, species, row, options };
+    let order = Order { by: caller.clone(), recipe, seeds, species, row, options, left_out };
     let id = shared.jobs.add(order)?;
     let (job, ahead) = shared.jobs.find(&id, &caller).ok_or_else(no_job)?;
     let location = [(header::LOCATION, address_of(&id))];
     Ok((StatusCode::ACCEPTED, location, Json(JobNow::of(id, &job, ahead))))
 }
 
-/// How trees like a species or a saved tree grow.
+/// How trees like a species or a saved tree grow, and what of it they are without.
 async fn recipe_of(
     shared: &Shared,
     caller: &Caller,
     template: &str,
-) -> Result<(Recipe, Option<&'static species::Species>), Failure> {
+) -> Result<(Recipe, Option<&'static species::Species>, LeftOut), Failure> {
     if let Some(species) = species::find(template) {
-        return Ok((Recipe::of(species), Some(species)));
+        return Ok((Recipe::of(species), Some(species), LeftOut::default()));
     }
     shared.ask(caller, Action::OpenTree, Named::Tree(template)).await?;
     let tree = shared.store.tree(template).await?.filter(|tree| tree.deleted_at.is_none());
@@ -371,10 +377,11 @@ async fn recipe_of(
     let saved = sessions::saved_document(shared, template, tree.head.number).await?;
     let read = shared.pool.run(Class::Whole, template.into(), move |_| {
         let document = Document::from_bytes(&saved.bytes)?;
-        Ok::<_, DocumentError>((document.variation(), document.species()))
+        Ok::<_, DocumentError>((document.variation(), document.species(), document.left_out()))
     });
-    let (script, species) = read.await?.map_err(|error| sessions::unreadable(template, &error))?;
-    Ok((Recipe { script, ..Recipe::default() }, species.as_deref().and_then(species::find)))
+    let (script, species, left_out) = read.await?.map_err(|error| sessions::unreadable(template, &error))?;
+    let species = species.as_deref().and_then(species::find);
+    Ok((Recipe { script, ..Recipe::default() }, species, left_out))
 }
 
 /// What whoever names no template is told: also which species, or which saved tree by its name, they may have meant.

@@ -99,7 +99,15 @@ const JOB: &str = "a-job";
 fn order(by: Caller) -> Order {
     let recipe = Recipe::default();
     let (row, options) = (&FORMATS[0], ExportOptions::default());
-    Order { by, recipe, seeds: vec![1], species: None, row, options }
+    Order {
+        by,
+        recipe,
+        seeds: vec![1],
+        species: None,
+        row,
+        options,
+        left_out: espalier_session::LeftOut::default(),
+    }
 }
 
 /// A token of somebody with this role, for one tree or for all.

@@ -15,7 +15,7 @@ use std::{
 use espalier_export::ExportError;
 use espalier_growth::species::Species;
 use espalier_proto::{Command, Problem, Reason};
-use espalier_session::{Document, Principal};
+use espalier_session::{Document, LeftOut, Principal};
 use tempfile::TempDir;
 use tokio_util::sync::CancellationToken;
 
@@ -53,6 +53,8 @@ pub struct Order {
     pub row: &'static FormatRow,
     /// Its options.
     pub options: ExportOptions,
+    /// What of the tree that they are like they are without.
+    pub left_out: LeftOut,
 }
 
 /// Where a job is.

@@ -130,6 +130,42 @@ async fn jb1_a_saved_tree_gives_its_programme_parameters_and_looks() {
     assert_eq!(skeletons[1]["parameters"], own["parameters"]);
 }
 
+#[tokio::test]
+async fn jb10_a_job_says_what_of_its_template_its_trees_are_without() {
+    let (mut client, server, _scratch) = Client::alone(&[]).await;
+    let port = server.port();
+    client.send(json!({ "kind": "grow", "steps": 8 })).await;
+    client.until_settled().await;
+    let session = client.session.clone();
+    let job_like_it = async move || {
+        let save = json!({ "session": session, "name": "Mother" });
+        tokio::task::spawn_blocking(move || {
+            let tree = http::send(port, "POST", "/api/v1/trees", Some(&save)).expect("an answer").json();
+            done(port, &json!({ "template": tree["id"], "seeds": [7], "format": "json" }))
+        })
+        .await
+        .expect("it ends")
+    };
+    assert_eq!(job_like_it().await.get("notes"), None, "nothing is missing");
+    client.send(json!({ "kind": "prune", "rows": [5] })).await;
+    client.send(json!({ "kind": "plant_seed", "position": [9, 0, 0] })).await;
+    client.until_settled().await;
+    let notes = job_like_it().await["notes"].take();
+    let operations = json!([{ "kind": "prune", "count": 1 }, { "kind": "seed", "count": 1 }]);
+    assert_eq!((&notes[0]["note"], &notes[0]["operations"]), (&json!("by-hand-left-out"), &operations));
+    assert!(notes[0]["message"].as_str().is_some_and(|text| text.contains("by hand")) && notes[1].is_null());
+
+    // A tree of a scan is its wood.
+    let job = tokio::task::spawn_blocking(move || {
+        let address = "/api/v1/trees/import?name=Scan&format=csv";
+        let scan = crate::imports::SCAN.as_bytes();
+        let tree = http::send_bytes(port, "POST", address, "text/csv", scan).expect("an answer").json();
+        done(port, &json!({ "template": tree["id"], "seeds": [7], "format": "json" }))
+    });
+    let notes = job.await.expect("it ends")["notes"].take();
+    assert_eq!((notes[0]["note"].as_str(), notes[1].is_null()), (Some("wood-left-out"), true), "{notes}");
+}
+
 #[test]
 fn jb1_what_is_wrong_is_refused_with_its_field() {
     let scratch = Scratch::new();

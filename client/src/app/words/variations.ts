@@ -5,6 +5,14 @@ export const VARIATIONS = {
     "Each seed grows another tree, and always the same one. They are grown as it would grow by itself: what was drawn and edited by hand is no part of them.",
     "Aus jedem Samen wächst ein anderer Baum, und immer derselbe. Sie wachsen, wie er von selbst wüchse: Was von Hand gezeichnet und geändert wurde, gehört nicht dazu.",
   ],
+  "variations.by-hand-left-out": [
+    "What was drawn and done by hand is no part of these trees: {what}.",
+    "Was von Hand gezeichnet und getan wurde, gehört nicht zu diesen Bäumen: {what}.",
+  ],
+  "variations.wood-left-out": [
+    "The wood that the tree began with is no part of these trees.",
+    "Das Holz, mit dem der Baum begann, gehört nicht zu diesen Bäumen.",
+  ],
   "variations.trees": ["How many", "Wie viele"],
   "variations.first": ["First seed", "Erster Samen"],
   "variations.seeds": ["Seeds {first} to {last}", "Samen {first} bis {last}"],

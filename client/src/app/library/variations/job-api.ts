@@ -1,4 +1,4 @@
-import type { Problem } from "../../../wire/generated";
+import type { OperationKind, Problem } from "../../../wire/generated";
 import { ask, RequestFailed } from "../../requests/request";
 import type { Order } from "./order";
 
@@ -16,6 +16,13 @@ export interface Job {
   readonly failed: readonly { readonly seed: number; readonly problem: Problem }[];
   /** Why it ended before it was done. */
   readonly problem?: Problem;
+  /** What its trees are without (`JB10`). */
+  readonly notes?: readonly JobNote[];
+}
+
+export interface JobNote {
+  readonly note: "by-hand-left-out" | "wood-left-out";
+  readonly operations?: readonly { readonly kind: OperationKind; readonly count: number }[];
 }
 
 export interface GrownTree {

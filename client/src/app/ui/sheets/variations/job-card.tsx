@@ -1,5 +1,5 @@
 import { useState } from "preact/hooks";
-import { archiveOf, type GrownTree, type Job } from "../../../library/variations/job-api";
+import { archiveOf, type GrownTree, type Job, type JobNote } from "../../../library/variations/job-api";
 import { isActive, type Jobs } from "../../../library/variations/jobs";
 import { plainly, sentence } from "../../../problems/plain-words";
 import type { Studio } from "../../../studio";
@@ -64,6 +64,11 @@ export function JobCard({ studio, jobs, job }: JobCardProps) {
       )}
       {active && <progress max={all} value={done} aria-label={text} />}
       {problem && <p class="warning">{plainly(problem)}</p>}
+      {job.notes?.map((note) => (
+        <p class="quiet" key={note.note}>
+          {noteText(note)}
+        </p>
+      ))}
       <Files results={results} />
       {results.length > 1 && (
         <a class="job-archive" href={archiveOf(id)} download>
@@ -110,6 +115,15 @@ function Files({ results }: { readonly results: readonly GrownTree[] }) {
       )}
     </>
   );
+}
+
+/** What trees are without, in words. */
+function noteText({ note, operations = [] }: JobNote): string {
+  const what = operations.map(({ kind, count }) => {
+    const name = say(`operations.kind.${kind}`);
+    return count === 1 ? name : `${count} × ${name}`;
+  });
+  return say(`variations.${note}`, { what: what.join(", ") });
 }
 
 /** How far a job is, in words. */
