@@ -253,7 +253,7 @@ pub const FORMATS: &[FormatRow] = &[
                 "Ein bewegtes Bild, das einmal um den Baum geht, vom Server gemacht.",
             ],
         ],
-        &[option::SIZE, option::TURN, option::RISE, option::FRAMES],
+        option::PICTURES,
         [300e3, 0.0, 0.0],
     ),
     row(
@@ -266,7 +266,7 @@ pub const FORMATS: &[FormatRow] = &[
                 "Ein bewegtes Bild des Baums in seinem Wind, das ohne Naht weitergeht, vom Server gemacht.",
             ],
         ],
-        &[option::SIZE, option::TURN, option::RISE, option::FRAMES],
+        option::PICTURES,
         [3e6, 0.0, 0.0],
     ),
     row(
@@ -457,7 +457,7 @@ pub fn write(
                 &style,
                 &look,
                 [width, height],
-                options.camera(),
+                options.camera(metres),
                 frames,
                 out,
             )
@@ -468,7 +468,7 @@ pub fn write(
             let Size(width, height) = options.size.unwrap_or(MOVING);
             let frames = options.frames.map_or(LOOP, |frames| frames.0);
             let (plant, look, size) = (document.portrait(), (&look, metres), [width, height]);
-            picture::swaying(plant, &style, look, size, options.camera(), frames, out)
+            picture::swaying(plant, &style, look, size, options.camera(metres), frames, out)
         }
     }
 }

@@ -3,8 +3,12 @@
 use std::{borrow::Cow, str::FromStr};
 
 use clap::Args;
-use espalier_export::{Detail, Model, picture::Camera};
+use espalier_export::{
+    Detail, Model,
+    picture::{Camera, Perspective},
+};
 use espalier_proto::{NotAllowed, text::Name};
+use glam::Vec3;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde_json::Value;
@@ -19,6 +23,8 @@ const FEWEST_BONES: u32 = 2;
 const MOST_BONES: u32 = 1024;
 /// The most pictures of a turntable.
 const MOST_FRAMES: u16 = 180;
+/// The field of a picture's eye where a camera stands somewhere, in degrees: that of the page.
+const FIELD: f32 = 32.0;
 /// The most points of a cloud.
 const MOST_POINTS: u32 = 20_000_000;
 /// Points of a cloud: some two thousand a square metre of a grown tree.
@@ -62,9 +68,18 @@ pub struct ExportOptions {
     /// Degrees by which the eye goes around the tree, from the front to the right.
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, requires = "export")]
     pub turn: Option<Turn>,
-    /// Degrees by which the eye stands above the horizon, 1 to 80.
-    #[arg(long, value_name = "DEGREES", requires = "export")]
+    /// Degrees by which the eye stands above the horizon, -89 to 89.
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, requires = "export")]
     pub rise: Option<Rise>,
+    /// Degrees between the upper and the lower edge of what the eye sees; what is near is larger then.
+    #[arg(long, value_name = "DEGREES", requires = "export")]
+    pub fov: Option<Fov>,
+    /// Metres from the eye to what is in the middle of the picture; what is near is larger then.
+    #[arg(long, value_name = "METRES", requires = "export")]
+    pub distance: Option<Distance>,
+    /// The place in the middle of the picture, in metres; what is near is larger then.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, requires = "export")]
+    pub target: Option<Target>,
     /// Pictures of a turntable, which make the PNG file an animated one.
     #[arg(long, value_name = "N", requires = "export")]
     pub frames: Option<Frames>,
@@ -96,12 +111,17 @@ pub mod option {
     pub const SIZE: &str = "size";
     pub const TURN: &str = "turn";
     pub const RISE: &str = "rise";
+    pub const FOV: &str = "fov";
+    pub const DISTANCE: &str = "distance";
+    pub const TARGET: &str = "target";
     pub const FRAMES: &str = "frames";
     pub const POINTS: &str = "points";
     pub const AUTHOR: &str = "author";
     pub const LICENCE: &str = "licence";
     /// Those of all files of triangles.
     pub const MESHES: &[&str] = &[LOD, HULL, BY_LIMB, AUTHOR, LICENCE];
+    /// Those of pictures.
+    pub const PICTURES: &[&str] = &[SIZE, TURN, RISE, FOV, DISTANCE, TARGET, FRAMES];
     /// Those of USD.
     pub const SCENES: &[&str] = &[LOD, INSTANCED, HULL, BY_LIMB, LIGHTMAP, AUTHOR, LICENCE];
 }
@@ -122,6 +142,9 @@ impl ExportOptions {
             (option::SIZE, self.size.is_some()),
             (option::TURN, self.turn.is_some()),
             (option::RISE, self.rise.is_some()),
+            (option::FOV, self.fov.is_some()),
+            (option::DISTANCE, self.distance.is_some()),
+            (option::TARGET, self.target.is_some()),
             (option::FRAMES, self.frames.is_some()),
             (option::POINTS, self.points.is_some()),
             (option::AUTHOR, self.author.is_some()),
@@ -148,12 +171,20 @@ impl ExportOptions {
         Model { detail, quantised, compressed, instanced, hull, by_limb, lightmap, sway, wind_weights }
     }
 
-    /// Where the first picture is taken from.
-    pub fn camera(&self) -> Camera {
+    /// Where the first picture is taken from, where an internode has so many metres.
+    pub fn camera(&self, metres: f32) -> Camera {
         let plain = Camera::default();
+        let &Self { fov, distance, target, .. } = self;
+        let is_near = fov.is_some() || distance.is_some() || target.is_some();
+        let perspective = is_near.then(|| Perspective {
+            field: fov.map_or(FIELD, |fov| fov.0),
+            target: target.map(|Target(x, y, z)| Vec3::new(x, y, z) / metres),
+            distance: distance.map(|distance| distance.0 / metres),
+        });
         Camera {
             turn: self.turn.map_or(plain.turn, |turn| turn.0),
             rise: self.rise.map_or(plain.rise, |rise| rise.0),
+            perspective,
         }
     }
 
@@ -248,7 +279,17 @@ values! {
     /// Degrees to the right.
     Turn(f32): "-3600 to 3600", |text| number(text, -3600.0, 3600.0).map(Self);
     /// Degrees above the horizon.
-    Rise(f32): "1 to 80", |text| number(text, 1.0, 80.0).map(Self);
+    Rise(f32): "-89 to 89", |text| number(text, -89.0, 89.0).map(Self);
+    /// Degrees between the edges of a picture.
+    Fov(f32): "1 to 150", |text| number(text, 1.0, 150.0).map(Self);
+    /// Metres to the eye.
+    Distance(f32): "0.01 to 100000", |text| number(text, 0.01, 100_000.0).map(Self);
+    /// A place in metres.
+    Target(f32, f32, f32): "X,Y,Z in metres, each -100000 to 100000", |text| {
+        let mut places = text.split(',').map(|place| number(place.trim(), -100_000.0, 100_000.0));
+        let [x, y, z] = [places.next()??, places.next()??, places.next()??];
+        places.next().is_none().then_some(Self(x, y, z))
+    };
     /// Texels along a side of a light map.
     Texels(u32): format!("{FEWEST_TEXELS} to {MOST_TEXELS}"), |text| number(text, FEWEST_TEXELS, MOST_TEXELS).map(Self);
     /// Bones of a plant.
@@ -279,7 +320,17 @@ mod tests {
         for bad in ["640", "0x9", "9999999999x9999999999", "4001x4001", "axb"] {
             assert!(bad.parse::<Size>().is_err(), "{bad}");
         }
-        assert!("NaN".parse::<Turn>().is_err() && "81".parse::<Rise>().is_err());
+        assert!("NaN".parse::<Turn>().is_err() && "90".parse::<Rise>().is_err());
+        assert_eq!(" 1.5,-2, 0".parse(), Ok(Target(1.5, -2.0, 0.0)));
+        for bad in ["", "1,2", "1,2,3,4", "1,2,x", "1,2,NaN", "1,2,1e9", "1 2 3"] {
+            assert!(bad.parse::<Target>().is_err_and(|error| error.contains("X,Y,Z in metres")), "{bad}");
+        }
+        for bad in ["0", "151", "-30", "NaN"] {
+            assert_eq!(bad.parse::<Fov>(), Err("allowed: 1 to 150".into()), "{bad}");
+        }
+        for bad in ["0", "-1", "inf", "1e6"] {
+            assert_eq!(bad.parse::<Distance>(), Err("allowed: 0.01 to 100000".into()), "{bad}");
+        }
         for bad in ["0", "181", "70000", "1.5", ""] {
             assert!(bad.parse::<Frames>().is_err_and(|error| error == "allowed: 1 to 180"), "{bad}");
         }
@@ -288,6 +339,19 @@ mod tests {
             assert!(bad.parse::<Texels>().is_err_and(|error| error == "allowed: 64 to 8192"), "{bad}");
         }
         assert!("20000001".parse::<Points>().is_err());
+    }
+
+    #[test]
+    fn a_camera_is_near_where_anything_says_so() {
+        let plain = ExportOptions { turn: Some(Turn(30.0)), ..ExportOptions::default() };
+        assert_eq!(plain.camera(0.5), Camera { turn: 30.0, ..Camera::default() });
+        let near = |options: ExportOptions| options.camera(0.5).perspective;
+        let field = Perspective { field: 60.0, target: None, distance: None };
+        assert_eq!(near(ExportOptions { fov: Some(Fov(60.0)), ..plain.clone() }), Some(field));
+        let far = Perspective { field: FIELD, target: None, distance: Some(20.0) };
+        assert_eq!(near(ExportOptions { distance: Some(Distance(10.0)), ..plain.clone() }), Some(far));
+        let aimed = Perspective { field: FIELD, target: Some(Vec3::new(2.0, 4.0, -6.0)), distance: None };
+        assert_eq!(near(ExportOptions { target: Some(Target(1.0, 2.0, -3.0)), ..plain }), Some(aimed));
     }
 
     #[test]

@@ -52,10 +52,20 @@ async fn ex2_options_change_the_file_and_wrong_ones_are_named() {
     assert!(text(&far).contains("Billboard") && !text(&plain).contains("Billboard"));
     assert!(text(&file("glb?author=Ada&licence=CC0-1.0")).contains("Ada, CC0-1.0"));
     assert_eq!(file("png?size=64x48&turn=90&rise=30").body[16..24], [0, 0, 0, 64, 0, 0, 0, 48]);
+    // From 1 km away there is little of a tree to be seen.
+    let [near, far] = [8, 1000].map(|metres| {
+        let file = file(&format!("png?size=64x48&fov=40&target=0,2,0&distance={metres}"));
+        assert_eq!(file.body[16..24], [0, 0, 0, 64, 0, 0, 0, 48], "{}", file.text());
+        file.body.len()
+    });
+    assert!(far < near, "{far} and {near} bytes");
     for (query, field) in [
         ("csv?hull=true", "hull"),
         ("ply?points=0", "points"),
         ("png?rise=90", "rise"),
+        ("png?distance=-1", "distance"),
+        ("png?target=1,2", "target"),
+        ("glb?fov=40", "fov"),
         ("glb?ticket=short", "ticket"),
         ("glb?lod=9", "lod"),
         ("png?size=99999x99999", "size"),

@@ -42,6 +42,19 @@ describe("a choice", () => {
     ]).toEqual([true, false]);
   });
 
+  it("asks for the page's own view where it is wanted and the format has one", () => {
+    const seen = new Map([
+      ["turn", "30"],
+      ["fov", "32"],
+    ]);
+    const picture = { ...GLB, options: ["turn", "fov"] };
+    const choice = { ...FIRST_CHOICE, camera: "seen" };
+    expect([...optionsOf(choice, picture, seen)]).toEqual([...seen]);
+    expect([...optionsOf(choice, GLB, seen), ...optionsOf(FIRST_CHOICE, picture, seen)]).toEqual([]);
+    expect([...optionsOf(choice, picture, null), ...optionsOf(choice, picture)]).toEqual([]);
+    expect([isExportChoice(choice), isExportChoice({ ...choice, camera: true })]).toEqual([true, false]);
+  });
+
   it("that something else was kept as is none", () => {
     expect(isExportChoice(FIRST_CHOICE)).toBe(true);
     for (const other of [null, 3, {}, { ...FIRST_CHOICE, on: "hull" }, { ...FIRST_CHOICE, lod: 1 }]) {

@@ -10,6 +10,8 @@ export interface ExportChoice {
   readonly lightmap?: string;
   /** The most bones of a plant that sways; none, or missing in what was kept before there were any. */
   readonly sway?: string;
+  /** `seen`, for pictures that the server makes from where the page looks; missing in what was kept before there was that. */
+  readonly camera?: string;
   /** Switches that are on, for all formats that have them. */
   readonly on: readonly string[];
   readonly author: string;
@@ -34,7 +36,7 @@ export function isExportChoice(value: unknown): boolean {
     [choice.format, choice.lod, choice.frames, choice.author, choice.licence].every(
       (text) => typeof text === "string",
     ) &&
-    [choice.lightmap, choice.sway].every((text) => ["undefined", "string"].includes(typeof text)) &&
+    [choice.lightmap, choice.sway, choice.camera].every((text) => ["undefined", "string"].includes(typeof text)) &&
     Array.isArray(choice.on) &&
     choice.on.every((name) => typeof name === "string")
   );
@@ -46,8 +48,12 @@ export function moves({ sway, on }: ExportChoice, { options }: ExportFormat): bo
   return sways || (options.includes("wind_weights") && on.includes("wind_weights"));
 }
 
-/** What of a choice the format can do, as the server is asked for it. */
-export function optionsOf(choice: ExportChoice, format: ExportFormat): ReadonlyMap<string, string> {
+/** What of a choice the format can do, as the server is asked for it; `seen` is the page's own view, where it has one. */
+export function optionsOf(
+  choice: ExportChoice,
+  format: ExportFormat,
+  seen?: ReadonlyMap<string, string> | null,
+): ReadonlyMap<string, string> {
   const still = moves(choice, format) ? "instanced" : null;
   const all: [string, string][] = [
     ["lod", choice.lod === "0" ? "" : choice.lod],
@@ -55,6 +61,7 @@ export function optionsOf(choice: ExportChoice, format: ExportFormat): ReadonlyM
     ["lightmap", choice.lightmap ?? ""],
     ["sway", choice.sway ?? ""],
     ["frames", choice.frames],
+    ...(choice.camera === "seen" && seen ? seen : []),
     ["author", choice.author.trim()],
     ["licence", choice.licence.trim()],
   ];

@@ -1,5 +1,6 @@
 //! Pictures of plants, drawn without a graphics card: the front view, in the sun, on a light ground.
 
+mod camera;
 mod canvas;
 mod lettering;
 mod palette;
@@ -9,8 +10,9 @@ mod sheet;
 mod swaying;
 mod turntable;
 
+pub use camera::{Camera, Perspective};
 pub use canvas::Canvas;
 pub use scene::{Look, draw};
 pub use sheet::{Cell, sheet};
 pub use swaying::swaying;
-pub use turntable::{Camera, strip, turntable};
+pub use turntable::{strip, turntable};

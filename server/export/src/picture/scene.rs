@@ -20,7 +20,11 @@ use self::{
     shading::{Lawn, Scene},
     sun::Sun,
 };
-use super::{canvas::Canvas, raster::View};
+use super::{
+    camera::{Camera, FOOT, Framing},
+    canvas::Canvas,
+    raster::View,
+};
 
 /// What a plant looks like beyond its form, and what it stands on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,36 +45,19 @@ impl From<&Species> for Look {
 const SAMPLES: usize = 3;
 /// Pixels that are drawn at once.
 const MOST_AT_ONCE: usize = 1_100_000;
-/// Share of a picture's height below the foot of the plant.
-const FOOT: f32 = 0.1;
-/// Share of a picture's width and height that the plant may take.
-const ROOM: f32 = 0.94;
 /// Sine of the angle by which the eye looks down.
 const EYE_HEIGHT: f32 = 0.1;
+/// Sine of the least of such angles by which there is much of the lawn.
+const LEVEL: f32 = 0.02;
+/// How far the lawn reaches for an eye that is near, in reaches of the plant.
+const LAWN: f32 = 3.0;
 
 pub(crate) const SKY: [u8; 3] = [244, 245, 240];
 
 /// Draws a plant from the front, framed to fill the picture, its foot always at the same height.
 pub fn draw(plant: &Plant, style: &Style, look: &Look, width: usize, height: usize) -> Canvas {
     let (stage, size) = (Stage::of(plant, style, look), [width, height]);
-    let view = stage.framed(Vec3::new(0.0, EYE_HEIGHT, 1.0).normalize(), size, &Framing::default());
-    stage.seen(&view, size)
-}
-
-/// How a picture is framed.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Framing {
-    /// Samples to an internode at most.
-    pub most: f32,
-    /// Whether the foot is in the middle, so that it stays there when the eye goes around.
-    pub is_steady: bool,
-}
-
-impl Default for Framing {
-    /// As large as fits.
-    fn default() -> Self {
-        Self { most: f32::MAX, is_steady: false }
-    }
+    stage.seen(&stage.front(size), size)
 }
 
 /// A plant on what it stands on, ready for pictures.
@@ -95,21 +82,46 @@ impl Stage {
         Self { scene: Scene { sun, meshes, reach }, room, base }
     }
 
-    /// The view from a direction in which all of it fits above the foot line.
-    pub(super) fn framed(&self, eye: Vec3, size: [usize; 2], framing: &Framing) -> View {
-        framed(
-            corners(&self.scene.meshes).chain(self.room.iter().copied()),
-            eye,
-            self.base,
-            samples(size),
-            framing,
-        )
+    /// The view from the front, looking down a little.
+    fn front(&self, size: [usize; 2]) -> View {
+        let eye = Vec3::new(0.0, EYE_HEIGHT, 1.0).normalize();
+        self.framing(size, false).distant(self.points(), &[eye]).swap_remove(0)
+    }
+
+    /// The view from a camera.
+    pub(super) fn view(&self, camera: Camera, size: [usize; 2]) -> View {
+        self.views(camera, &[camera.eye()], &self.framing(size, false)).swap_remove(0)
+    }
+
+    /// So many views from all around, beginning with that from a camera, between which what is in the middle stays there.
+    pub(super) fn steady_views(&self, camera: Camera, size: [usize; 2], frames: u16) -> Vec<View> {
+        self.views(camera, &camera.around(frames), &self.framing(size, true))
+    }
+
+    fn views(&self, camera: Camera, eyes: &[Vec3], framing: &Framing) -> Vec<View> {
+        match camera.perspective {
+            Some(perspective) => framing.close(self.points(), eyes, perspective),
+            None => framing.distant(self.points(), eyes),
+        }
+    }
+
+    fn framing(&self, size: [usize; 2], is_steady: bool) -> Framing {
+        Framing { size: samples(size), base: self.base, is_steady }
+    }
+
+    /// All that is to be seen.
+    fn points(&self) -> impl Iterator<Item = Vec3> + Clone {
+        corners(&self.scene.meshes).chain(self.room.iter().copied())
     }
 
     fn lawn(&self, view: &View, size: [usize; 2]) -> Lawn {
+        if view.place().is_some() {
+            return Lawn { reach: Vec2::splat(LAWN * self.scene.reach), middle: 0.0 };
+        }
         let size = samples(size);
+        let down = FOOT * size.y / view.eye().y.max(LEVEL);
         Lawn {
-            reach: Vec2::new(0.5 * size.x, FOOT * size.y / view.eye().y) / view.scale(),
+            reach: Vec2::new(0.5 * size.x, down) / view.scale(),
             middle: (0.5 * size.x - view.project(Vec3::ZERO).x) / view.scale(),
         }
     }
@@ -148,29 +160,9 @@ fn samples([width, height]: [usize; 2]) -> Vec2 {
 }
 
 /// All corners of the plant and of what it stands on, but for the ground.
-fn corners(meshes: &[(Skin, Painted)]) -> impl Iterator<Item = Vec3> {
+fn corners(meshes: &[(Skin, Painted)]) -> impl Iterator<Item = Vec3> + Clone {
     let standing = meshes.iter().filter(|(skin, _)| *skin != Skin::Ground);
     standing.flat_map(|(_, painted)| painted.mesh.positions.iter().copied())
-}
-
-/// A view in which all points fit above the foot line, which shows the height `base`.
-fn framed(points: impl Iterator<Item = Vec3>, eye: Vec3, base: f32, size: Vec2, framing: &Framing) -> View {
-    let plain = View::new(eye, 1.0, Vec2::ZERO);
-    let foot = plain.project(Vec3::Y * base).y;
-    let seen = points.map(|point| plain.project(point));
-    let (mut low, mut high) = (Vec3::new(-0.5, -1.0, 0.0), Vec3::new(0.5, 0.0, 0.0));
-    for point in seen {
-        (low, high) = (low.min(point), high.max(point));
-    }
-    let room = Vec2::new(ROOM * size.x, (ROOM - FOOT) * size.y);
-    if framing.is_steady {
-        high.x = high.x.max(-low.x);
-        low.x = -high.x;
-    }
-    let scale = (room.x / (high.x - low.x)).min(room.y / (foot - low.y)).min(framing.most);
-    let origin =
-        Vec2::new(0.5 * size.x - scale * 0.5 * (low.x + high.x), (1.0 - FOOT) * size.y - scale * foot);
-    View::new(eye, scale, origin)
 }
 
 #[cfg(test)]
@@ -256,7 +248,7 @@ mod tests {
     fn a_picture_in_bands_is_whole() {
         let plant = pole(6);
         let stage = Stage::of(&plant, &Style::default(), &Look::default());
-        let view = stage.framed(Vec3::new(0.0, EYE_HEIGHT, 1.0).normalize(), [64, 48], &Framing::default());
+        let view = stage.front([64, 48]);
         let whole = stage.seen(&view, [64, 48]);
         for top in [0, 16, 32] {
             let lawn = stage.lawn(&view, [64, 48]);

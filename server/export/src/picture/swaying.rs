@@ -9,7 +9,7 @@ use glam::{DVec3, Quat, Vec3};
 
 use super::{
     Camera, Look,
-    scene::{Framing, Meshes, Stage},
+    scene::{Meshes, Stage},
 };
 use crate::{
     ExportError, Sink, png,
@@ -41,13 +41,13 @@ pub fn swaying(
     let room: Vec<Vec3> = (0..FRAMED)
         .flat_map(|at| meshes.moved(&Posed::at(&motion, metres, at as f32 / FRAMED as f32)).corners())
         .collect();
-    let eye = camera.eye();
-    let steady = Framing { is_steady: true, ..Framing::default() };
-    let pictures = (0..frames).map(|frame| {
+    let at = |frame: u16| {
         let posed = Posed::at(&motion, metres, f32::from(frame) / f32::from(frames));
-        let stage = Stage::on(meshes.moved(&posed), look.stand, room.clone());
-        stage.seen(&stage.framed(eye, size, &steady), size).pixels()
-    });
+        Stage::on(meshes.moved(&posed), look.stand, room.clone())
+    };
+    // The room holds what is seen at any moment, and the camera stands still.
+    let view = at(0).steady_views(camera, size, 1).swap_remove(0);
+    let pictures = (0..frames).map(|frame| at(frame).seen(&view, size).pixels());
     png::animated(size, [LOOP as u16, frames], pictures, out)
 }
 

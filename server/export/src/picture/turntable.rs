@@ -4,38 +4,11 @@ use espalier_mesh::Style;
 use espalier_plant::Plant;
 use glam::Vec3;
 
-use super::{
-    Canvas, Look,
-    scene::{Framing, Stage},
-};
+use super::{Camera, Canvas, Look, scene::Stage};
 use crate::{ExportError, Sink, png};
 
 /// Seconds that a turntable takes to go around.
 const ROUND: u16 = 4;
-
-/// Where a picture is taken from, in degrees.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Camera {
-    /// How far the eye has gone around the plant, from the front to the right.
-    pub turn: f32,
-    /// How high it stands above the horizon, more than 0 and less than 90.
-    pub rise: f32,
-}
-
-impl Default for Camera {
-    /// From the front, looking down a little.
-    fn default() -> Self {
-        Self { turn: 0.0, rise: 5.710_593 }
-    }
-}
-
-impl Camera {
-    /// The unit vector to the eye.
-    pub(super) fn eye(self) -> Vec3 {
-        let [turn, rise] = [self.turn, self.rise].map(|degrees| libm::sincosf(degrees.to_radians()));
-        Vec3::new(turn.0 * rise.1, rise.0, turn.1 * rise.1)
-    }
-}
 
 /// A picture from a camera as PNG, or so many from cameras all around, beginning with it, as an animated one.
 ///
@@ -54,7 +27,7 @@ pub fn turntable(
 ) -> Result<(), ExportError> {
     let stage = Stage::of(plant, style, look);
     if frames <= 1 {
-        let view = stage.framed(camera.eye(), size, &Framing::default());
+        let view = stage.view(camera, size);
         let picture = stage.seen_while(&view, size, || out.flush())?;
         return Ok(out.write_all(&picture.png())?);
     }
@@ -74,16 +47,8 @@ pub fn strip(plant: &Plant, style: &Style, look: &Look, side: usize, frames: u16
 
 /// So many pictures from all around, beginning with the one from this camera, all in one scale.
 fn around(stage: &Stage, size: [usize; 2], camera: Camera, frames: u16) -> impl Iterator<Item = Canvas> {
-    let eye = move |frame: u16| {
-        Camera { turn: camera.turn + 360.0 * f32::from(frame) / f32::from(frames), ..camera }.eye()
-    };
-    let steady = Framing { is_steady: true, ..Framing::default() };
-    let most =
-        (0..frames).map(|frame| stage.framed(eye(frame), size, &steady).scale()).fold(f32::MAX, f32::min);
-    (0..frames).map(move |frame| {
-        let view = stage.framed(eye(frame), size, &Framing { most, ..steady });
-        stage.seen(&view, size)
-    })
+    let views = stage.steady_views(camera, size, frames);
+    views.into_iter().map(move |view| stage.seen(&view, size))
 }
 
 #[cfg(test)]

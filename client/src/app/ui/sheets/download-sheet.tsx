@@ -1,5 +1,6 @@
 import { useMemo, useState } from "preact/hooks";
-import { DEFAULT_APPEARANCE, MAX_NAME_CHARACTERS } from "../../../wire/generated";
+import { DEFAULT_APPEARANCE, DEFAULT_PARAMETERS, MAX_NAME_CHARACTERS } from "../../../wire/generated";
+import { cameraOptions } from "../../library/export-camera";
 import { type ExportChoice, optionsOf } from "../../library/export-choice";
 import { amountOf, bytesExpected } from "../../library/export-size";
 import type { Studio } from "../../studio";
@@ -22,8 +23,9 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
     studio.settings.exportChoice.value = { ...choice, ...part };
   };
   const format = formats?.find(({ ending }) => ending === choice.format);
-  const options = format && optionsOf(choice, format);
-  const sizes = sizesOf(studio.stage.pixels());
+  const screen = studio.stage.pixels();
+  const options = format && optionsOf(choice, format, viewOf(studio, screen));
+  const sizes = sizesOf(screen);
   const [chosen, setChosen] = useState(0);
   const size = sizes[chosen] ?? sizes[0];
   const amount = useMemo(() => amountOf(studio.table, studio.appearance.peek() ?? DEFAULT_APPEARANCE), [studio]);
@@ -76,7 +78,7 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
         </p>
       )}
       {format ? (
-        <ExportOptions format={format} choice={choice} choose={choose} />
+        <ExportOptions format={format} choice={choice} choose={choose} sees={screen !== null} />
       ) : (
         <Segments
           legend={say("sheets.download.size")}
@@ -110,8 +112,20 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
   );
 }
 
+interface Pixels {
+  readonly width: number;
+  readonly height: number;
+}
+
+/** The camera of the page for a picture that the server makes; none where the page shows nothing. */
+function viewOf(studio: Studio, screen: Pixels | null) {
+  const camera = studio.stage.view?.camera;
+  const { internode_length: metres } = studio.parameters.peek() ?? DEFAULT_PARAMETERS;
+  return camera && screen && cameraOptions(camera.rig.view, screen, metres);
+}
+
 /** The picture as large as on the screen, twice that, and for a large screen; none where there is no picture. */
-function sizesOf(pixels: { readonly width: number; readonly height: number } | null) {
+function sizesOf(pixels: Pixels | null) {
   if (!pixels) {
     return [];
   }

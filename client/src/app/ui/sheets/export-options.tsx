@@ -10,6 +10,7 @@ const LIGHTMAPS = ["", "512", "1024", "2048", "4096"] as const;
 /** The most bones of a plant; some programs take 64, most 256. */
 const BONES = ["", "64", "256", "1024"] as const;
 const FRAMES = ["24", "36", "72"] as const;
+const CAMERAS = ["", "seen"] as const;
 const SWITCHES = ["quantised", "compressed", "instanced", "hull", "by_limb", "wind_weights"] as const;
 const TEXTS = ["author", "licence"] as const;
 
@@ -17,10 +18,12 @@ interface OptionsProps {
   readonly format: ExportFormat;
   readonly choice: ExportChoice;
   readonly choose: (part: Partial<ExportChoice>) => void;
+  /** Whether the page shows the tree, so that pictures can be taken from where it looks. */
+  readonly sees?: boolean;
 }
 
 /** What the format can be asked for. */
-export function ExportOptions({ format, choice, choose }: OptionsProps) {
+export function ExportOptions({ format, choice, choose, sees = false }: OptionsProps) {
   const has = (option: string) => format.options.includes(option);
   return (
     <>
@@ -62,6 +65,16 @@ export function ExportOptions({ format, choice, choose }: OptionsProps) {
           chosen={choice.frames}
           text={(frames) => frames}
           onChoose={(frames) => choose({ frames })}
+        />
+      )}
+      {sees && has("target") && (
+        <Segments
+          legend={say("exports.camera")}
+          name="camera"
+          values={CAMERAS}
+          chosen={choice.camera ?? ""}
+          text={(camera) => say(camera === "seen" ? "exports.camera.seen" : "exports.camera.whole")}
+          onChoose={(camera) => choose({ camera })}
         />
       )}
       {SWITCHES.filter(has).map((option) => (

@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3};
 use super::{
     super::{
         canvas::Canvas,
-        raster::{NOTHING, Seen, View, weights},
+        raster::{NOTHING, Seen, View},
     },
     SKY,
     meshes::{Painted, Skin},
@@ -37,11 +37,17 @@ impl Scene {
         let mut seen = Seen::new(width, height);
         let mut first = 0;
         let mut firsts = Vec::new();
-        for (_, painted) in &self.meshes {
+        for (skin, painted) in &self.meshes {
             firsts.push(first);
+            // What stands on the ground is seen from below as well.
+            let is_hidden = *skin == Skin::Ground && view.is_below(painted.mesh.positions[0]);
             for corners in painted.mesh.indices.as_chunks::<3>().0 {
-                let projected = corners.map(|corner| view.project(painted.mesh.positions[corner as usize]));
-                seen.add(projected, first, |weights| painted.is_there(*corners, weights));
+                if !is_hidden {
+                    for piece in view.pieces(corners.map(|corner| painted.mesh.positions[corner as usize])) {
+                        let is_there = |weights| painted.is_there(*corners, piece.of_whole(weights));
+                        seen.add(piece.corners, first, is_there);
+                    }
+                }
                 first += 1;
             }
         }
@@ -66,7 +72,7 @@ impl Scene {
         let Painted { mesh, colours, texture, .. } = painted;
         let indices = mesh.indices.as_chunks::<3>().0[triangle as usize];
         let corners = indices.map(|corner| corner as usize);
-        let shares = weights(corners.map(|corner| view.project(mesh.positions[corner])), at)?;
+        let shares = view.shares(corners.map(|corner| mesh.positions[corner]), at)?;
         let mix = |values: &[Vec3]| {
             let weighted = corners.iter().zip(shares.to_array());
             weighted.fold(Vec3::ZERO, |sum, (&corner, share)| sum + values[corner] * share)
