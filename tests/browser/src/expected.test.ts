@@ -15,6 +15,8 @@ const fingers = (count: number): Point[] => Array.from({ length: count }, (_, i)
 
 describe("a tap of several fingers", () => {
   it("undoes with two and redoes with three, and says what", async () => {
+    // A library that holds a tree has a card of those to go on with, on a page on which nothing was done.
+    await workshop.stem();
     const { tablet, metamers } = await workshop.stem();
     const { page } = tablet;
     const tap = (count: number) =>
@@ -30,6 +32,7 @@ describe("a tap of several fingers", () => {
     };
     await told(2, "Undone: Stroke");
     await tablet.until("it is undone", (facts) => facts.metamers === 0);
+    expect(await page.getByRole("region", { name: "Go on with a tree" }).count(), "something was done here").toBe(0);
     await told(3, "Redone: Stroke");
     const again = await tablet.until("it is there again", (facts) => facts.metamers === metamers);
     await told(3, "There is nothing to redo.");

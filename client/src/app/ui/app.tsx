@@ -241,6 +241,7 @@ function isFirstScreen({ document, hindrance, tools, tour, settings, layout }: S
   return (
     document.value?.metamers === 0 &&
     !document.value.can_undo &&
+    !document.value.can_redo &&
     hindrance.value === null &&
     !tools.drawing.value &&
     settings.tourSeen.value &&
