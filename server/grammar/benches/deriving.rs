@@ -27,7 +27,11 @@ const LARGE: [(&str, u32, &str); 4] = [
         "axiom: A(1)\nA(x) : x > 0.2 --> F(x)[+(20+ran(30))A(x*(0.8+ran(0.2)))]/(137.5)A(x*0.93) : 0.7\n\
          A(x) : x > 0.2 --> F(x)A(x*0.95) : 0.3",
     ),
-    ("left contexts", 10, "axiom: F(1)A\nF(a) < A --> F(1)[+(30)A][-(30)A]F(1)A\nF(x) < F(l) --> F(l*1.01)"),
+    (
+        "left contexts",
+        10,
+        "axiom: F(1)A\nignore: + -\nF(a) < A --> F(1)[+(30)A][-(30)A]F(1)A\nF(x) < F(l) --> F(l*1.01)",
+    ),
 ];
 
 fn main() {

@@ -112,8 +112,9 @@ fn checks() {
         if text.len() >= 2000 {
             break;
         }
-        text +=
-            &format!("B{number}(x) : x > {number} --> F(x)[+(a+{number})A(x*0.9)]/(137.5)B{number}(x-1)\n");
+        text += &format!(
+            "module B{number}\nB{number}(x) : x > {number} --> F(x)[+(a+{number})A(x*0.9)]/(137.5)B{number}(x-1)\n"
+        );
     }
     text += "A(l) --> F(l)[+(a)A(l*0.9)]/(137.5)B1(l)\n";
     println!("a text of {} bytes", text.len());
