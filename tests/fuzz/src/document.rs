@@ -27,9 +27,10 @@ pub fn read(bytes: &[u8]) -> bool {
     true
 }
 
-/// What each release wrote; a tree with a history and a future, as it is saved, and as the first snapshot of a session.
+/// What each release wrote; a tree with a history and a future, as it is saved, and as the first snapshot of a session;
+/// what a grammar wrote that asks what stands around.
 pub fn seeds() -> Vec<Vec<u8>> {
-    kept().into_iter().chain(own()).collect()
+    kept().into_iter().chain(own()).chain([written()]).collect()
 }
 
 /// The documents and snapshots in `tests/kept`.
@@ -58,4 +59,22 @@ fn own() -> Vec<Vec<u8>> {
     let bytes = document.to_bytes();
     let snapshot = Session::of_tree("tree", 1, &bytes, METAMERS).map(|(_, snapshot)| snapshot);
     [document.to_saved_bytes(), bytes].into_iter().chain(snapshot).collect()
+}
+
+/// A grammar that has a body and asks for light, derived, cut, set to another value and derived on.
+fn written() -> Vec<u8> {
+    const LINES: [&str; 4] = [
+        r#"{"kind":"set_grammar","text":"a = 30\nslider: a 5 90\naxiom: F A\nA : light() > 0.1 && inside(0) --> F[+(a)A]/(90)A\n","depth":3,"within":{"outline":[[-4,0],[4,0],[4,9],[-4,9]],"plane":{"origin":[0,0,0],"right":[1,0,0],"up":[0,1,0]},"depth":1}}"#,
+        r#"{"kind":"prune","rows":[4]}"#,
+        r#"{"kind":"set_grammar_values","values":[{"name":"a","value":25.5}]}"#,
+        r#"{"kind":"derive","steps":2}"#,
+    ];
+    let mut document = Document::new(SEED);
+    document.set_metamer_budget(METAMERS);
+    for line in LINES {
+        let done = read_command(line).and_then(|command| document.apply(&Principal::visitor(), &command));
+        let refused = done.err();
+        assert!(refused.is_none(), "{line}: {refused:?}");
+    }
+    document.to_bytes()
 }

@@ -89,6 +89,38 @@ fn modules_that_grow_are_buds() {
     assert_eq!(cut.wood.nodes.len(), 6);
 }
 
+/// What hangs from a stem after each of four quarter rolls, seen from above with north up and east to the right: `/`
+/// rolls the turtle to its right, which is counter-clockwise for who looks at it from the front, and `\\` to its left.
+#[test]
+fn rolls_lead_around_the_stem_to_the_side_of_their_sign() {
+    let around = |roll: &str| {
+        let text = format!("angle: 90\naxiom: F{}", format!("[&F]{roll}").repeat(4));
+        let found = drawn(&text, 0);
+        let tip =
+            |node: &espalier_plant::WoodNode| (node.end * 100.0).to_array().map(|part| part.round() as i32);
+        found.wood.nodes[2..].iter().map(tip).collect::<Vec<_>>()
+    };
+    let (north, west, south, east) = ([0, 100, -100], [-100, 100, 0], [0, 100, 100], [100, 100, 0]);
+    assert_eq!(around("/"), [north, west, south, east]);
+    assert_eq!(around("\\"), [north, east, south, west]);
+    // A spiral of the golden angle, as phyllotaxis has it: each branch stands as far on as the sign says.
+    let found = drawn(&format!("axiom: {}", "F[&(90)F]/(137.5)".repeat(5)), 0);
+    let sides: Vec<f32> = (found.wood.axes[1..].iter())
+        .map(|axis| {
+            let node = |row: u32| found.wood.nodes[row as usize].end;
+            let bearer = axis.bearer.expect("a branch");
+            let tip = found.wood.nodes.iter().find(|node| node.parent == Some(bearer) && node.axis != 0);
+            let side = tip.expect("it has wood").end - node(bearer);
+            libm::atan2f(-side.x, -side.z).to_degrees().rem_euclid(360.0)
+        })
+        .collect();
+    for (number, side) in sides.iter().enumerate() {
+        let wanted = (137.5 * number as f32).rem_euclid(360.0);
+        assert!((side - wanted).abs() < 1e-2, "branch {number}: {side} is not {wanted}");
+    }
+    assert_eq!(sides.len(), 5);
+}
+
 #[test]
 fn wood_that_stands_apart_is_a_plant_of_its_own() {
     let found = drawn("axiom: FFf(3)FF[+(90)f(2)F]@M(5,0,0)F", 0);

@@ -68,6 +68,37 @@ fn each_depth_is_a_step_that_time_goes_back_to() {
     }
 }
 
+/// Whoever goes back to a depth, and whoever derives no further, have the same plant, to the bit; all of them can be
+/// taken back.
+#[test]
+fn every_shipped_grammar_is_at_each_depth_what_it_is_from_scratch() {
+    for shipped in SHIPPED {
+        let name = shipped.name;
+        let grammar = espalier_grammar::Grammar::read(shipped.text).expect("it is right");
+        let depth = grammar.program(&[]).expect("its sliders are in range").depth();
+        let mut document = Document::new(5);
+        let seedling = document.plant().hash();
+        apply(&mut document, &set(shipped.text, depth));
+        let reached = |document: &Document| document.grammar_depth().map(|(depth, _)| depth);
+        assert_eq!(reached(&document), Some(depth), "{name}");
+        let end = document.plant().step();
+        // The first depths one by one, and some of the later ones.
+        let looked_at = (1..depth).filter(|depth| *depth < 5 || depth.is_multiple_of(9));
+        for depth in looked_at.chain([depth]).rev() {
+            let mut scratch = Document::new(5);
+            apply(&mut scratch, &set(shipped.text, depth));
+            let step = scratch.plant().step();
+            apply(&mut document, &plain(Action::GoTo { step }));
+            assert_eq!(checks::all(document.plant()), Ok(()), "{name} at depth {depth}");
+            assert_eq!(document.plant().hash(), scratch.plant().hash(), "{name} at depth {depth}");
+            assert_eq!(reached(&document), Some(depth), "{name}");
+        }
+        apply(&mut document, &plain(Action::GoTo { step: end }));
+        apply(&mut document, &plain(Action::Undo {}));
+        assert_eq!((document.metamers(), document.plant().hash()), (0, seedling), "{name}");
+    }
+}
+
 /// What rules put in the middle of an axis parts what stood there from what bore it.
 #[test]
 fn step_by_step_a_plant_is_as_large_as_its_word_says() {
@@ -124,27 +155,33 @@ fn texts_may_say_their_seed() {
 #[test]
 fn wood_that_lengthens_moves_and_is_not_born_again() {
     let mut document = Document::new(1);
-    apply(&mut document, &set(shipped("ternary-wind"), 2));
-    for _ in 2..7 {
+    // As deep as a plant that it pays for; 118,098 lines at the end.
+    apply(&mut document, &set(shipped("ternary-wind"), 1));
+    for depth in 2..=10 {
         let before = living(&document);
+        let places: Vec<Vec3> =
+            before.iter().map(|&row| document.plant().metamers().end(MetamerId::new(row as usize))).collect();
         apply(&mut document, &derive(1));
         let after = living(&document);
-        assert!(before.iter().all(|row| after.contains(row)), "a row is gone");
+        assert!(after.starts_with(&before), "a row is gone at depth {depth}");
         assert_eq!(document.metamers() as usize + 1, document.plant().metamer_count(), "nothing has died");
+        // All that stood has been carried, for all of it lengthens.
+        let carried = before.iter().zip(&places).filter(|&(&row, place)| {
+            document.plant().metamers().end(MetamerId::new(row as usize)).distance(*place) > 1e-4
+        });
+        assert_eq!(carried.count(), before.len(), "depth {depth}");
     }
+    assert!(document.metamers() > 100_000, "{}", document.metamers());
     assert_eq!(checks::all(document.plant()), Ok(()));
 }
 
 #[test]
 fn hands_and_grammars_take_turns() {
     let mut document = Document::new(3);
-    let mut stops = vec![document.hash()];
     let text = shipped("monopodial");
     apply(&mut document, &set(text, 5));
-    stops.push(document.hash());
     let cut = laterals(&document)[1];
     apply(&mut document, &plain(Action::Prune { rows: list(vec![cut.raw()]) }));
-    stops.push(document.hash());
     let turned = laterals(&document)[0].raw();
     let rotation = UnitRotation::nearest(Quat::from_rotation_y(0.7));
     apply(&mut document, &plain(Action::TurnBranch { row: turned, rotation }));
@@ -172,6 +209,72 @@ fn hands_and_grammars_take_turns() {
     }
     assert_eq!(document.metamers(), 0);
     assert!(document.grammar_depth().is_none());
+}
+
+/// Grammar, bend, brush, two more depths: the same plants on the way back, forth again, and when it is all done anew.
+#[test]
+fn a_mixture_of_hands_and_grammar_goes_back_forth_and_anew() {
+    let commands = |document: &Document, part: usize| -> Vec<Command> {
+        let plant = document.plant();
+        let bends = || {
+            let path = long_path(document, 4);
+            let (base, touched) = (path[3].raw(), path[0]);
+            let target = plant.metamers().end(touched) + Vec3::new(0.8, -0.2, 0.5);
+            vec![
+                plain(Action::BendBegin {
+                    bend: 1,
+                    base,
+                    touches: held(vec![touched.raw()]),
+                    stretch: Share::nearest(0.5),
+                }),
+                plain(Action::BendMove { bend: 1, targets: places(vec![target]) }),
+                plain(Action::BendEnd { bend: 1 }),
+            ]
+        };
+        let samples = |from: f32| list(vec![sample(0.5, from, 1.0), sample(2.0, from + 3.0, 2.0)]);
+        match part {
+            0 => vec![set(shipped("sympodial"), 4)],
+            1 => bends(),
+            2 => vec![
+                plain(Action::StrokeBegin { stroke: 1, bud: None }),
+                plain(Action::StrokeMove { stroke: 1, samples: samples(4.0) }),
+                plain(Action::StrokeEnd { stroke: 1 }),
+            ],
+            _ => vec![derive(2)],
+        }
+    };
+    let mut document = Document::new(9);
+    let mut journal = Vec::new();
+    let mut stops = vec![(document.plant().hash(), document.metamers())];
+    for part in 0..4 {
+        for command in commands(&document, part) {
+            apply(&mut document, &command);
+            journal.push(command);
+        }
+        let stop = (document.plant().hash(), document.metamers());
+        assert_ne!(stops.last().map(|last| last.0), Some(stop.0), "part {part} changes the plant");
+        assert_eq!(checks::all(document.plant()), Ok(()), "part {part}");
+        stops.push(stop);
+    }
+    assert!(stops[4].1 > stops[3].1, "the grammar goes on beside what hands have done");
+    let mut back = vec![stops[4]];
+    while document.figures().can_undo {
+        apply(&mut document, &plain(Action::Undo {}));
+        assert_eq!(checks::all(document.plant()), Ok(()));
+        back.push((document.plant().hash(), document.metamers()));
+    }
+    back.reverse();
+    assert_eq!(back, stops, "undo stops where the hands did");
+    for stop in &stops[1..] {
+        apply(&mut document, &plain(Action::Redo {}));
+        assert_eq!((document.plant().hash(), document.metamers()), *stop);
+    }
+    let mut anew = Document::new(9);
+    journal.iter().for_each(|command| apply(&mut anew, command));
+    assert_eq!(
+        (anew.plant().hash(), anew.grammar_depth()),
+        (document.plant().hash(), document.grammar_depth())
+    );
 }
 
 #[test]
