@@ -51,6 +51,18 @@ pub struct GrammarSlider {
     pub value: f64,
 }
 
+/// Why a grammar cannot be derived further.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct GrammarEnd {
+    /// Which sentence it is, for programs that have words of their own for it: `ends.no-number`.
+    pub id: String,
+    /// What stands in the sentence where others of its name have something else, by name.
+    pub values: BTreeMap<String, String>,
+    /// A sentence in English without its full stop.
+    pub message: String,
+}
+
 /// The grammar in force (`GR5`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
@@ -78,7 +90,7 @@ pub struct GrammarInForce {
     /// Whether hands have changed the plants since it was set.
     pub edited: bool,
     /// Why it could not be derived further, where that was tried last.
-    pub ends: Option<String>,
+    pub ends: Option<GrammarEnd>,
 }
 
 /// A text to be looked at (`GR6`).
@@ -164,7 +176,7 @@ pub struct GrammarReport {
     /// How large it is at depth 0, 1, 2 and so on, as far as a bounded amount of work goes; under an open sky.
     pub sizes: Vec<GrammarSize>,
     /// Why it cannot be derived further than the sizes go, where a limit of documents ends it.
-    pub ends: Option<String>,
+    pub ends: Option<GrammarEnd>,
 }
 
 /// A grammar that comes with the program (`GR7`).

@@ -57,8 +57,9 @@ pub use espalier_reading::NotAllowed;
 pub use frame::{ChunkChange, Column, Frame, FrameError, Rows, Values};
 pub use ghost::GhostFrame;
 pub use grammar::{
-    CheckGrammar, GrammarBody, GrammarDiagnostic, GrammarInForce, GrammarOrigins, GrammarReport, GrammarRule,
-    GrammarSeverity, GrammarSize, GrammarSlider, GrammarValue, MAX_GRAMMAR_VALUES, ShippedGrammar,
+    CheckGrammar, GrammarBody, GrammarDiagnostic, GrammarEnd, GrammarInForce, GrammarOrigins, GrammarReport,
+    GrammarRule, GrammarSeverity, GrammarSize, GrammarSlider, GrammarValue, MAX_GRAMMAR_VALUES,
+    ShippedGrammar,
 };
 pub use http_problem::{HttpProblem, PROBLEM_JSON};
 pub use mesh::{Mesh, MeshError};

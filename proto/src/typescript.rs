@@ -101,6 +101,7 @@ pub fn declarations() -> String {
         grammar::CheckGrammar::decl(&config),
         grammar::GrammarSeverity::decl(&config),
         grammar::GrammarDiagnostic::decl(&config),
+        grammar::GrammarEnd::decl(&config),
         grammar::GrammarSize::decl(&config),
         grammar::GrammarReport::decl(&config),
         grammar::ShippedGrammar::decl(&config),

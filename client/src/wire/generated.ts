@@ -264,7 +264,7 @@ edited: boolean,
 /**
  * Why it could not be derived further, where that was tried last.
  */
-ends: string | null, };
+ends: GrammarEnd | null, };
 
 export type CheckGrammar = { 
 /**
@@ -324,6 +324,20 @@ message: string,
  */
 hint: string | null, };
 
+export type GrammarEnd = { 
+/**
+ * Which sentence it is, for programs that have words of their own for it: `ends.no-number`.
+ */
+id: string, 
+/**
+ * What stands in the sentence where others of its name have something else, by name.
+ */
+values: { [key in string]: string }, 
+/**
+ * A sentence in English without its full stop.
+ */
+message: string, };
+
 export type GrammarSize = { 
 /**
  * Modules of its word.
@@ -366,7 +380,7 @@ sizes: Array<GrammarSize>,
 /**
  * Why it cannot be derived further than the sizes go, where a limit of documents ends it.
  */
-ends: string | null, };
+ends: GrammarEnd | null, };
 
 export type ShippedGrammar = { 
 /**

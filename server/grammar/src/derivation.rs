@@ -115,7 +115,8 @@ impl Derivation {
             for (value, code) in values.iter_mut().zip(&product.arguments) {
                 *value = derivation.machine.run(code, &[], &mut moment);
                 if !value.is_finite() {
-                    return Err(Stop::NoNumber { line: 1, column: 1 });
+                    let (line, column) = program.axiom_at;
+                    return Err(Stop::NoNumber { line, column });
                 }
             }
             let values = &values[..product.arguments.len()];

@@ -73,6 +73,10 @@ const PREFIX: u8 = 8;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Lost;
 
+/// Functions of cpfg without a counterpart here, so that none of another name is taken for them.
+const FUNCTIONS_OF_CPFG: [&str; 9] =
+    ["bran", "biran", "curveX", "curveY", "curveZ", "srand", "stop", "printf", "fprintf"];
+
 impl Parser<'_> {
     /// An expression up to where the text goes on otherwise.
     pub fn expression(&mut self, scope: &Scope) -> Result<Expr, Lost> {
@@ -220,6 +224,9 @@ impl Parser<'_> {
             let Some(&(_, wanted, function)) = function else {
                 let names = FUNCTIONS.iter().map(|row| row.0).chain(["func"]);
                 match nearest(name, names) {
+                    _ if FUNCTIONS_OF_CPFG.contains(&name) => {
+                        self.report.error(span, wording::CPFG_FUNCTION, [("name", &name)]);
+                    }
                     Some(near) => {
                         let values: [(_, &dyn Display); 2] = [("name", &name), ("near", &near)];
                         self.report.error(span, wording::UNKNOWN_FUNCTION_NEAR, values);

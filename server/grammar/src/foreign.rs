@@ -10,10 +10,21 @@ use crate::{
 pub(crate) struct Foreign<'a> {
     pub wording: &'static Wording,
     pub name: &'a str,
+    /// What to write instead, where that depends on the construct.
+    pub sign: Option<&'static str>,
     /// Bytes before it, and of it.
     pub from: usize,
     pub length: usize,
 }
+
+impl<'a> Foreign<'a> {
+    fn new(wording: &'static Wording, name: &'a str, from: usize, length: usize) -> Self {
+        Self { wording, name, sign: None, from, length }
+    }
+}
+
+/// Values of Python that are no numbers here, and the numbers that stand for them.
+const CONSTANTS: &[(&str, &str)] = &[("True", "1"), ("False", "0"), ("None", "0")];
 
 /// Words that begin such a construct.
 const WORDS: &[(&str, &Wording)] = &[
@@ -58,21 +69,17 @@ pub(crate) fn foreign(line: &str) -> Option<Foreign<'_>> {
     let (word, behind) = line.split_at(word_length);
     if line.starts_with('#') && !line.starts_with("#define") {
         let length = 1 + line[1..].find(|c: char| !c.is_alphanumeric()).unwrap_or(line.len() - 1);
-        return Some(Foreign { wording: wording::C_DIRECTIVE, name: &line[..length], from: 0, length });
+        return Some(Foreign::new(wording::C_DIRECTIVE, &line[..length], 0, length));
     }
     if let Some((before, successor)) = line.split_once(ARROW) {
         let predecessor = before.split(':').next().unwrap_or(before);
         if let Some(at) = predecessor.find("<<").or_else(|| predecessor.find(">>")) {
             let name = &line[at..at + 2];
-            return Some(Foreign { wording: wording::NEW_CONTEXT, name, from: at, length: 2 });
+            return Some(Foreign::new(wording::NEW_CONTEXT, name, at, 2));
         }
         let from = before.len() + ARROW.len();
-        return assignment(successor).map(|at| Foreign {
-            wording: wording::STATEMENT_IN_SUCCESSOR,
-            name: "=",
-            from: from + at,
-            length: 1,
-        });
+        return assignment(successor)
+            .map(|at| Foreign::new(wording::STATEMENT_IN_SUCCESSOR, "=", from + at, 1));
     }
     // A line with a word and a colon that is no header, and a call without an arrow, are told apart by the word alone.
     if let Some(&(name, wording)) = WORDS.iter().find(|row| row.0 == word) {
@@ -80,27 +87,58 @@ pub(crate) fn foreign(line: &str) -> Option<Foreign<'_>> {
         let is_length =
             name == "derivation" && behind.trim_start().to_ascii_lowercase().starts_with("length");
         if is_statement && !is_length {
-            return Some(Foreign { wording, name, from: 0, length: word_length });
+            return Some(Foreign::new(wording, name, 0, word_length));
         }
     }
     if header(line).is_none() {
-        let found = |wording, length| Some(Foreign { wording, name: word, from: 0, length });
-        if line.trim_end().ends_with(':') && line.contains('(') {
-            return found(wording::PYTHON_BLOCK, line.len());
+        if let Some(body) = python_rule(line) {
+            return Some(body);
         }
         let is_call = behind.trim_start().starts_with('(') && !word.is_empty();
         let is_method = behind.starts_with('.') && behind.contains('(');
         if is_call && !line.contains("->") || is_method {
-            return found(wording::PYTHON_CALL, word_length);
+            return Some(Foreign::new(wording::PYTHON_CALL, word, 0, word_length));
         }
     }
     if is_definition(line) {
         let value = line.split_once('=').map_or("", |(_, value)| value.trim_start());
         if value.starts_with(['[', '{', '"', '\'']) {
-            return Some(Foreign { wording: wording::PYTHON_LIST, name: word, from: 0, length: word_length });
+            return Some(Foreign::new(wording::PYTHON_LIST, word, 0, word_length));
+        }
+        let from = line.len() - value.len();
+        if let Some(&(name, sign)) = CONSTANTS.iter().find(|row| row.0 == value.trim_end()) {
+            let found = Foreign::new(wording::PYTHON_CONSTANT, name, from, name.len());
+            return Some(Foreign { sign: Some(sign), ..found });
+        }
+        if let Some(name) = method(value) {
+            return Some(Foreign::new(wording::PYTHON_METHOD, name, from, name.len()));
         }
     }
     None
+}
+
+/// A rule as L-Py writes it: behind the colon comes Python, on the same line or on indented ones.
+fn python_rule(line: &str) -> Option<Foreign<'_>> {
+    let first = line.lines().next().unwrap_or_default().trim_end();
+    if let Some(predecessor) = first.strip_suffix(':') {
+        // A word alone may be the slip of a header; what follows it tells.
+        let is_rule = predecessor.contains('(') || line.contains('\n');
+        let length = first.len();
+        return is_rule.then_some(Foreign::new(wording::PYTHON_BLOCK, predecessor, 0, length));
+    }
+    let colon = first.find(':')?;
+    let behind = first[colon + 1..].trim_start();
+    let length = behind.find(|c: char| !c.is_alphanumeric()).unwrap_or(behind.len());
+    let &(name, wording) = WORDS.iter().find(|row| row.0 == &behind[..length])?;
+    Some(Foreign::new(wording, name, first.len() - behind.len(), length))
+}
+
+/// The method that a value calls: `curve.deepcopy` of `curve.deepcopy()`.
+fn method(value: &str) -> Option<&str> {
+    let length = value.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.'))?;
+    let name = &value[..length];
+    let is_call = value[length..].starts_with('(') && name.starts_with(char::is_alphabetic);
+    (is_call && name.contains('.')).then_some(name)
 }
 
 /// Where a successor assigns a number, as the statements of L+C do.

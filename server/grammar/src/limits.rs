@@ -1,5 +1,12 @@
 //! What ends a derivation: budgets, checked while it goes on, and numbers that are none.
 
+use std::fmt::{self, Display, Formatter};
+
+use crate::{
+    diagnostic::{Values, written},
+    wording::{self, Wording, filled},
+};
+
 /// How much a derivation may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
@@ -20,22 +27,17 @@ impl Default for Limits {
 }
 
 /// Why a derivation or a reading ended. What was derived before stays.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     /// The word would have more modules than it may.
-    #[error("the next step has more than {0} modules")]
     Modules(usize),
     /// It would have more parameters than it may.
-    #[error("the modules of the next step have more than {0} parameters in all")]
     Parameters(usize),
     /// Branches would lie deeper in each other than they may.
-    #[error("branches lie more than {0} deep in each other")]
     Nesting(usize),
     /// It takes too long.
-    #[error("it takes more than {0} steps of computing")]
     Work(u64),
     /// A parameter, condition or probability is no number, or is infinite.
-    #[error("line {line}, column {column}: a number is infinite or undefined (a division by 0, say)")]
     NoNumber {
         /// The line of the rule or definition, counted from 1.
         line: u32,
@@ -43,9 +45,6 @@ pub enum Stop {
         column: u32,
     },
     /// No alternative of a rule has a probability above 0.
-    #[error(
-        "line {line}, column {column}: the probabilities of the alternatives are not all 0 or more, or add up to 0"
-    )]
     NoProbability {
         /// The line of the first alternative.
         line: u32,
@@ -53,7 +52,6 @@ pub enum Stop {
         column: u32,
     },
     /// Rules go on acting within one step.
-    #[error("line {line}, column {column}: the rule goes on for more than {most} times within one step")]
     Endless {
         /// The line of the rule.
         line: u32,
@@ -63,9 +61,53 @@ pub enum Stop {
         most: u32,
     },
     /// The wood would have more nodes than it may.
-    #[error("the word draws more than {0} internodes")]
     Nodes(usize),
     /// The wood would reach farther than it may.
-    #[error("the wood reaches farther than {0} internodes; a smaller scale: shrinks it")]
     Extent(u32),
+    /// Where the wood is laid down there is no room for more of it.
+    Full,
+    /// There it would lie outside the world, which ends so far from its middle.
+    World(u32),
+    /// There it would not fit what stands already.
+    Broken,
+    /// Who only counts sizes counts no further.
+    Counted,
 }
+
+impl Stop {
+    /// The name of its sentence among [all](crate::WORDINGS), and what stands in the sentence's braces.
+    pub fn sentence(&self) -> (&'static Wording, Vec<(&'static str, String)>) {
+        let most = |wording, most: &dyn Display| (wording, written(&[("most", most)]));
+        let at = |wording, line: &u32, column: &u32| {
+            let values: Values = written(&[("line", line), ("column", column)]);
+            (wording, values)
+        };
+        match self {
+            Self::Modules(count) => most(wording::ENDS_MODULES, count),
+            Self::Parameters(count) => most(wording::ENDS_PARAMETERS, count),
+            Self::Nesting(count) => most(wording::ENDS_NESTING, count),
+            Self::Work(steps) => most(wording::ENDS_WORK, steps),
+            Self::NoNumber { line, column } => at(wording::ENDS_NO_NUMBER, line, column),
+            Self::NoProbability { line, column } => at(wording::ENDS_NO_PROBABILITY, line, column),
+            Self::Endless { line, column, most } => {
+                let values = written(&[("line", line), ("column", column), ("most", most)]);
+                (wording::ENDS_ENDLESS, values)
+            }
+            Self::Nodes(count) => most(wording::ENDS_NODES, count),
+            Self::Extent(extent) => most(wording::ENDS_EXTENT, extent),
+            Self::Full => (wording::ENDS_FULL, Vec::new()),
+            Self::World(extent) => most(wording::ENDS_WORLD, extent),
+            Self::Broken => (wording::ENDS_BROKEN, Vec::new()),
+            Self::Counted => (wording::ENDS_COUNTED, Vec::new()),
+        }
+    }
+}
+
+impl Display for Stop {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (wording, values) = self.sentence();
+        f.write_str(&filled(wording.message, &values))
+    }
+}
+
+impl std::error::Error for Stop {}

@@ -148,7 +148,12 @@ impl<'a> Parser<'a> {
         if let Some(found) = foreign(rest) {
             let start = self.at + found.from;
             let span = Span::new(start, start + found.length);
-            self.report.error(span, found.wording, [("name", &found.name)]);
+            match found.sign {
+                Some(sign) => {
+                    self.report.error(span, found.wording, [("name", &found.name), ("sign", &sign)])
+                }
+                None => self.report.error(span, found.wording, [("name", &found.name)]),
+            }
             return Err(Lost);
         }
         if let Some((header, length)) = header(rest) {

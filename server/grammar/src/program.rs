@@ -4,6 +4,7 @@ use std::fmt::{self, Display};
 
 use crate::{
     code::{Code, asks_place, compile, unsteady},
+    derivation::Place,
     diagnostic::{Values, written},
     expression::Expr,
     grammar::{Ahead, Buds, Curve, Grammar, Module, Neighbour, Radii, Rule, Slider, SliderRow},
@@ -92,6 +93,8 @@ impl RuleSet {
 #[derive(Clone, Debug)]
 pub struct Program {
     pub(crate) axiom: Vec<Product>,
+    /// Line and column of what the axiom begins with.
+    pub(crate) axiom_at: Place,
     pub(crate) rules: RuleSet,
     pub(crate) homomorphism: RuleSet,
     pub(crate) decomposition: RuleSet,
@@ -274,6 +277,7 @@ impl Program {
         let has_contexts = grammar.rules.iter().any(|rule| !rule.left.is_empty() || !rule.right.is_empty());
         Ok(Self {
             axiom: compiling.products(&grammar.axiom),
+            axiom_at: grammar.axiom_at,
             rules: compiling.set(&grammar.rules),
             homomorphism: compiling.set(&grammar.homomorphism),
             decomposition: compiling.set(&grammar.decomposition),

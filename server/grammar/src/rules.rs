@@ -298,9 +298,9 @@ impl Parser<'_> {
                 self.report.error(span, wording::STATEMENT_KIND, [("name", &name)]);
                 return Err(Lost);
             }
-            let is_taken =
-                scope.parameters.contains(&name) || self.defines.iter().any(|define| define.name == name);
-            if is_taken {
+            // A parameter or a name of before may be given another number: what follows means that.
+            let is_new = !scope.parameters.contains(&name);
+            if is_new && self.defines.iter().any(|define| define.name == name) {
                 self.report.error(span, wording::STATEMENT_NAME, [("name", &name)]);
                 return Err(Lost);
             }

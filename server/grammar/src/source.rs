@@ -46,7 +46,7 @@ impl Source {
     }
 
     /// Lines that belong together: a line that is indented goes on with the one before, unless it is a rule, a header
-    /// or a definition of its own.
+    /// or a definition of its own; one that begins with the arrow or a brace, with the predecessor before it.
     pub fn logical_lines(&self) -> Vec<Span> {
         let mut found: Vec<Span> = Vec::new();
         let mut open = false;
@@ -62,7 +62,9 @@ impl Source {
             }
             let is_indented = line.starts_with([' ', '\t']);
             let stands_alone = content.contains(ARROW) || begins_header(content) || is_definition(content);
-            match found.last_mut().filter(|_| open || (may_go_on && is_indented && !stands_alone)) {
+            let goes_on = open || (may_go_on && is_indented && !stands_alone);
+            let is_rest = is_rest_of_rule(content, found.last().map_or("", |last| self.slice(*last)));
+            match found.last_mut().filter(|_| goes_on || is_rest) {
                 Some(last) => last.end = span.end,
                 None => {
                     let indent = line.len() - line.trim_start().len();
@@ -80,6 +82,13 @@ impl Source {
     pub fn slice(&self, span: Span) -> &str {
         &self.text[span.start as usize..span.end as usize]
     }
+}
+
+/// Whether a line is the rest of a rule whose predecessor is the line before.
+fn is_rest_of_rule(content: &str, before: &str) -> bool {
+    let is_predecessor =
+        !before.is_empty() && !before.contains(ARROW) && !begins_header(before) && !is_definition(before);
+    is_predecessor && (content.starts_with(ARROW) || (content.starts_with('{') && content.contains(ARROW)))
 }
 
 /// `name = …`, as Python and this language define a number.
@@ -159,6 +168,17 @@ mod tests {
         let lines: Vec<_> =
             source.logical_lines().iter().map(|&span| source.slice(span).to_owned()).collect();
         assert_eq!(lines, ["A --> F\n  [+A]", "B", "define: { a = 1\nb = 2 }", "C --> D", "x = 3"]);
+    }
+
+    #[test]
+    fn arrows_go_on_with_their_predecessors() {
+        let source =
+            Source::new("A(t) : t > 1\n\n--> F\nB : 1\n {x = 2;} --> G\naxiom: A\n--> F\nA --> B\n--> C");
+        let lines: Vec<_> =
+            source.logical_lines().iter().map(|&span| source.slice(span).to_owned()).collect();
+        let wanted =
+            ["A(t) : t > 1\n\n--> F", "B : 1\n {x = 2;} --> G", "axiom: A", "--> F", "A --> B", "--> C"];
+        assert_eq!(lines, wanted);
     }
 
     #[test]

@@ -86,6 +86,8 @@ wordings! {
     UNDEFINED_NEAR: "unknown-name.slider-near", "`{name}` is not defined" => "did you mean {near}?";
     UNKNOWN_FUNCTION: "unknown-function.here", "there is no function `{name}`";
     UNKNOWN_FUNCTION_NEAR: "unknown-function.near", "there is no function `{name}`" => "did you mean {near}?";
+    CPFG_FUNCTION: "unknown-function.cpfg", "`{name}` is a function of cpfg that is not known here"
+        => "docs/grammars.md lists the functions";
     UNKNOWN_CURVE: "unknown-curve.name", "there is no curve `{name}`" => "define it: func: {name} 0 0 1 1";
     UNKNOWN_CURVE_NUMBER: "unknown-curve.number", "curve {name} lies in another file of cpfg"
         => "write its points into this one: func: {name} 0 0 0.5 0.8 1 1";
@@ -119,6 +121,9 @@ wordings! {
         => "write the successor behind the arrow: A(x) --> F(x)";
     PYTHON_CALL: "python.call", "`{name}(…)` is a call of Python or C, which is not run here"
         => "definitions are numbers, and rules have the arrow: A --> F";
+    PYTHON_CONSTANT: "python.constant", "`{name}` is Python, and definitions are numbers" => "write {sign}";
+    PYTHON_METHOD: "python.method", "`{name}(…)` is a call of Python, which is not run here"
+        => "definitions are numbers: R = 1.5";
     PYTHON_LIST: "python.list", "`{name}` is a list or a text, and definitions are numbers"
         => "give each number a name of its own, or make a curve of them: func: {name} 0 1 1 2";
     STATEMENT_START: "cpfg-statements.start", "`{name}` is a statement, and none is run here"
@@ -129,7 +134,7 @@ wordings! {
         => "a grammar has no statements";
     STATEMENT_KIND: "cpfg-statements.kind", "`{name}` is a statement, and none is run here"
         => "in braces only numbers are given names: A(x) : {y = 2*x;} --> F(y)";
-    STATEMENT_NAME: "cpfg-statements.name", "statements cannot change `{name}`, which has a value already"
+    STATEMENT_NAME: "cpfg-statements.name", "statements cannot change `{name}`, which is defined for all rules"
         => "give the number a new name: A(x) : {y = x+1;} --> F(y)";
     STATEMENT_IN_SUCCESSOR: "cpfg-statements.successor", "statements in a rule stand before its arrow"
         => "a rule is predecessor : {y = 2*x;} condition --> successor";
@@ -199,6 +204,20 @@ wordings! {
     LIFESPAN_RANGE: "out-of-range.lifespan", "the lifespan of `{name}` is {value}, and must be from 0.001 to 1000000";
     UNSTEADY: "out-of-range.unsteady", "`{name}` must be the same everywhere, and `{function}` is not";
     NO_PROBABILITY: "no-probability", "the probabilities of this rule and its alternatives are all 0";
+
+    ENDS_MODULES: "ends.modules", "the next step has more than {most} modules";
+    ENDS_PARAMETERS: "ends.parameters", "the modules of the next step have more than {most} parameters in all";
+    ENDS_NESTING: "ends.nesting", "branches lie more than {most} deep in each other";
+    ENDS_WORK: "ends.work", "it takes more than {most} steps of computing";
+    ENDS_NO_NUMBER: "ends.no-number", "line {line}, column {column}: a number is infinite or undefined (a division by 0, say)";
+    ENDS_NO_PROBABILITY: "ends.no-probability", "line {line}, column {column}: the probabilities of the alternatives are not all 0 or more, or add up to 0";
+    ENDS_ENDLESS: "ends.endless", "line {line}, column {column}: the rule goes on for more than {most} times within one step";
+    ENDS_NODES: "ends.nodes", "the word draws more than {most} internodes";
+    ENDS_EXTENT: "ends.extent", "the wood reaches farther than {most} internodes; a smaller scale: shrinks it";
+    ENDS_FULL: "ends.full", "the document would hold more internodes than it may, with those of earlier depths";
+    ENDS_WORLD: "ends.world", "the wood would leave the world, which ends {most} internodes from its middle";
+    ENDS_BROKEN: "ends.broken", "the wood of this step does not fit that of the one before";
+    ENDS_COUNTED: "ends.counted", "what is deeper is too large to be counted";
 
     NEVER_FIRES: "never-fires", "this rule never fires: that of line {line} takes every such module"
         => "put the rule with a condition or context first, or give both a probability";

@@ -1,14 +1,14 @@
 //! Grammars that are looked at before they are planted (`GR6`), and those that come with the program (`GR7`).
 
-use std::sync::Arc;
+use std::{collections::BTreeMap, sync::Arc};
 
 use espalier_grammar::{
     Derivation, Diagnostic, Grammar, Limits, OpenSky, Program, SHIPPED, Severity, Shipped, Stop, WoodOptions,
 };
 use espalier_growth::WORLD_EXTENT;
 use espalier_proto::{
-    Action, CheckGrammar, GrammarDiagnostic, GrammarReport, GrammarSeverity, GrammarSize, List, Problem,
-    ShippedGrammar, Steps,
+    Action, CheckGrammar, GrammarDiagnostic, GrammarEnd, GrammarReport, GrammarSeverity, GrammarSize, List,
+    Problem, ShippedGrammar, Steps,
 };
 
 use crate::document::{bad_value, sliders_of};
@@ -54,9 +54,9 @@ pub fn check_grammar(wanted: &CheckGrammar) -> Result<GrammarReport, Problem> {
         report.diagnostics.extend(measured.tiny.as_ref().map(wire));
         report.ends = ends.map(|stop| match stop {
             Stop::Modules(_) | Stop::Parameters(_) | Stop::Work(_) | Stop::Nodes(_) => {
-                format!("what is deeper is too large to be counted: {stop}")
+                wire_end(&Stop::Counted)
             }
-            stop => stop.to_string(),
+            stop => wire_end(&stop),
         });
     }
     Ok(report)
@@ -96,6 +96,16 @@ impl Measured {
     }
 }
 
+/// Why a grammar ends, as it travels.
+pub(crate) fn wire_end(stop: &Stop) -> GrammarEnd {
+    let (wording, values) = stop.sentence();
+    GrammarEnd { id: wording.id.to_owned(), values: wire_values(&values), message: stop.to_string() }
+}
+
+fn wire_values(values: &[(&'static str, String)]) -> BTreeMap<String, String> {
+    values.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect()
+}
+
 fn wire(found: &Diagnostic) -> GrammarDiagnostic {
     let severity = match found.severity {
         Severity::Error => GrammarSeverity::Error,
@@ -108,7 +118,7 @@ fn wire(found: &Diagnostic) -> GrammarDiagnostic {
         length: found.length,
         code: found.code.to_owned(),
         id: found.id.to_owned(),
-        values: found.values.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect(),
+        values: wire_values(&found.values),
         message: found.message.clone(),
         hint: found.hint.clone(),
     }
@@ -180,7 +190,7 @@ mod tests {
         let internodes: Vec<u32> = report.sizes.iter().take(5).map(|size| size.internodes).collect();
         assert_eq!(internodes, [0, 1, 3, 7, 15]);
         assert!(report.sizes.len() > 10 && report.sizes.len() < 30, "a tree that doubles is soon too large");
-        assert!(report.ends.is_some_and(|why| why.contains("too large")));
+        assert_eq!(report.ends.map(|why| why.id).as_deref(), Some("ends.counted"));
 
         let report = checked("axiom: A\nA --> F[+A\nB --> sni(3)\n");
         let found = &report.diagnostics[0];
@@ -189,7 +199,9 @@ mod tests {
 
         let report = checked("axiom: A(3)\nA(n) --> F(1/n)A(n-1)\n");
         assert_eq!(report.sizes.len(), 4);
-        assert!(report.ends.is_some_and(|why| why.starts_with("line 2")), "a division by zero has its place");
+        let why = report.ends.expect("a division by zero ends it");
+        assert_eq!((&*why.id, &*why.values["line"]), ("ends.no-number", "2"));
+        assert!(why.message.starts_with("line 2, column 1:"), "{}", why.message);
 
         let values = vec![espalier_proto::GrammarValue { name: "b".into(), value: 1.0 }];
         let values = List::try_from(values).unwrap_or_else(|_| panic!("not too many"));

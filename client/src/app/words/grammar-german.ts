@@ -27,6 +27,10 @@ export const GERMAN = {
   "unknown-name.slider-near": ["`{name}` ist nicht festgelegt", "meinst du {near}?"],
   "unknown-function.here": ["eine Funktion `{name}` gibt es nicht"],
   "unknown-function.near": ["eine Funktion `{name}` gibt es nicht", "meinst du {near}?"],
+  "unknown-function.cpfg": [
+    "`{name}` ist eine Funktion von cpfg, die es hier nicht gibt",
+    "docs/grammars.md nennt die Funktionen",
+  ],
   "unknown-curve.name": ["eine Kurve `{name}` gibt es nicht", "lege sie fest: func: {name} 0 0 1 1"],
   "unknown-curve.number": [
     "die Kurve {name} liegt bei cpfg in einer anderen Datei",
@@ -73,6 +77,11 @@ export const GERMAN = {
     "`{name}(…)` ist ein Aufruf von Python oder C, die hier nicht ausgeführt werden",
     "festgelegt werden Zahlen, und Regeln haben den Pfeil: A --> F",
   ],
+  "python.constant": ["`{name}` ist Python, festgelegt werden aber Zahlen", "schreibe {sign}"],
+  "python.method": [
+    "`{name}(…)` ist ein Aufruf von Python, das hier nicht ausgeführt wird",
+    "festgelegt werden Zahlen: R = 1.5",
+  ],
   "python.list": [
     "`{name}` ist eine Liste oder ein Text, festgelegt werden aber Zahlen",
     "gib jeder Zahl einen eigenen Namen, oder mach eine Kurve daraus: func: {name} 0 1 1 2",
@@ -94,7 +103,7 @@ export const GERMAN = {
     "in geschweiften Klammern bekommen nur Zahlen Namen: A(x) : {y = 2*x;} --> F(y)",
   ],
   "cpfg-statements.name": [
-    "Anweisungen können `{name}` nicht ändern: der Wert steht schon fest",
+    "Anweisungen können `{name}` nicht ändern: der Wert gilt für alle Regeln",
     "gib der Zahl einen neuen Namen: A(x) : {y = x+1;} --> F(y)",
   ],
   "cpfg-statements.successor": [
@@ -179,6 +188,23 @@ export const GERMAN = {
   "out-of-range.lifespan": ["die Lebensdauer von `{name}` ist {value} und muss zwischen 0.001 und 1000000 liegen"],
   "out-of-range.unsteady": ["`{name}` muss überall gleich sein, und `{function}` ist es nicht"],
   "no-probability": ["die Wahrscheinlichkeiten dieser Regel und derer, mit denen sie wechselt, sind alle 0"],
+  "ends.modules": ["der nächste Schritt hätte mehr als {most} Module"],
+  "ends.parameters": ["die Module des nächsten Schritts hätten zusammen mehr als {most} Parameter"],
+  "ends.nesting": ["Äste lägen mehr als {most} tief ineinander"],
+  "ends.work": ["es braucht mehr als {most} Rechenschritte"],
+  "ends.no-number": [
+    "Zeile {line}, Spalte {column}: Eine Zahl ist unendlich oder nicht bestimmt (etwa durch eine Division durch 0)",
+  ],
+  "ends.no-probability": [
+    "Zeile {line}, Spalte {column}: Eine Wahrscheinlichkeit der Alternativen ist kleiner als 0, oder alle zusammen sind 0",
+  ],
+  "ends.endless": ["Zeile {line}, Spalte {column}: Die Regel wirkt in einem Schritt mehr als {most} Mal weiter"],
+  "ends.nodes": ["das Wort zeichnet mehr als {most} Internodien"],
+  "ends.extent": ["das Holz reicht weiter als {most} Internodien; ein kleineres scale: verkleinert es"],
+  "ends.full": ["das Dokument hätte mehr Internodien, als es haben darf, die früherer Tiefen mitgezählt"],
+  "ends.world": ["das Holz ragte aus der Welt, die {most} Internodien von ihrer Mitte endet"],
+  "ends.broken": ["das Holz dieses Schritts passt nicht zu dem des vorigen"],
+  "ends.counted": ["was tiefer ist, ist zu groß, um gezählt zu werden"],
   "never-fires": [
     "diese Regel kommt nie an die Reihe: die in Zeile {line} nimmt jedes solche Modul",
     "setze die Regel mit Bedingung oder Kontext nach oben, oder gib beiden eine Wahrscheinlichkeit",

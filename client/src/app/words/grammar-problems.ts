@@ -1,4 +1,4 @@
-import type { GrammarDiagnostic } from "../../wire/generated";
+import type { GrammarDiagnostic, GrammarEnd } from "../../wire/generated";
 import { GERMAN } from "./grammar-german";
 import type { Text } from "./say";
 import { say } from "./say";
@@ -64,6 +64,11 @@ export function sentenceOf({ id, values, message, hint }: Said): Pick<GrammarDia
     message: say([message, german?.[0] ?? message], filled),
     hint: hint === null ? null : say([hint, german?.[1] ?? hint], filled),
   };
+}
+
+/** Why a grammar cannot be derived further, without a full stop. */
+export function endText(end: GrammarEnd): string {
+  return sentenceOf({ ...end, hint: null }).message;
 }
 
 type Said = Pick<GrammarDiagnostic, "id" | "values" | "message" | "hint">;

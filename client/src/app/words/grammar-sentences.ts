@@ -27,6 +27,10 @@ export const SENTENCES = {
   "unknown-name.slider-near": ["`{name}` is not defined", "did you mean {near}?"],
   "unknown-function.here": ["there is no function `{name}`", null],
   "unknown-function.near": ["there is no function `{name}`", "did you mean {near}?"],
+  "unknown-function.cpfg": [
+    "`{name}` is a function of cpfg that is not known here",
+    "docs/grammars.md lists the functions",
+  ],
   "unknown-curve.name": ["there is no curve `{name}`", "define it: func: {name} 0 0 1 1"],
   "unknown-curve.number": [
     "curve {name} lies in another file of cpfg",
@@ -64,6 +68,8 @@ export const SENTENCES = {
     "`{name}(…)` is a call of Python or C, which is not run here",
     "definitions are numbers, and rules have the arrow: A --> F",
   ],
+  "python.constant": ["`{name}` is Python, and definitions are numbers", "write {sign}"],
+  "python.method": ["`{name}(…)` is a call of Python, which is not run here", "definitions are numbers: R = 1.5"],
   "python.list": [
     "`{name}` is a list or a text, and definitions are numbers",
     "give each number a name of its own, or make a curve of them: func: {name} 0 1 1 2",
@@ -82,7 +88,7 @@ export const SENTENCES = {
     "in braces only numbers are given names: A(x) : {y = 2*x;} --> F(y)",
   ],
   "cpfg-statements.name": [
-    "statements cannot change `{name}`, which has a value already",
+    "statements cannot change `{name}`, which is defined for all rules",
     "give the number a new name: A(x) : {y = x+1;} --> F(y)",
   ],
   "cpfg-statements.successor": [
@@ -161,6 +167,22 @@ export const SENTENCES = {
   "out-of-range.lifespan": ["the lifespan of `{name}` is {value}, and must be from 0.001 to 1000000", null],
   "out-of-range.unsteady": ["`{name}` must be the same everywhere, and `{function}` is not", null],
   "no-probability": ["the probabilities of this rule and its alternatives are all 0", null],
+  "ends.modules": ["the next step has more than {most} modules", null],
+  "ends.parameters": ["the modules of the next step have more than {most} parameters in all", null],
+  "ends.nesting": ["branches lie more than {most} deep in each other", null],
+  "ends.work": ["it takes more than {most} steps of computing", null],
+  "ends.no-number": ["line {line}, column {column}: a number is infinite or undefined (a division by 0, say)", null],
+  "ends.no-probability": [
+    "line {line}, column {column}: the probabilities of the alternatives are not all 0 or more, or add up to 0",
+    null,
+  ],
+  "ends.endless": ["line {line}, column {column}: the rule goes on for more than {most} times within one step", null],
+  "ends.nodes": ["the word draws more than {most} internodes", null],
+  "ends.extent": ["the wood reaches farther than {most} internodes; a smaller scale: shrinks it", null],
+  "ends.full": ["the document would hold more internodes than it may, with those of earlier depths", null],
+  "ends.world": ["the wood would leave the world, which ends {most} internodes from its middle", null],
+  "ends.broken": ["the wood of this step does not fit that of the one before", null],
+  "ends.counted": ["what is deeper is too large to be counted", null],
   "never-fires": [
     "this rule never fires: that of line {line} takes every such module",
     "put the rule with a condition or context first, or give both a probability",

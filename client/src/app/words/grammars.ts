@@ -74,7 +74,8 @@ export const GRAMMARS = {
   "grammars.depth.size": ["Depth {depth}: {count} internodes", "Tiefe {depth}: {count} Internodien"],
   "grammars.depth.guess": ["Depth {depth}: about {count} internodes", "Tiefe {depth}: etwa {count} Internodien"],
   "grammars.depth.bar": ["Depth {depth}", "Tiefe {depth}"],
-  "grammars.depth.ends": ["The budget ends at depth {depth}.", "Bei Tiefe {depth} endet das Budget."],
+  "grammars.depth.ends": ["It ends at depth {depth}: {why}.", "Bei Tiefe {depth} ist Schluss: {why}."],
+  "grammars.depth.stopped": ["It could not be derived so far: {why}.", "So weit ließ sie sich nicht ableiten: {why}."],
   "grammars.depth.edited": [
     "Hands have changed this plant; it grows on where its buds still stand.",
     "Diese Pflanze ist von Hand verändert; sie wächst weiter, wo ihre Knospen noch stehen.",

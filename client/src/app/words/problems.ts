@@ -189,8 +189,8 @@ export const REFUSALS = {
   ],
   "problems.not-a-grammar": ["This text is no grammar yet: {cause}", "Dieser Text ist noch keine Grammatik: {cause}"],
   "problems.grammar-ends": [
-    "The grammar cannot be derived so far: {cause}",
-    "So weit lässt sich die Grammatik nicht ableiten: {cause}",
+    "The grammar cannot be derived so far; “Depth” in “Grammars” says why.",
+    "So weit lässt sich die Grammatik nicht ableiten; „Tiefe“ unter „Grammatiken“ sagt, warum.",
   ],
   "problems.no-grammar": [
     "No grammar is in force here; plant one first.",

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use espalier_grammar::{Derivation, Grammar, Limits, OpenSky, Progress, Stop, WoodOptions};
+use espalier_grammar::{Derivation, Grammar, Limits, OpenSky, Progress, Stop, WORDINGS, WoodOptions};
 
 fn begun(text: &str, limits: Limits) -> Result<Derivation, Stop> {
     let grammar = Grammar::read(text).unwrap_or_else(|errors| panic!("{errors:#?}"));
@@ -72,7 +72,8 @@ fn numbers_that_are_none_are_told_by_their_rule() {
     }
     assert_eq!(end("axiom: A(1)\n\nA(x) : 1/(x-1) > 0 --> F", SMALL), none(3));
     assert_eq!(end("axiom: A(1)\n\nA(x) : 0 && sqrt(-x) --> F", SMALL), none(3));
-    assert_eq!(end("axiom: A(1/0)\nA(x) --> F", SMALL), none(1));
+    let text = "a = 2\naxiom: F A(1/(a-2))\nA(x) --> F";
+    assert_eq!(end(text, SMALL), (Stop::NoNumber { line: 2, column: 8 }, 0));
     let text = "axiom: A(1)\nA(x) --> F : x-1\nA(x) --> G : 0*x";
     assert_eq!(end(text, SMALL), (Stop::NoProbability { line: 2, column: 1 }, 0));
     let text = "axiom: A(1)\nA(x) --> F : -x\nA(x) --> G : 3";
@@ -103,4 +104,33 @@ fn what_was_derived_before_a_budget_ended_stays() {
     assert_eq!(whole.step(&OpenSky), Ok(()));
     assert_eq!(whole.advance(&OpenSky, 3), Ok(Progress::Working));
     assert_eq!((whole.depth(), whole.word().len()), (1, 8), "a step that goes on does not show");
+}
+
+#[test]
+fn each_end_has_a_sentence_of_its_own_with_its_values() {
+    let stops = [
+        Stop::Modules(11),
+        Stop::Parameters(11),
+        Stop::Nesting(11),
+        Stop::Work(11),
+        Stop::NoNumber { line: 11, column: 12 },
+        Stop::NoProbability { line: 11, column: 12 },
+        Stop::Endless { line: 11, column: 12, most: 13 },
+        Stop::Nodes(11),
+        Stop::Extent(11),
+        Stop::Full,
+        Stop::World(11),
+        Stop::Broken,
+        Stop::Counted,
+    ];
+    let rows: Vec<&str> = WORDINGS.iter().filter(|row| row.kind() == "ends").map(|row| row.id).collect();
+    let told: Vec<&str> = stops.iter().map(|stop| stop.sentence().0.id).collect();
+    assert_eq!(told, rows, "a row for each, and none besides");
+    for stop in stops {
+        let (text, (_, values)) = (stop.to_string(), stop.sentence());
+        assert!(
+            !text.contains(['{', '}']) && values.iter().all(|(_, value)| text.contains(&**value)),
+            "{text}"
+        );
+    }
 }

@@ -36,6 +36,30 @@ fn statements_name_numbers() {
 }
 
 #[test]
+fn statements_give_parameters_other_numbers() {
+    // As files of cpfg let time go on: the condition and the successor mean the newer number.
+    let text = "axiom: A(3)\nA(t) : {t = t-1;} t > 1 {t = 10*t; u = t+1;} --> A(t)B(u)";
+    assert_eq!(derived(text, 1), "A(20)B(21)");
+    assert_eq!(
+        derived(&text.replace("A(3)", "A(2)"), 1),
+        "A(2)",
+        "its own number is left where no rule acts"
+    );
+    // The number of a context means the newer one as well, and the older one stays in the word.
+    let text = "axiom: A(1)B(5)\nA(x) < B(y) : {x = x+y; y = x*x;} --> C(x, y)";
+    assert_eq!(derived(text, 1), "A(1)C(6,36)");
+}
+
+#[test]
+fn rules_may_have_their_arrow_on_the_next_line() {
+    let text =
+        "axiom: A(3)\nA(t) : t > 1 {u = t*t;}\n  --> B(u)\n      A(t-1)\nA(t) : t <= 1\n{v = 7;} --> C(v)";
+    assert_eq!(derived(text, 3), "B(9)B(4)C(7)");
+    // A header that lacks something is not taken for a predecessor.
+    assert!(Grammar::read("axiom: A\n--> F").is_err());
+}
+
+#[test]
 fn macros_stand_for_modules() {
     let text = "#define LEAF [+(a)L(x)]\n#define a 30\n#define APEX A\n#define TWO LEAF LEAF\n\
                 axiom: APEX(1)LEAF2\nAPEX(x) --> F TWO APEX(x+1)";

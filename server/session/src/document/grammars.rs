@@ -113,10 +113,18 @@ impl Write {
 pub(crate) enum WriteError {
     #[error(transparent)]
     Stop(#[from] Stop),
-    #[error(transparent)]
-    Edit(#[from] EditError),
     #[error("no grammar is in force")]
     NoGrammar,
+}
+
+impl From<EditError> for WriteError {
+    fn from(error: EditError) -> Self {
+        Self::Stop(match error {
+            EditError::OutOfWorld => Stop::World(WORLD_EXTENT as u32),
+            EditError::OutOfBudget => Stop::Full,
+            EditError::Broken | EditError::Columns(_) => Stop::Broken,
+        })
+    }
 }
 
 /// What grammars keep that follows from the rest.

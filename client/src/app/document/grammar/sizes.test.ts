@@ -4,7 +4,7 @@ import { stepFor } from "./slider-step";
 
 const grown = (counts: readonly number[], ends: string | null, depth: number | null): Sizes => ({
   sizes: counts.map((internodes) => ({ modules: 3 * internodes, internodes })),
-  ends,
+  ends: ends === null ? null : { id: "ends.counted", values: {}, message: ends },
   depth,
 });
 

@@ -1,9 +1,9 @@
 //! What is told of the grammar in force (`GR5`), and what sets it elsewhere.
 
-use espalier_proto::{Action, GrammarInForce, GrammarValue, List, Position, Steps};
+use espalier_proto::{Action, GrammarEnd, GrammarInForce, GrammarValue, List, Position, Steps};
 
 use super::{InForce, Source, WriteError, Written};
-use crate::document::Document;
+use crate::{document::Document, grammars::wire_end};
 
 /// A grammar at one time, to be compared.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -37,8 +37,17 @@ impl Document {
             earlier,
             later,
             edited: self.is_edited(written),
-            ends: self.simulation.generator().refusal().map(ToString::to_string),
+            ends: self.grammar_end(),
         })
+    }
+
+    /// Why the grammar in force could not go on, where that was tried last.
+    fn grammar_end(&self) -> Option<GrammarEnd> {
+        match self.simulation.generator().refusal()? {
+            WriteError::Stop(stop) => Some(wire_end(stop)),
+            // None that is in force says so of itself.
+            WriteError::NoGrammar => None,
+        }
     }
 
     /// The command that sets the grammar in force in another document, whose seed is that of its chance.

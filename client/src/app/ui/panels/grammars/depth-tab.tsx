@@ -5,6 +5,7 @@ import { bars, deepest, internodesAt, type Sizes } from "../../../document/gramm
 import { stepFor } from "../../../document/grammar/slider-step";
 import { hasChance } from "../../../document/grammar/typed";
 import type { Studio } from "../../../studio";
+import { endText } from "../../../words/grammar-problems";
 import { countText } from "../../../words/measure-text";
 import { say } from "../../../words/say";
 import { Slider } from "../../controls/slider";
@@ -29,6 +30,11 @@ export function DepthTab({ studio, grammars }: DepthProps) {
     <>
       {inForce.title && <h3 class="grammar-title">{inForce.title}</h3>}
       <DepthField studio={studio} grammars={grammars} />
+      {inForce.ends !== null && (
+        <p class="advice" role="status">
+          {say("grammars.depth.stopped", { why: endText(inForce.ends) })}
+        </p>
+      )}
       {inForce.edited && <p class="quiet advice">{say("grammars.depth.edited")}</p>}
       {inForce.sliders.map((slider) => (
         <ValueSlider key={slider.name} slider={slider} editing={editing} />
@@ -90,7 +96,7 @@ function DepthField({ studio, grammars: { editing, depth } }: DepthProps) {
       <p class="grammar-size" role="status">
         {sizeText(sizes, shown)}
         {sizes.ends !== null && most >= known && known >= 0 && (
-          <span class="quiet"> {say("grammars.depth.ends", { depth: known })}</span>
+          <span class="quiet"> {say("grammars.depth.ends", { depth: known, why: endText(sizes.ends) })}</span>
         )}
       </p>
     </div>

@@ -2,7 +2,7 @@ import { useState } from "preact/hooks";
 import type { GrammarDiagnostic } from "../../../../wire/generated";
 import type { Grammars } from "../../../document/grammar/grammars-of";
 import type { Studio } from "../../../studio";
-import { kindText, sentenceOf } from "../../../words/grammar-problems";
+import { endText, kindText, sentenceOf } from "../../../words/grammar-problems";
 import { countText } from "../../../words/measure-text";
 import { say } from "../../../words/say";
 
@@ -20,6 +20,7 @@ export function EditorState({ studio, grammars: { editing, origins }, at, goTo }
   const problems = editing.problems.value;
   const errors = problems.filter(({ severity }) => severity === "error").length;
   const here = at === null ? undefined : problems[at];
+  const end = endOf(editing);
   const shownRule = origins.wanted.value && origins.line.value !== null;
   return (
     <div class="grammar-state">
@@ -37,6 +38,11 @@ export function EditorState({ studio, grammars: { editing, origins }, at, goTo }
       {!open && here && (
         <p class="grammar-problem" role="status" data-severity={here.severity}>
           <ProblemText problem={here} />
+        </p>
+      )}
+      {end !== null && (
+        <p class="grammar-problem" role="status" data-severity="warning">
+          {end}
         </p>
       )}
       {shownRule && <p class="grammar-made">{madeText(origins.rows.value.length)}</p>}
@@ -74,6 +80,17 @@ export function EditorState({ studio, grammars: { editing, origins }, at, goTo }
       </div>
     </div>
   );
+}
+
+/** At which depth the text ends for a reason of its own, and why; nothing where it only grows too large. */
+function endOf(editing: Grammars["editing"]): string | null {
+  const sized = editing.sized.value;
+  if (sized === null || sized.of !== editing.text.value || sized.report.ends === null) {
+    return null;
+  }
+  const { ends, sizes } = sized.report;
+  const depth = Math.max(0, sizes.length - 1);
+  return ends.id === "ends.counted" ? null : say("grammars.depth.ends", { depth, why: endText(ends) });
 }
 
 function ProblemText({ problem }: { problem: GrammarDiagnostic }) {
