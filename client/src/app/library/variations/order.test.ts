@@ -34,6 +34,7 @@ it("JB1: bounds and names are those of the server's own description", () => {
     expect(Object.keys(schemas.GrowTrees.properties), name).toContain(name);
   }
   const told = (name: string) => Object.keys(schemas[name].properties).sort();
-  expect(told("JobNow")).toEqual(["ahead", "all", "done", "failed", "growing", "id", "problem", "results", "state"]);
+  const ofJobs = ["ahead", "all", "done", "failed", "growing", "id", "notes", "problem", "results", "state"];
+  expect(told("JobNow")).toEqual(ofJobs);
   expect(told("GrownTree")).toEqual(["address", "bytes", "metamers", "seed"]);
 });
