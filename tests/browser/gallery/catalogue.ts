@@ -37,9 +37,14 @@ export async function readCatalogue(): Promise<Entry[]> {
   return JSON.parse(await readFile(join(FOLDER, "gallery.json"), "utf8")) as Entry[];
 }
 
-/** The commands of a script, each as its line of JSON; empty lines are none. */
-export async function readScript(name: string): Promise<string[]> {
-  const text = await readFile(join(FOLDER, "sketches", `${name}.jsonl`), "utf8");
+/** The file of a sketch's script. */
+export function scriptOf({ name, script = name }: Pick<Entry, "name" | "script">): string {
+  return join(FOLDER, "sketches", `${script}.jsonl`);
+}
+
+/** The commands of a sketch's script, each as its line of JSON; empty lines are none. */
+export async function readScript(entry: Pick<Entry, "name" | "script">): Promise<string[]> {
+  const text = await readFile(scriptOf(entry), "utf8");
   return text.split("\n").filter((line) => line.trim() !== "");
 }
 

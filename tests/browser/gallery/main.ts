@@ -21,7 +21,7 @@ export async function main(words: readonly string[]): Promise<number> {
     for (const entry of entries) {
       const began = Date.now();
       try {
-        const picture = await player.play(entry, await readScript(entry.script ?? entry.name));
+        const picture = await player.play(entry, await readScript(entry));
         await writeFile(join(out, `${entry.name}.jpg`), picture);
         const seconds = ((Date.now() - began) / 1000).toFixed(1);
         console.log(`${entry.name}.jpg  ${Math.round(picture.length / 1024)} kB  ${seconds} s`);

@@ -83,6 +83,8 @@ it.each([
   [["--sway", "64", "--by-limb", "--hull", "--quantised", "--lod", "set"], ["UNUSED_OBJECT"]],
   [["--sway", "1024", "--compressed"], ["UNSUPPORTED_EXTENSION"]],
   // Light is baked later: no material uses the places in light maps.
+  [["--wind-weights"], ["UNUSED_OBJECT"]],
+  [["--wind-weights", "--sway", "64", "--lightmap", "512", "--quantised", "--lod", "set"], ["UNUSED_OBJECT"]],
   [["--lightmap", "1024"], ["UNUSED_OBJECT"]],
   [["--lightmap", "512", "--lod", "set", "--hull", "--quantised"], ["UNUSED_OBJECT"]],
 ])(
