@@ -92,6 +92,8 @@ test("PS1: a pointer is seen at its place in the tree, with its brush, and rides
   await openPeople(other);
   await other.press(other.page.locator(".people").getByRole("button", { name: "Follow" }));
   await other.page.locator("[data-following]").waitFor();
+  // A mouse that rests points where it did, while a camera still comes to where it follows.
+  await other.untilStill();
   const above = at(130, 200);
   await other.page.mouse.move(above.x, above.y);
   await untilPointer(tablet, "the pointer is where the mouse is", isAt(above));
