@@ -52,13 +52,13 @@ pub(crate) struct WindWeights<'a> {
 
 impl<'a> WindWeights<'a> {
     pub(crate) fn of(swaying: &'a Swaying) -> Self {
-        let frequencies = |is_wanted: fn(u32) -> bool| {
-            let joints = swaying.joints.all().iter().filter(|joint| is_wanted(joint.level));
+        let frequencies = |level: u32| {
+            let joints = swaying.joints.all().iter().filter(|joint| joint.level == level);
             let mut all: Vec<f64> = joints.map(|joint| joint.frequency).collect();
             all.sort_by(f64::total_cmp);
             all
         };
-        let (trunks, limbs) = (frequencies(|level| level == 0), frequencies(|level| level == 1));
+        let [trunks, limbs] = [0, 1].map(frequencies);
         let none = Measures { trunk: 0.0, limb: 0.0, trunk_frequency: 0.0, limb_frequency: 0.0 };
         let mut made = Self { swaying, measures: none };
         let rows = 0..swaying.wood.len() as u32;
@@ -91,7 +91,8 @@ impl<'a> WindWeights<'a> {
         }
     }
 
-    /// From where on each of the lowest two joints below a place carries it: turned by a small Θ it moves it by Θ × way.
+    /// How the trunk's joint and the limb's carry a place that goes along with a row: a joint that turns by a small
+    /// angle Θ moves it by Θ × way.
     fn ways(&self, row: u32, place: DVec3) -> [DVec3; 2] {
         let (joints, wood) = (&self.swaying.joints, &self.swaying.wood);
         let mut ways = [DVec3::ZERO; 2];
