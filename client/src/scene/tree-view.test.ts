@@ -1,11 +1,11 @@
 import { type BufferGeometry, type Mesh, type Object3D, type RawShaderMaterial, Texture } from "three";
 import { beforeAll, describe, expect, it } from "vitest";
+import { idlePainter } from "../../test/idle-painter";
 import { trianglesOf } from "../../test/items";
 import { sampleTree } from "../../test/sample-tree";
 import { DEFAULT_APPEARANCE } from "../wire/generated";
 import { BlockGeometry } from "./block-geometry";
 import { makeMaterials, type Uniforms } from "./materials";
-import { Painter } from "./painting/painter";
 import { openingOf, QUALITIES, type Quality } from "./rendering/quality";
 import { TreeTable } from "./table/tree-table";
 import { TreeView } from "./tree-view";
@@ -29,7 +29,7 @@ describe("a tree of 100,000 metamers, seen as a whole", () => {
   beforeAll(() => {
     table.apply(sampleTree({ seed: 5, height: 113, orders: 3 }));
     const uniforms: Uniforms = { uTime: { value: 0 }, uLeafSize: { value: 0.7 } };
-    view = new TreeView(table, makeMaterials(uniforms), uniforms, new Painter());
+    view = new TreeView(table, makeMaterials(uniforms), uniforms, idlePainter());
   });
 
   const work = (quality: Quality) => {

@@ -106,7 +106,11 @@ export class Viewport {
       uSamples: { value: this.screen.samples },
       uWorldFromClip: { value: this.camera.sight.worldFromClip },
     };
-    this.world = new World(table, seen, () => this.loop.invalidate());
+    this.world = new World(table, seen, ({ coarse }) => {
+      // Leaves cast shadows from their first picture on; the whole one is shown when the time is right.
+      if (coarse) this.world.shadow.stale = true;
+      this.loop.invalidate();
+    });
     this.loop = new RenderLoop(
       this.draw,
       () => this.loop.control.quality !== QUALITIES[0] || this.world.shadow.isDue || this.world.tree.ripe,

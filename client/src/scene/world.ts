@@ -12,6 +12,7 @@ import type { DrawMode } from "./mode/draw-mode";
 import { NoiseTextures } from "./noise-texture";
 import { type DrawnObstacle, ObstacleMeshes } from "./obstacle-meshes";
 import { Ghost } from "./overlay/ghost";
+import type { Order } from "./painting/paint";
 import { Painter } from "./painting/painter";
 import type { TreeTable } from "./table/tree-table";
 import { TreeView } from "./tree-view";
@@ -32,11 +33,11 @@ export class World {
   private readonly noise = new NoiseTextures();
   private readonly materials: Materials;
 
-  /** `seen` are the uniforms of how it is looked at; `painted` is called when a texture has been painted. */
+  /** `seen` are the uniforms of how it is looked at; `painted` is called when a texture has been painted, with what had been ordered. */
   constructor(
     readonly table: TreeTable,
     seen: Uniforms,
-    painted: () => void,
+    painted: (order: Order) => void,
   ) {
     this.uniforms = {
       ...seen,

@@ -1,7 +1,6 @@
 import { seasonOf } from "../../scene/foliage/leaf-season";
+import { FLOWERS, FRUITS } from "../../scene/foliage/ornament-sorts";
 import { isBearing } from "../../scene/foliage/places";
-import { FLOWERS } from "../../scene/painting/flowers";
-import { FRUITS } from "../../scene/painting/fruits";
 import type { TreeTable } from "../../scene/table/tree-table";
 import { type Appearance, type ExportFormat, LEAF_NATURES } from "../../wire/generated";
 

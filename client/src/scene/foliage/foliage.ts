@@ -2,8 +2,6 @@ import type { Mesh } from "three";
 import { DEFAULT_APPEARANCE, type FlowerLook, type FruitLook, type LeafLook } from "../../wire/generated";
 import type { Box } from "../camera/camera-view";
 import type { Materials, Uniforms } from "../materials";
-import { FLOWERS } from "../painting/flowers";
-import { FRUITS } from "../painting/fruits";
 import type { GradualTextures } from "../painting/gradual-textures";
 import type { Sort } from "../painting/paint";
 import type { Painter } from "../painting/painter";
@@ -11,6 +9,7 @@ import type { Fineness } from "../rendering/fineness";
 import { Dirty, type TreeTable } from "../table/tree-table";
 import { LeafRows } from "./leaf-rows";
 import { LeafUniforms } from "./leaf-uniforms";
+import { FLOWERS, FRUITS } from "./ornament-sorts";
 import { Ornaments } from "./ornaments";
 import { Sprigs } from "./sprigs";
 

@@ -3,12 +3,12 @@ import { DEFAULT_APPEARANCE, LEAF_NATURES, type LeafLook } from "../../wire/gene
 import { linear } from "../light/colours";
 import type { Uniforms } from "../materials";
 import { GradualTextures } from "../painting/gradual-textures";
-import { reachOf } from "../painting/leaf-pictures";
 import type { Painter } from "../painting/painter";
 import { seasonOf } from "./leaf-season";
 
 /** The textures of leaves and the uniforms that carry their look to the shaders. */
 export class LeafUniforms {
+  /** How far the picture in use reaches to the sides; whether it is a spray, how far it leans and bends. */
   private readonly form = { value: new Vector4() };
   private readonly season = { value: new Vector4() };
   private readonly traits = { value: new Vector4() };
@@ -18,12 +18,18 @@ export class LeafUniforms {
   readonly textures: GradualTextures<"leaf">;
 
   constructor(uniforms: Uniforms, painter: Painter) {
-    this.textures = new GradualTextures("leaf", painter, { pictures: 2 });
+    this.textures = new GradualTextures("leaf", painter, { pictures: 2, early: true });
     const [single, sprig] = this.textures.drawn;
+    const { form } = this;
     Object.assign(uniforms, {
       uLeafLevel: { value: new Vector2(2, 1) },
       uLeafBand: { value: new Vector3(0, 0, 1) },
-      uLeafForm: this.form,
+      uLeafForm: {
+        get value() {
+          form.value.x = single!.reach.value;
+          return form.value;
+        },
+      },
       uLeafSeason: this.season,
       uLeafTraits: this.traits,
       uLeafTint: this.tint,
@@ -44,7 +50,7 @@ export class LeafUniforms {
     this.textures.choose(look.shape);
     const { unfolded, present, fresh, turned, withered } = seasonOf(look.shape, look.season);
     const { is_spray, lean, bend, autumn } = LEAF_NATURES[look.shape];
-    this.form.value.set(reachOf(look.shape), is_spray ? 1 : 0, lean, bend);
+    this.form.value.set(1, is_spray ? 1 : 0, lean, bend);
     this.season.value.set(unfolded, present, fresh, turned);
     this.traits.value.set(look.vigor_shift, look.orientation, withered, 0);
     this.tint.value.set(...linear(look.tint));

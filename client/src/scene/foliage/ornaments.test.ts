@@ -1,17 +1,18 @@
 import { readFileSync } from "node:fs";
 import { ShaderMaterial, type Vector4 } from "three";
 import { beforeEach, describe, expect, it } from "vitest";
+import { idlePainter } from "../../../test/idle-painter";
 import { borneOf, countOf } from "../../../test/items";
 import { sampleTree } from "../../../test/sample-tree";
 import { shaderFunctions } from "../../../test/shader-functions";
 import { DEFAULT_APPEARANCE, type FlowerLook } from "../../wire/generated";
 import { ORNAMENT_SHAPE } from "../glsl/ornament";
 import type { Uniforms } from "../materials";
-import { FLOWERS } from "../painting/flowers";
-import { FRUITS } from "../painting/fruits";
+import { FLOWER_PICTURES } from "../painting/flowers";
+import { FRUIT_PICTURES } from "../painting/fruits";
 import { seeded } from "../painting/leaf-painter";
-import { Painter } from "../painting/painter";
 import { TreeTable } from "../table/tree-table";
+import { FLOWERS } from "./ornament-sorts";
 import { Ornaments } from "./ornaments";
 import { isBearing } from "./places";
 
@@ -40,7 +41,7 @@ describe("flowers", () => {
     table = new TreeTable(() => 0);
     table.apply(sampleTree({ seed: 5, height: 30, orders: 3 }));
     uniforms = {};
-    flowers = new Ornaments(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), uniforms, new Painter());
+    flowers = new Ornaments(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), uniforms, idlePainter());
     flowers.setLook(LOOK);
     sync();
   });
@@ -110,7 +111,7 @@ describe("flowers", () => {
 it("a large tree bears fewer at a place, but as many places", () => {
   const table = new TreeTable(() => 0);
   table.apply(sampleTree({ seed: 2, height: 80, orders: 3 }));
-  const flowers = new Ornaments<FlowerLook>(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), {}, new Painter());
+  const flowers = new Ornaments<FlowerLook>(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), {}, idlePainter());
   flowers.setLook({ ...LOOK, share: 1 });
   flowers.upload(table);
   const counts = borneOf(flowers.mesh);
@@ -122,8 +123,8 @@ it("a large tree bears fewer at a place, but as many places", () => {
 });
 
 it("every flower and fruit is painted within its tile", () => {
-  for (const [name, kind] of [...Object.entries(FLOWERS.kinds), ...Object.entries(FRUITS.kinds)]) {
-    const { alpha, side, height } = kind.paint(seeded(3));
+  for (const [name, paint] of [...Object.entries(FLOWER_PICTURES), ...Object.entries(FRUIT_PICTURES)]) {
+    const { alpha, side, height } = paint(seeded(3));
     const covered = alpha.reduce((sum, value) => sum + value, 0) / alpha.length;
     expect(covered, name).toBeGreaterThan(0.15);
     expect(covered, name).toBeLessThan(0.85);

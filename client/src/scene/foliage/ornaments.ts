@@ -1,14 +1,15 @@
 import { Mesh, type ShaderMaterial, Vector3, Vector4 } from "three";
+import type { OrnamentNature } from "../../wire/generated";
 import { linear } from "../light/colours";
 import type { Uniforms } from "../materials";
 import { GradualTextures } from "../painting/gradual-textures";
-import type { OrnamentKind, OrnamentSort } from "../painting/ornament-sort";
 import type { Kinds } from "../painting/paint";
 import type { Painter } from "../painting/painter";
 import type { Fineness } from "../rendering/fineness";
 import { Dirty, type TreeTable } from "../table/tree-table";
 import { ORNAMENT_CARDS } from "./leaf-cards";
 import { leafAzimuth, leafRandom } from "./leaves";
+import type { OrnamentSort } from "./ornament-sorts";
 import { isBearing, type Placing } from "./places";
 import { RowInstances } from "./row-instances";
 
@@ -143,8 +144,8 @@ export class Ornaments<Look extends OrnamentLook> {
     if (this.kind) for (let row = 0; row < table.rows; row += 1) this.update(table, row);
   }
 
-  private get kind(): OrnamentKind | null {
-    const kinds: Partial<Record<string, OrnamentKind>> = this.sort.kinds;
+  private get kind(): OrnamentNature | null {
+    const kinds: Partial<Record<string, OrnamentNature>> = this.sort.kinds;
     return (this.look && kinds[this.look.kind]) ?? null;
   }
 }

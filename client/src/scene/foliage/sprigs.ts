@@ -2,7 +2,7 @@ import { Mesh, type ShaderMaterial, type Vector3 } from "three";
 import type { Box } from "../camera/camera-view";
 import { leafHash } from "../leaf-hash";
 import type { Uniforms } from "../materials";
-import { SPRIG_LEAVES } from "../painting/sprig-picture";
+import { SPRIG_LEAVES } from "../painting/measures";
 import type { Fineness } from "../rendering/fineness";
 import { grown } from "../table/column";
 import type { TreeTable } from "../table/tree-table";

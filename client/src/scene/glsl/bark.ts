@@ -1,5 +1,5 @@
 import { BARK_BEGINS, BARK_SQUARES, LIMB_ENDS, THINNEST_BARK } from "../../wire/generated";
-import { MOST_SHADE, MOST_SLOPE } from "../painting/bark-relief";
+import { MOST_SHADE, MOST_SLOPE } from "../painting/measures";
 
 /** The bark of a place on a limb, from the textures of \`bark.ts\`. */
 export const BARK = /* glsl */ `

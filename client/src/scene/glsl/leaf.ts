@@ -1,5 +1,4 @@
-import { TILE_MARGIN } from "../painting/leaf-tile";
-import { SPRIG_REACH } from "../painting/sprig-picture";
+import { SPRIG_REACH, TILE_MARGIN } from "../painting/measures";
 import { COVER, HEAD, LIGHT, NODES } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
 import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";

@@ -1,12 +1,9 @@
 import type { BarkKind } from "../../wire/generated";
 import { BARK_PATTERNS, type BarkPoint } from "./bark-pattern";
+import { MOST_SHADE, MOST_SLOPE } from "./measures";
 
 /** Texels along each side of a bark's square. */
 export const BARK_SIDE = 512;
-/** Slopes up to this are kept; steeper ones are cut off. */
-export const MOST_SLOPE = 2;
-/** Shades up to this. */
-export const MOST_SHADE = 1.25;
 
 /** How high the ridges are, as a share of the square's side. */
 const DEPTHS: Record<BarkKind, number> = {

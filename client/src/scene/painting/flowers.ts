@@ -1,21 +1,12 @@
-import { FLOWER_NATURES, FLOWER_SALT, type FlowerKind } from "../../wire/generated";
+import { FLOWER_NATURES, type FlowerKind } from "../../wire/generated";
 import type { Outline, Point } from "./lamina";
 import { round } from "./leaf-painter";
 import { LeafTile } from "./leaf-tile";
-import type { OrnamentSort } from "./ornament-sort";
+import type { OrnamentPictures } from "./ornament-levels";
 
 type Random = () => number;
 
-/** Kinds of flowers. */
-export const FLOWERS: OrnamentSort<FlowerKind> = {
-  name: "Flower",
-  salt: FLOWER_SALT,
-  kinds: {
-    rosette: { ...FLOWER_NATURES.rosette, paint: rosette },
-    catkin: { ...FLOWER_NATURES.catkin, paint: catkin },
-    panicle: { ...FLOWER_NATURES.panicle, paint: panicle },
-  },
-};
+export const FLOWER_PICTURES: OrnamentPictures<FlowerKind> = { rosette, catkin, panicle };
 
 /** Five notched petals around stamens, hollow like a bowl. */
 function rosette(random: Random, side?: number): LeafTile {

@@ -1,21 +1,12 @@
-import { FRUIT_NATURES, FRUIT_SALT, type FruitKind } from "../../wire/generated";
+import { FRUIT_NATURES, type FruitKind } from "../../wire/generated";
 import type { Outline, Point } from "./lamina";
 import { LeafTile, type Paint } from "./leaf-tile";
-import type { OrnamentSort } from "./ornament-sort";
+import type { OrnamentPictures } from "./ornament-levels";
 
 type Random = () => number;
 
-/** Kinds of fruits; all hang. */
-export const FRUITS: OrnamentSort<FruitKind> = {
-  name: "Fruit",
-  salt: FRUIT_SALT,
-  kinds: {
-    round: { ...FRUIT_NATURES.round, paint: ball },
-    cone: { ...FRUIT_NATURES.cone, paint: cone },
-    nut: { ...FRUIT_NATURES.nut, paint: nut },
-    winged: { ...FRUIT_NATURES.winged, paint: winged },
-  },
-};
+/** All hang. */
+export const FRUIT_PICTURES: OrnamentPictures<FruitKind> = { round: ball, cone, nut, winged };
 
 const STALK: Omit<Paint, "height"> = { shade: 0.9, tone: 0, sheer: 0, wood: 1 };
 

@@ -11,7 +11,8 @@ describe("textures", () => {
   let painter: Pick<Painter, "begun" | "order">;
   const shown = () => textures.drawn[0]!.colour.value as DataTexture;
   const side = () => (shown().image as { width: number }).width;
-  const finish = () => orders.at(-1)!.done(paint({ ...orders.at(-1)!.order, coarse: false }));
+  const finish = () => orders.at(-1)!.done(paint(orders.at(-1)!.order));
+  const ordered = () => orders.map(({ order }) => `${order.kind} ${order.coarse ? "coarse" : "whole"}`);
 
   beforeEach(() => {
     orders = [];
@@ -39,13 +40,35 @@ describe("textures", () => {
     expect(side()).toBe(1);
     expect(orders).toEqual([]);
     painter.begun = true;
-    expect(side()).toBe(64);
+    expect(side()).toBe(1);
+    expect(ordered()).toEqual(["papery coarse"]);
   });
 
-  it("are coarse at once and whole when the time is right", () => {
+  it("have their coarse picture ready before anything is to be seen, where nearly every tree has them", () => {
+    painter.begun = false;
+    const bark = new GradualTextures("bark", painter as unknown as Painter, { early: true });
+    bark.choose("smooth");
+    const width = () => ((bark.drawn[0]!.colour.value as DataTexture).image as { width: number }).width;
+    expect(width()).toBe(1);
+    finish();
+    expect(width()).toBe(64);
+    expect(ordered()).toEqual(["smooth coarse"]);
+    painter.begun = true;
+    expect(width()).toBe(64);
+    expect(ordered()).toEqual(["smooth coarse", "smooth whole"]);
+  });
+
+  it("are coarse as soon as they are painted and whole when the time is right", () => {
+    expect(side()).toBe(1);
+    expect(textures.unfinished).toBe(true);
+    const blank = vi.fn();
+    shown().addEventListener("dispose", blank);
+    finish();
+    expect(blank).toHaveBeenCalledOnce();
     expect(side()).toBe(64);
     expect(textures.unfinished).toBe(true);
     finish();
+    expect(ordered()).toEqual(["papery coarse", "papery whole"]);
     expect(textures.ripe).toBe(true);
     expect(side()).toBe(64);
     const gone = vi.fn();
@@ -62,7 +85,7 @@ describe("textures", () => {
     expect(orders[0]!.off).toBe(true);
     expect(textures.unfinished).toBe(false);
     shown();
-    expect(orders.map(({ order }) => order.kind)).toEqual(["papery", "smooth"]);
+    expect(ordered()).toEqual(["papery coarse", "smooth coarse"]);
     textures.choose("smooth");
     expect(orders[1]!.off).toBe(false);
   });

@@ -1,6 +1,7 @@
 import { DataTexture, LinearFilter, LinearMipmapLinearFilter, RepeatWrapping, RGBAFormat, type Texture } from "three";
 import type { Levels } from "./leaf-atlas";
-import { type Kinds, type Order, paint, type Sort } from "./paint";
+import { MOST_SHADE } from "./measures";
+import type { Kinds, Order, Sort } from "./paint";
 import type { Painter } from "./painter";
 
 /** For a shader's uniforms: painted when it is first drawn with. */
@@ -9,15 +10,22 @@ export interface Drawn {
   readonly relief: { readonly value: Texture };
   /** How many leaves long the picture is. */
   readonly span: { readonly value: number };
+  /** Half the width of its card, in the length of a leaf. */
+  readonly reach: { readonly value: number };
 }
 
 interface Pair {
   readonly colour: DataTexture;
   readonly relief: DataTexture;
   readonly span: number;
+  readonly reach: number;
 }
 
-const BLANK: Levels = { colour: [new Uint8Array(4)], relief: [new Uint8Array(4)] };
+/** Even wood, in the middle of its shades; and no leaf, flower or fruit at all. */
+const BLANK: Levels = {
+  colour: [new Uint8Array([Math.round(255 / MOST_SHADE), 0, 0, 0])],
+  relief: [new Uint8Array([128, 128, 255, 128])],
+};
 
 interface Options {
   /** Whether the picture goes on without a seam beyond its edges. */
@@ -26,31 +34,36 @@ interface Options {
   readonly anisotropy?: number;
   /** Pictures that belong together. */
   readonly pictures?: number;
+  /** Whether the coarse picture is painted before it is first drawn with, as of what nearly every tree has. */
+  readonly early?: boolean;
 }
 
 /**
- * Pictures of one kind as textures: blank ones until the painter begins, coarse ones the moment they are drawn with, and
- * the whole ones in their place once they have been painted and the time is right. A restored context gets them from
- * memory again.
+ * Pictures of one kind as textures: blank ones at first, coarse ones as soon as they have been painted, and the whole
+ * ones in their place once those have and the time is right. A restored context gets them from memory again.
  */
 export class GradualTextures<S extends Sort> {
   readonly drawn: readonly Drawn[];
   private readonly tiling: boolean;
   private readonly anisotropy: number;
+  private readonly early: boolean;
   private kind: Kinds[S] | null = null;
   private pairs: Pair[] | null = null;
   private finer: Levels[] | null = null;
-  /** Blank textures until the picture is visible, so that the graphics card can prepare its programs. */
+  /** Drawn with until there is more, so that the graphics card can prepare its programs. */
   private blank: Pair[] | null = null;
+  /** Whether the whole picture has been ordered. */
+  private asked = false;
   private callOff: (() => void) | null = null;
 
   constructor(
     private readonly sort: S,
     private readonly painter: Painter,
-    { tiling = false, anisotropy = 4, pictures = 1 }: Options = {},
+    { tiling = false, anisotropy = 4, pictures = 1, early = false }: Options = {},
   ) {
     this.tiling = tiling;
     this.anisotropy = anisotropy;
+    this.early = early;
     this.drawn = Array.from({ length: pictures }, (_, i) => this.uniforms(i));
   }
 
@@ -59,6 +72,7 @@ export class GradualTextures<S extends Sort> {
     if (kind === this.kind) return;
     this.dispose();
     this.kind = kind;
+    if (this.early) this.orderCoarse();
   }
 
   /** Whether the whole pictures are there and not yet shown. */
@@ -96,6 +110,7 @@ export class GradualTextures<S extends Sort> {
     for (const pair of this.held()) letGo(pair);
     this.pairs = null;
     this.blank = null;
+    this.asked = false;
   }
 
   private held(): Pair[] {
@@ -120,22 +135,39 @@ export class GradualTextures<S extends Sort> {
           return pair().span;
         },
       },
+      reach: {
+        get value() {
+          return pair().reach;
+        },
+      },
     };
   }
 
   private painted(): Pair[] {
-    if (!this.painter.begun) {
-      this.blank ??= this.drawn.map(() => this.pairOf(BLANK));
-      return this.blank;
+    if (this.painter.begun) {
+      if (!this.pairs && !this.callOff) this.orderCoarse();
+      if (this.pairs && !this.asked) this.orderWhole();
     }
-    if (!this.pairs) {
-      this.pairs = paint(this.order(true)).map((levels) => this.pairOf(levels));
-      this.callOff = this.painter.order(this.order(false), (finer) => {
-        this.callOff = null;
-        this.finer = finer;
-      });
-    }
-    return this.pairs;
+    this.blank ??= this.pairs ? null : this.drawn.map(() => this.pairOf(BLANK));
+    return this.pairs ?? this.blank!;
+  }
+
+  private orderCoarse(): void {
+    this.callOff = this.painter.order(this.order(true), (coarse) => {
+      this.callOff = null;
+      this.pairs = coarse.map((levels) => this.pairOf(levels));
+      for (const pair of this.blank ?? []) letGo(pair);
+      this.blank = null;
+      if (this.painter.begun) this.orderWhole();
+    });
+  }
+
+  private orderWhole(): void {
+    this.asked = true;
+    this.callOff = this.painter.order(this.order(false), (finer) => {
+      this.callOff = null;
+      this.finer = finer;
+    });
   }
 
   private order(coarse: boolean): Order {
@@ -144,8 +176,8 @@ export class GradualTextures<S extends Sort> {
     return { sort, kind, coarse } as unknown as Order;
   }
 
-  private pairOf({ colour, relief, span = 1 }: Levels): Pair {
-    return { colour: this.textureOf(colour), relief: this.textureOf(relief), span };
+  private pairOf({ colour, relief, span = 1, reach = 1 }: Levels): Pair {
+    return { colour: this.textureOf(colour), relief: this.textureOf(relief), span, reach };
   }
 
   private textureOf(levels: readonly Uint8Array<ArrayBuffer>[]): DataTexture {

@@ -5,7 +5,8 @@ import { EDGE } from "../glsl/leaf";
 import { laminaOf } from "./lamina";
 import { ATLAS_TILES, atlasLevels, coverageOf } from "./leaf-atlas";
 import { paintLeaf, seeded } from "./leaf-painter";
-import { LeafTile, TILE_SIDE } from "./leaf-tile";
+import { LeafTile } from "./leaf-tile";
+import { TILE_SIDE } from "./measures";
 
 const SIDE = ATLAS_TILES * TILE_SIDE;
 

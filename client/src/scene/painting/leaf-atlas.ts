@@ -1,5 +1,6 @@
 import { slopeAt } from "./leaf-painter";
-import { type LeafTile, TILE_SIDE } from "./leaf-tile";
+import type { LeafTile } from "./leaf-tile";
+import { TILE_SIDE } from "./measures";
 
 /** Tiles along each side of an atlas: as many pictures of one thing as there are, so that it does not repeat. */
 export const ATLAS_TILES = 2;
@@ -16,6 +17,8 @@ export interface Levels {
   readonly relief: Uint8Array<ArrayBuffer>[];
   /** How many leaves long the picture is, where it is of several. */
   readonly span?: number;
+  /** Half the width of the card it is for, in the length of a leaf. */
+  readonly reach?: number;
 }
 
 /** A tile with so many texels along each side. */

@@ -1,6 +1,7 @@
 import { leafHash } from "../leaf-hash";
 import type { Lamina, Random, Rib } from "./lamina";
-import { LeafTile, type Paint, TILE_SIDE } from "./leaf-tile";
+import { LeafTile, type Paint } from "./leaf-tile";
+import { TILE_SIDE } from "./measures";
 
 /** As far from a vein as this, in lengths of the leaf, the blade no longer bends towards it. */
 const VEIN_REACH = 0.05;

@@ -1,9 +1,5 @@
 import type { Outline, Rib } from "./lamina";
-
-/** Texels along each side of a tile at its finest. */
-export const TILE_SIDE = 256;
-/** What is painted stays this far from the tile's edges, in its own length, so that neighbours never show. */
-export const TILE_MARGIN = 0.02;
+import { TILE_MARGIN, TILE_SIDE } from "./measures";
 
 /** What a place on a leaf looks like. */
 export interface Paint {

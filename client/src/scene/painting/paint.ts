@@ -1,11 +1,11 @@
 import type { BarkKind, FlowerKind, FruitKind, LeafKind } from "../../wire/generated";
 import { BARK_SIDE, barkTexels } from "./bark-relief";
-import { FLOWERS } from "./flowers";
-import { FRUITS } from "./fruits";
-import { ATLAS_TILES, atlasLevels, type Levels } from "./leaf-atlas";
-import { seeded } from "./leaf-painter";
+import { FLOWER_PICTURES } from "./flowers";
+import { FRUIT_PICTURES } from "./fruits";
+import type { Levels } from "./leaf-atlas";
 import { leafLevels } from "./leaf-pictures";
-import { TILE_SIDE } from "./leaf-tile";
+import { TILE_SIDE } from "./measures";
+import { ornamentLevels } from "./ornament-levels";
 
 /** What there are pictures of, and the kinds of each. */
 export interface Kinds {
@@ -21,7 +21,7 @@ export type Order = {
   readonly [S in Sort]: { readonly sort: S; readonly kind: Kinds[S]; readonly coarse: boolean };
 }[Sort];
 
-/** Coarse pictures are so many times smaller along each side: little enough to be painted within a frame. */
+/** Coarse pictures are so many times smaller along each side: little enough to be painted within a frame's time. */
 const COARSER = { bark: 8, leaf: 8, flower: 4, fruit: 4 } as const satisfies Record<Sort, number>;
 
 /** Paints what was ordered, one picture after the other; the same ones everywhere. */
@@ -36,17 +36,8 @@ export function paint(order: Order): Levels[] {
     case "leaf":
       return leafLevels(order.kind, TILE_SIDE / shrunk);
     case "flower":
-      return [ornamentLevels(FLOWERS.kinds[order.kind].paint, TILE_SIDE / shrunk)];
+      return [ornamentLevels(FLOWER_PICTURES[order.kind], TILE_SIDE / shrunk)];
     case "fruit":
-      return [ornamentLevels(FRUITS.kinds[order.kind].paint, TILE_SIDE / shrunk)];
+      return [ornamentLevels(FRUIT_PICTURES[order.kind], TILE_SIDE / shrunk)];
   }
-}
-
-/** Four pictures of a kind of flower or fruit. */
-export function ornamentLevels(picture: typeof FLOWERS.kinds.rosette.paint, side: number): Levels {
-  const tiles = Array.from({ length: ATLAS_TILES ** 2 }, (_, i) => picture(seeded(97 + i), side));
-  return atlasLevels(
-    tiles.map((tile) => () => tile),
-    side,
-  );
 }

@@ -3,13 +3,13 @@ import { expect, it } from "vitest";
 import { pngOf, texelsOf } from "../../../test/png";
 import { type BarkKind, LEAF_NATURES, type LeafKind } from "../../wire/generated";
 import { BARK_PATTERNS } from "./bark-pattern";
-import { barkTexels, MOST_SHADE, MOST_SLOPE } from "./bark-relief";
-import { FLOWERS } from "./flowers";
-import { FRUITS } from "./fruits";
+import { barkTexels } from "./bark-relief";
+import { FLOWER_PICTURES } from "./flowers";
+import { FRUIT_PICTURES } from "./fruits";
 import { ATLAS_TILES, type Levels } from "./leaf-atlas";
 import { leafLevels, reachOf } from "./leaf-pictures";
-import { TILE_MARGIN } from "./leaf-tile";
-import { ornamentLevels } from "./paint";
+import { MOST_SHADE, MOST_SLOPE, TILE_MARGIN } from "./measures";
+import { ornamentLevels } from "./ornament-levels";
 
 /*
  * Exports show what is painted here: the server has these pictures as files, colours above reliefs.
@@ -28,11 +28,11 @@ const ofLevels = ({ colour, relief }: Levels) => [colour[0]!, relief[0]!] as con
 const leaves = Object.keys(LEAF_NATURES) as LeafKind[];
 const pictures: readonly (readonly [string, () => readonly [Uint8Array, Uint8Array]])[] = [
   ...leaves.map((kind) => [`leaf-${kind}`, () => ofLevels(leafLevels(kind, SIDES.leaf)[0]!)] as const),
-  ...Object.entries(FLOWERS.kinds).map(
-    ([kind, { paint }]) => [`flower-${kind}`, () => ofLevels(ornamentLevels(paint, SIDES.ornament))] as const,
+  ...Object.entries(FLOWER_PICTURES).map(
+    ([kind, paint]) => [`flower-${kind}`, () => ofLevels(ornamentLevels(paint, SIDES.ornament))] as const,
   ),
-  ...Object.entries(FRUITS.kinds).map(
-    ([kind, { paint }]) => [`fruit-${kind}`, () => ofLevels(ornamentLevels(paint, SIDES.ornament))] as const,
+  ...Object.entries(FRUIT_PICTURES).map(
+    ([kind, paint]) => [`fruit-${kind}`, () => ofLevels(ornamentLevels(paint, SIDES.ornament))] as const,
   ),
   ...(Object.keys(BARK_PATTERNS) as BarkKind[]).map((kind) => {
     const paint = () => {

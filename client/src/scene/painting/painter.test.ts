@@ -39,6 +39,15 @@ describe("a painter", () => {
     expect(done).toEqual(["furrowed", "papery"]);
   });
 
+  it("paints coarse pictures before whole ones", () => {
+    const worker = new SlowWorker();
+    const painter = new Painter(undefined, () => worker);
+    const whole = { ...bark("furrowed"), coarse: false } as Order;
+    for (const order of [whole, whole, bark("papery"), whole, bark("smooth")]) painter.order(order, () => {});
+    for (let i = 0; i < 4; i += 1) worker.finish();
+    expect(worker.orders).toEqual([whole, bark("papery"), bark("smooth"), whole, whole]);
+  });
+
   it("never brings what was called off", () => {
     const worker = new SlowWorker();
     const painter = new Painter(undefined, () => worker);
@@ -58,12 +67,12 @@ describe("a painter", () => {
     const worker = new SlowWorker();
     const heard: string[] = [];
     const painter = new Painter(
-      () => heard.push("painted"),
+      ({ kind }) => heard.push(`${kind} painted`),
       () => worker,
     );
     painter.order(bark("furrowed"), () => heard.push("done"));
     worker.finish();
-    expect(heard).toEqual(["done", "painted"]);
+    expect(heard).toEqual(["done", "furrowed painted"]);
   });
 
   it("paints on the page where there is no worker", async () => {

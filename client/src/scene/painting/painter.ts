@@ -1,5 +1,5 @@
 import type { Levels } from "./leaf-atlas";
-import { type Order, paint } from "./paint";
+import type { Order } from "./paint";
 
 /** The part of a worker that is used; tests bring their own. */
 export interface PaintWorker {
@@ -14,7 +14,10 @@ interface Job {
   readonly done: (painted: Levels[]) => void;
 }
 
-/** Paints beside the page, so that no frame waits for it; where no worker is to be had, on the page after all. */
+/**
+ * Paints beside the page, so that no frame waits for it and the page need not load what paints; where no worker is to be
+ * had, on the page after all. Coarse pictures come before whole ones.
+ */
 export class Painter {
   /** Whether the picture is visible yet; before that no picture is painted. */
   begun = false;
@@ -22,18 +25,20 @@ export class Painter {
   private broken = false;
   private current: Job | null = null;
   private waiting: Job[] = [];
-  private timer: ReturnType<typeof setTimeout> | undefined;
+  /** What was painted on the page for a painter that has been disposed of meanwhile is dropped. */
+  private disposed = false;
 
-  /** `painted` is called after each finished picture. */
+  /** `painted` is called after each finished picture, with what had been ordered. */
   constructor(
-    private readonly painted: () => void = () => {},
+    private readonly painted: (order: Order) => void = () => {},
     private readonly start: () => PaintWorker = startWorker,
   ) {}
 
   /** Orders a picture; the result cancels the order. */
   order(order: Order, done: (painted: Levels[]) => void): () => void {
     const job = { order, done };
-    this.waiting.push(job);
+    const before = order.coarse ? this.waiting.findIndex((other) => !other.order.coarse) : -1;
+    this.waiting.splice(before < 0 ? this.waiting.length : before, 0, job);
     this.next();
     return () => {
       this.waiting = this.waiting.filter((other) => other !== job);
@@ -43,7 +48,7 @@ export class Painter {
   }
 
   dispose(): void {
-    clearTimeout(this.timer);
+    this.disposed = true;
     this.waiting = [];
     this.current = null;
     this.worker?.terminate();
@@ -56,14 +61,19 @@ export class Painter {
     const { order } = this.current;
     if (!this.broken && !this.worker) this.worker = this.started();
     if (this.worker) this.worker.postMessage(order);
-    else this.timer = setTimeout(() => this.finish(paint(order)), 0);
+    else void this.paintHere(order);
+  }
+
+  private async paintHere(order: Order): Promise<void> {
+    const { paint } = await import("./paint");
+    if (!this.disposed) this.finish(paint(order));
   }
 
   private finish(painted: Levels[]): void {
     const job = this.current;
     this.current = null;
     job?.done(painted);
-    this.painted();
+    if (job) this.painted(job.order);
     this.next();
   }
 

@@ -1,13 +1,10 @@
 import { ATLAS_TILES, atlasLevels, coverageOf, type Levels, type Painting } from "./leaf-atlas";
 import { seeded } from "./leaf-painter";
-import { LeafTile, TILE_MARGIN } from "./leaf-tile";
+import { LeafTile } from "./leaf-tile";
+import { SPRIG_LEAVES, SPRIG_REACH, TILE_MARGIN } from "./measures";
 
-/** Leaves in the picture of a sprig, which stands for so many single ones from afar. */
-export const SPRIG_LEAVES = 6;
 /** Texels along each side of a sprig's tile: it is never seen near. */
 export const SPRIG_SIDE = 64;
-/** Half the width of a sprig's card, in its own lengths. */
-export const SPRIG_REACH = 0.5;
 
 /** Texels along each side of the leaves it is put together from: about as many as they get in it. */
 const LEAF_SIDE = 32;

@@ -1,12 +1,12 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it, vi } from "vitest";
+import { idlePainter } from "../../../test/idle-painter";
 import { type BarkKind, DEFAULT_APPEARANCE } from "../../wire/generated";
 import type { Uniforms } from "../materials";
 import { cells, noCell, turbulence, waves } from "../painting/bark-noise";
 import { barkPalette } from "../painting/bark-palette";
 import { BARK_PATTERNS } from "../painting/bark-pattern";
 import { type BarkTexels, barkTexels } from "../painting/bark-relief";
-import { Painter } from "../painting/painter";
 import { Bark } from "./bark";
 
 const KINDS = Object.keys(BARK_PATTERNS) as BarkKind[];
@@ -128,7 +128,7 @@ describe("a palette", () => {
 describe("the bark worn", () => {
   const setUp = () => {
     const uniforms: Uniforms = {};
-    return { uniforms, bark: new Bark(uniforms, new Painter()) };
+    return { uniforms, bark: new Bark(uniforms, idlePainter()) };
   };
 
   it("keeps its textures while only colour and shape change", () => {

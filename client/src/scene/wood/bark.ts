@@ -16,7 +16,7 @@ export class Bark {
   private readonly shape = { value: new Vector4(1, 1, 1, 1) };
 
   constructor(uniforms: Uniforms, painter: Painter) {
-    this.textures = new GradualTextures("bark", painter, { tiling: true, anisotropy: ANISOTROPY });
+    this.textures = new GradualTextures("bark", painter, { tiling: true, anisotropy: ANISOTROPY, early: true });
     const [{ colour, relief }] = this.textures.drawn as [GradualTextures<"bark">["drawn"][number]];
     uniforms.uBarkColours = colour;
     uniforms.uBarkRelief = relief;

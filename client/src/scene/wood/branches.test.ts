@@ -1,5 +1,6 @@
 import type { Mesh } from "three";
 import { describe, expect, it } from "vitest";
+import { idlePainter } from "../../../test/idle-painter";
 import { borneOf, itemsOf, textureOf, trianglesOf } from "../../../test/items";
 import { randoms } from "../../../test/randoms";
 import { sampleTree } from "../../../test/sample-tree";
@@ -8,7 +9,6 @@ import type { ChunkChange } from "../../wire/frame";
 import { CHUNK_ROWS } from "../../wire/generated";
 import { Foliage } from "../foliage/foliage";
 import { makeMaterials } from "../materials";
-import { Painter } from "../painting/painter";
 import { TreeTable } from "../table/tree-table";
 import { Branches } from "./branches";
 
@@ -29,7 +29,7 @@ it("exactly the living metamers and their leaves are drawn, whatever was changed
   const table = new TreeTable(() => 0);
   const materials = makeMaterials({});
   const branches = new Branches(materials);
-  const foliage = new Foliage(materials, {}, new Painter());
+  const foliage = new Foliage(materials, {}, idlePainter());
   const sample = sampleTree({ seed: 4, height: 30, orders: 3 });
   table.apply(sample);
   let sequence = sample.sequence;
@@ -229,7 +229,7 @@ it("wood and leaves that change while they are hidden are uploaded with what cha
   const sample = sampleTree({ seed: 4, height: 30, orders: 3 });
   table.apply(sample);
   const branches = branchesOf(table);
-  const foliage = new Foliage(makeMaterials({}), {}, new Painter());
+  const foliage = new Foliage(makeMaterials({}), {}, idlePainter());
   const follow = () => {
     table.drain(
       () => undefined,

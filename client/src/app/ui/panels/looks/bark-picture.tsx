@@ -1,6 +1,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import { barkPalette } from "../../../../scene/painting/bark-palette";
-import { type BarkTexels, barkTexels, MOST_SHADE, MOST_SLOPE } from "../../../../scene/painting/bark-relief";
+import { type BarkTexels, barkTexels } from "../../../../scene/painting/bark-relief";
+import { MOST_SHADE, MOST_SLOPE } from "../../../../scene/painting/measures";
 import type { BarkKind } from "../../../../wire/generated";
 import { type Colour, hexOf } from "../../controls/colour-field";
 
