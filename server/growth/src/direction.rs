@@ -74,10 +74,16 @@ pub(crate) fn turn(vector: Vec3, around: Vec3, (sin, cos): (f32, f32)) -> Vec3 {
     vector * cos + around.cross(vector) * sin
 }
 
-/// The unit vector across `heading` that is nearest to `vector`.
+/// The least sine, squared, of an angle between two vectors at which one still says a direction across the other.
+const ALONG: f32 = 1e-6;
+
+/// The unit vector across `heading` that is nearest to `vector`; any, where that lies along it.
 pub(crate) fn across(vector: Vec3, heading: Vec3) -> Vec3 {
-    (vector - heading * vector.dot(heading))
-        .try_normalize()
+    let aside = vector - heading * vector.dot(heading);
+    // What is left of a vector along the heading is rounding, and rounding is not across anything.
+    Some(aside)
+        .filter(|aside| aside.length_squared() > ALONG * vector.length_squared())
+        .and_then(Vec3::try_normalize)
         .unwrap_or_else(|| heading.any_orthonormal_vector())
 }
 
@@ -110,6 +116,20 @@ mod tests {
         assert!((settled(0.0) - 1.0).abs() < 1e-3);
         assert!(settled(90.0).abs() < 1e-3);
         assert!((settled(120.0) + 0.5).abs() < 1e-3);
+    }
+
+    /// What rounding leaves of a vector along the heading is no direction across it.
+    #[test]
+    fn what_is_across_is_square_to_headings_that_a_vector_lies_along() {
+        let heading = Vec3::new(0.3, 0.8, -0.4).normalize();
+        let aside = heading.any_orthonormal_vector();
+        for lean in [0.0, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.1] {
+            for vector in [heading + aside * lean, heading * 0.999_999_9 - aside * lean] {
+                let found = across(vector, heading);
+                assert!(found.dot(heading).abs() < 2e-4, "{lean}: {found} to {heading}");
+                assert!((found.length() - 1.0).abs() < 1e-6);
+            }
+        }
     }
 
     #[test]

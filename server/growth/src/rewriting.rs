@@ -14,8 +14,10 @@ use crate::{
     world::is_in_world,
 };
 
-/// What stands nearer to where it is drawn is there.
+/// What stands nearer to where it is drawn is there, in parts of its length if that is short.
 const MOVED: f32 = 1e-5;
+/// A branch that leaves its bearer by less is no branch to one side: the sine, squared.
+const STRAIGHT: f32 = 1e-6;
 /// A bud that points so nearly where wood is drawn is the bud of that wood: the cosine.
 const SAME_WAY: f32 = 0.999;
 
@@ -265,8 +267,11 @@ impl<'a> Writer<'a> {
             let moves = parent.and_then(|parent| match node_of[id.index()] {
                 Some(node) => {
                     let (to, across) = (self.ends[node as usize], self.normals[node as usize]);
-                    let is_there = to.distance(was) <= MOVED && across.distance(normal) <= MOVED;
-                    let heading = (to - ends[parent.index()]).try_normalize()?;
+                    let along = to - ends[parent.index()];
+                    let heading = along.try_normalize()?;
+                    // In proportion to short wood, or what stands nearly there would not be across its normal.
+                    let near = MOVED * along.length().min(1.0);
+                    let is_there = to.distance(was) <= near && across.distance(normal) <= near;
                     let old = frame(plant.heading(id), normal);
                     (!is_there).then(|| (to, across, frame(heading, across) * old.inverse()))
                 }
@@ -446,6 +451,8 @@ fn normals(wood: &Wood) -> Vec<Vec3> {
             None if wood.nodes[parent].axis == node.axis => {
                 transport(normals[parent], headings[parent], heading)
             }
+            // A branch that goes straight on from what bears it has no side of its own.
+            None if headings[parent].cross(heading).length_squared() < STRAIGHT => normals[parent],
             None => headings[parent],
         };
         normals.push(across(normal, heading));

@@ -524,3 +524,17 @@ fn gr5_depths_that_time_leads_through_are_told() {
     let opened = Document::from_bytes(&document.to_bytes()).expect("it opens");
     assert_eq!(around(&opened), (7, 2, 0));
 }
+
+/// Each tip becomes a stem with four tips, and every line below it doubles: branches turn aside and back, so that some
+/// go straight on from what bears them.
+const DENSE: &str = "angle: 22.5\nscale: 0.55\naxiom: X\nX --> F-[[X]+X]+F[+FX]-X\nF --> FF";
+
+#[test]
+fn branches_that_go_straight_on_have_normals_across_them() {
+    let mut document = Document::new(7);
+    apply(&mut document, &set(DENSE, 1));
+    for depth in 2..6 {
+        apply(&mut document, &derive(1));
+        assert_eq!(checks::all(document.plant()), Ok(()), "at depth {depth}");
+    }
+}
