@@ -219,7 +219,7 @@ impl Canopy {
         }
         let (nodes, spots, sky) = (&self.nodes, &self.spots, &self.sky);
         let read = |slot: usize, spot: Spot| {
-            let exposure = shadows.exposure_at(spot, || place(slot));
+            let exposure = shadows.exposure_at(&spot, || place(slot));
             sky.get(slot).map_or(exposure, |sky| exposure * sky)
         };
         if !is_new && changed.len() * NODES_IN_SHADOW < nodes.len() {

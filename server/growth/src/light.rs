@@ -381,7 +381,7 @@ mod tests {
                 let place = (corner + 0.75) * VOXEL;
                 let spot = grid.spot(place);
                 let octet = grid.octet_around(reading::least_voxel(place));
-                prop_assert_eq!(grid.exposure_at(spot, || place), grid.exposure(place));
+                prop_assert_eq!(grid.exposure_at(&spot, || place), grid.exposure(place));
                 for (i, shadow) in (0..).zip(octet) {
                     let corner = [voxel[0] + (i & 1), voxel[1] + (i >> 2), voxel[2] + (i >> 1 & 1)];
                     prop_assert_eq!(shadow, grid.shadow(corner));

@@ -2,7 +2,7 @@
 //!
 //! Read at one voxel, shadows would come in blocks.
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 use super::{
     DEPTH, DEPTH_BITS, NOWHERE, PLANE, ShadowGrid, UNIT, VALUES, VOXEL, WIDTH, WIDTH_BITS, chunk_of, offset,
@@ -24,12 +24,16 @@ pub(crate) struct Spot {
 impl Spot {
     const SPLIT: u32 = 1 << 31;
     const STEPS: f32 = 32768.0;
+
+    fn at(&self) -> u32 {
+        u32::from(self.at[0]) | u32::from(self.at[1]) << 16
+    }
 }
 
 impl ShadowGrid {
     /// Light at a place, 0 to 1, as if the metamer whose node is there cast no shadow.
     pub fn exposure(&self, position: Vec3) -> f32 {
-        self.exposure_in(self.octet_around(least_voxel(position)), fraction(position))
+        self.exposure_in(Octet::new(self.octet_around(least_voxel(position))), fraction(position))
     }
 
     /// How to read the light at a place again and again.
@@ -46,24 +50,30 @@ impl ShadowGrid {
     }
 
     /// Light at a place with this spot, 0 to 1, as if the metamer whose node is there cast no shadow.
-    #[inline]
-    pub(crate) fn exposure_at(&self, spot: Spot, place: impl FnOnce() -> Vec3) -> f32 {
-        let at = u32::from(spot.at[0]) | u32::from(spot.at[1]) << 16;
-        let octet = if at & Spot::SPLIT == 0 {
-            self.octet(at)
-        } else if at != NOWHERE {
-            self.split_octet(at & !Spot::SPLIT)
-        } else {
-            self.octet_around(least_voxel(place()))
+    #[inline(always)]
+    pub(crate) fn exposure_at(&self, spot: &Spot, place: impl FnOnce() -> Vec3) -> f32 {
+        // A number with the bit of a split lies beyond all values.
+        match self.octet(spot.at()) {
+            Some(octet) => self.exposure_in(octet, spot.fraction),
+            None => self.exposure_across(spot, place),
+        }
+    }
+
+    /// The same where the eight voxels lie in several chunks, or there was none yet.
+    #[inline(never)]
+    fn exposure_across(&self, spot: &Spot, place: impl FnOnce() -> Vec3) -> f32 {
+        let octet = match spot.at() {
+            NOWHERE => self.octet_around(least_voxel(place())),
+            at => self.split_octet(at & !Spot::SPLIT),
         };
-        self.exposure_in(octet, spot.fraction)
+        self.exposure_in(Octet::new(octet), spot.fraction)
     }
 
     #[inline(always)]
-    fn exposure_in(&self, octet: [u32; 8], fraction: [u16; 3]) -> f32 {
-        let (shadow, f) = interpolated(octet, fraction);
+    fn exposure_in(&self, octet: Octet, fraction: [u16; 3]) -> f32 {
+        let (shadow, f) = octet.interpolated(fraction);
         // The metamer's own voxel is the nearest of the eight; its shadow reaches that one and the layer below.
-        let [x, y, z] = f.to_array().map(|f| f.max(1.0 - f));
+        let [x, y, z, _] = f.max(1.0 - f).to_array();
         let below = if f.y < 0.5 { 0.0 } else { 1.0 - f.y };
         let own = self.first * (x * y * z) + self.second * below;
         (1.0 - (shadow - own) * (1.0 / UNIT)).clamp(0.0, 1.0)
@@ -72,24 +82,24 @@ impl ShadowGrid {
     /// The direction towards more light at a place, −∇s by central differences (Pałubicki et al. 2009 §4.1) of the
     /// shadows an internode to each side; none where shadows are even.
     pub fn towards_light(&self, position: Vec3) -> Option<Vec3> {
-        let shadow = |place: Vec3| interpolated(self.octet_around(least_voxel(place)), fraction(place)).0;
+        let octet = |place: Vec3| Octet::new(self.octet_around(least_voxel(place)));
+        let shadow = |place: Vec3| octet(place).interpolated(fraction(place)).0;
         let difference = |axis: Vec3| shadow(position - axis) - shadow(position + axis);
         let gradient = Vec3::new(difference(Vec3::X), difference(Vec3::Y), difference(Vec3::Z));
         (gradient * (1.0 / UNIT)).try_normalize()
     }
 
-    /// Shadows in the eight voxels of one chunk of which the least stands here, x fastest, then z, then y.
-    #[inline]
-    fn octet(&self, at: u32) -> [u32; 8] {
-        const LAST: usize = PLANE + WIDTH as usize + 2;
-        let values = self.chunks.all().as_flattened().get(at as usize..);
-        let Some(values) = values.and_then(|values| values.first_chunk::<LAST>()) else { return [0; 8] };
+    /// Shadows in the eight voxels of one chunk of which the least stands here.
+    #[inline(always)]
+    fn octet(&self, at: u32) -> Option<Octet> {
         const ACROSS: usize = WIDTH as usize;
-        [0, 1, ACROSS, ACROSS + 1, PLANE, PLANE + 1, PLANE + ACROSS, PLANE + ACROSS + 1]
-            .map(|step| values[step])
+        let values = self.chunks.all().as_flattened();
+        let values = values.get(at as usize..at as usize + PLANE + ACROSS + 2)?;
+        let rows = [0, ACROSS, PLANE, PLANE + ACROSS];
+        Some(Octet::of_rows(rows.map(|row| [values[row], values[row + 1]])))
     }
 
-    /// The same where they lie in several chunks.
+    /// Shadows in eight voxels that lie in several chunks, x fastest, then z, then y.
     #[inline(never)]
     fn split_octet(&self, at: u32) -> [u32; 8] {
         let within = at as usize % VALUES;
@@ -128,16 +138,37 @@ fn fraction(place: Vec3) -> [u16; 3] {
     fraction.to_array().map(|f| (f * Spot::STEPS) as i32 as u16)
 }
 
-/// The shadow between the centres of eight voxels, and where that is.
-#[inline(always)]
-fn interpolated(octet: [u32; 8], fraction: [u16; 3]) -> (f32, Vec3) {
-    let f = Vec3::from_array(fraction.map(|f| f32::from(f) * (1.0 / Spot::STEPS)));
-    let mut s = [0.0; 8];
-    for (s, shadow) in s.iter_mut().zip(octet) {
-        // As a signed number it converts faster; none is so dark that it would matter.
-        *s = shadow as i32 as f32;
+/// Shadows in the eight voxels around a place: in those with the lesser x and in those with the greater, z fastest, then
+/// y.
+#[derive(Clone, Copy, Debug)]
+struct Octet {
+    low: Vec4,
+    high: Vec4,
+}
+
+impl Octet {
+    /// From the two values of each row along x.
+    #[inline(always)]
+    fn of_rows(rows: [[u32; 2]; 4]) -> Self {
+        // As signed numbers they convert faster; none is so dark that it would matter.
+        let [low, high] = [0, 1].map(|x| Vec4::from_array(rows.map(|row| row[x] as i32 as f32)));
+        Self { low, high }
     }
-    let along_x = |i: usize| s[i] * (1.0 - f.x) + s[i + 1] * f.x;
-    let along_z = |i: usize| along_x(i) * (1.0 - f.z) + along_x(i + 2) * f.z;
-    (along_z(0) * (1.0 - f.y) + along_z(4) * f.y, f)
+
+    /// From values x fastest, then z, then y.
+    #[inline(always)]
+    fn new(values: [u32; 8]) -> Self {
+        Self::of_rows([0, 2, 4, 6].map(|row| [values[row], values[row + 1]]))
+    }
+
+    /// The shadow between the centres of the voxels, and where that is.
+    #[inline(always)]
+    fn interpolated(self, fraction: [u16; 3]) -> (f32, Vec4) {
+        let [x, y, z] = fraction.map(|f| i32::from(f) as f32);
+        let f = Vec4::new(x, y, z, 0.0) * (1.0 / Spot::STEPS);
+        let rest = 1.0 - f;
+        let along_x = self.low * rest.x + self.high * f.x;
+        let [a, b, c, d] = (along_x * Vec4::new(rest.z, f.z, rest.z, f.z)).to_array();
+        ((a + b) * rest.y + (c + d) * f.y, f)
+    }
 }
