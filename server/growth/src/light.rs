@@ -4,11 +4,14 @@
 //! as whole numbers, so that taking one back leaves exactly what was there before. A voxel is two internodes
 //! wide: shadows are smoother than that, and eight times fewer voxels are eight times less to write and to hold.
 
+mod casting;
 mod reading;
 
 use glam::Vec3;
 
 pub(crate) use reading::Spot;
+
+use casting::{PyramidRow, pyramid};
 
 use crate::{
     directory::{self, Directory},
@@ -27,9 +30,8 @@ const WIDTH: i32 = 1 << WIDTH_BITS;
 const DEPTH: i32 = 1 << DEPTH_BITS;
 /// By how many voxels those of the first chunk begin before the origin.
 const SHIFT: [i32; 3] = [WIDTH / 2, DEPTH / 4, DEPTH / 2];
-/// Voxels a row of a pyramid is padded to, and the one that its axis goes through.
+/// Voxels a row of a pyramid is padded to.
 const ROW: usize = 8;
-const MIDDLE: i32 = 4;
 /// Values in a layer of a chunk, rows along z: a few more than voxels, or columns would crowd one corner of the
 /// cache.
 const PLANE: usize = (WIDTH * DEPTH) as usize + ROW;
@@ -37,9 +39,6 @@ const VALUES: usize = PLANE * DEPTH as usize;
 type Chunk = [u32; VALUES];
 /// Stands for the place of a value that there is not.
 const NOWHERE: u32 = u32::MAX;
-
-/// Rows of this depth still fit, and pyramids of this depth meet no more than two chunks along y and three along z.
-const FITTING_DEPTH: i32 = 3;
 
 /// The shadows of all metamers.
 #[derive(Clone, Debug)]
@@ -57,156 +56,14 @@ pub struct ShadowGrid {
     rows: Vec<PyramidRow>,
 }
 
-/// One row of a pyramid.
-#[derive(Clone, Copy, Debug)]
-struct PyramidRow {
-    /// How far below the metamer.
-    depth: i32,
-    /// How far beside it along z.
-    z: i32,
-    /// Half its width along x.
-    half: i32,
-    /// What it adds to the voxels around the metamer's own x, between as many zeros on either side.
-    shadows: [u32; 3 * ROW],
-}
-
 impl ShadowGrid {
     /// No shadows yet.
     pub fn new(parameters: &Parameters) -> Self {
         let strength: Vec<u32> =
             strengths(parameters).into_iter().map(|shadow| libm::roundf(shadow * UNIT) as u32).collect();
-        let mut rows = Vec::new();
-        for (depth, &shadow) in strength.iter().enumerate() {
-            let depth = depth as i32;
-            for z in -depth..=depth {
-                let half = half_width(depth, z);
-                let add =
-                    |lane: usize| if (lane as i32 - ROW as i32 - MIDDLE).abs() <= half { shadow } else { 0 };
-                rows.push(PyramidRow { depth, z, half, shadows: core::array::from_fn(add) });
-            }
-        }
+        let rows = pyramid(&strength);
         let (first, second) = (strength[0] as f32, strength.get(1).map_or(0.0, |&shadow| shadow as f32));
         Self { chunks: Directory::new(), octants: Vec::new(), strength, first, second, rows }
-    }
-
-    /// Adds the shadow of a metamer with its node at `position`.
-    pub fn cast(&mut self, position: Vec3) {
-        self.spread(position, u32::wrapping_add);
-    }
-
-    /// Adds the shadows of many: those of the same voxel that follow each other two at a time.
-    pub(crate) fn cast_all(&mut self, positions: impl Iterator<Item = Vec3>) {
-        self.spread_all(positions, u32::wrapping_add);
-    }
-
-    /// Takes the shadows of many back.
-    pub(crate) fn uncast_all(&mut self, positions: impl Iterator<Item = Vec3>) {
-        self.spread_all(positions, u32::wrapping_sub);
-    }
-
-    #[inline(always)]
-    fn spread_all(&mut self, positions: impl Iterator<Item = Vec3>, change: impl Fn(u32, u32) -> u32 + Copy) {
-        let mut waiting: Option<Vec3> = None;
-        for position in positions {
-            waiting = match waiting {
-                Some(one) if voxel_of(one) == voxel_of(position) => {
-                    self.spread(one, |value, shadow| change(change(value, shadow), shadow));
-                    None
-                }
-                other => {
-                    other.into_iter().for_each(|one| self.spread(one, change));
-                    Some(position)
-                }
-            };
-        }
-        waiting.into_iter().for_each(|one| self.spread(one, change));
-    }
-
-    /// Takes the same shadow back.
-    pub fn uncast(&mut self, position: Vec3) {
-        self.spread(position, u32::wrapping_sub);
-    }
-
-    #[inline(always)]
-    fn spread(&mut self, position: Vec3, change: impl Fn(u32, u32) -> u32 + Copy) {
-        let [x, y, z] = voxel_of(position);
-        let left = x - MIDDLE;
-        let within = (left & (WIDTH - 1)) as usize;
-        if self.strength.len() as i32 - 1 > FITTING_DEPTH {
-            return self.spread_deep(position, change);
-        }
-        let bases = self.bases_of(left, y, z);
-        let reach = self.strength.len() as i32 - 1;
-        let (low_y, low_z) = ((y - reach) >> DEPTH_BITS, (z - reach) >> DEPTH_BITS);
-        // A row that ends in the next chunk is added to the last voxels of this one and to the first of that one,
-        // each time with what does not belong there shifted out.
-        let over = (within + ROW).saturating_sub(WIDTH as usize);
-        let (here, beyond) = (within - over, 2 * ROW - over);
-        let voxels = self.chunks.all_mut().as_flattened_mut();
-        let mut add = |row: &PyramidRow, at: usize, shift: usize| {
-            let values = voxels.get_mut(at..).and_then(|voxels| voxels.first_chunk_mut::<ROW>());
-            let shadows = row.shadows.get(shift..).and_then(|shadows| shadows.first_chunk::<ROW>());
-            if let (Some(values), Some(shadows)) = (values, shadows) {
-                // Copies, so that all sixteen can be added at once.
-                let (old, shadows) = (*values, *shadows);
-                *values = core::array::from_fn(|lane| change(old[lane], shadows[lane]));
-            }
-        };
-        // What a row's place owes to its z, for all of them: its chunk, and its offset in there.
-        let columns: [(usize, usize); ROW] = core::array::from_fn(|i| {
-            let at_z = z - FITTING_DEPTH + i as i32;
-            (((at_z >> DEPTH_BITS) - low_z) as usize & 3, offset([0, 0, at_z]))
-        });
-        let mut rows = self.rows.iter();
-        for depth in 0..=reach {
-            let at_y = y - depth;
-            let layer = &bases[(((at_y >> DEPTH_BITS) - low_y) as usize & 1) * 4..][..4];
-            let height = offset([0, at_y, 0]);
-            let meets_both = over > 0 && (within as i32 + MIDDLE + depth) >= WIDTH;
-            let columns = &columns[(FITTING_DEPTH - depth) as usize..=(FITTING_DEPTH + depth) as usize];
-            for (&(chunk, column), row) in columns.iter().zip(rows.by_ref()) {
-                let base = layer[chunk];
-                add(row, base[0] + height + column + here, ROW - over);
-                if meets_both {
-                    add(row, base[1] + height + column, beyond);
-                }
-            }
-        }
-    }
-
-    /// Where the chunks begin that a pyramid meets, four numbers along z (the last unused) for each of two along y,
-    /// and each one's neighbour along x if a row that starts at `left` reaches it.
-    #[inline(always)]
-    fn bases_of(&mut self, left: i32, y: i32, z: i32) -> [[usize; 2]; 8] {
-        let reach = self.strength.len() as i32 - 1;
-        let (low_y, low_z) = ((y - reach) >> DEPTH_BITS, (z - reach) >> DEPTH_BITS);
-        let (high_y, high_z) = (y >> DEPTH_BITS, (z + reach) >> DEPTH_BITS);
-        let (first, last) = (left >> WIDTH_BITS, (left + ROW as i32 - 1) >> WIDTH_BITS);
-        let mut bases = [[0; 2]; 8];
-        for (at_y, layer) in (low_y..=high_y).zip(bases.as_chunks_mut::<4>().0) {
-            for (at_z, base) in (low_z..=high_z).zip(layer) {
-                for (at_x, base) in (first..=last).zip(base) {
-                    *base = self.number_or_make([at_x, at_y, at_z]) * VALUES;
-                }
-            }
-        }
-        bases
-    }
-
-    /// The same for pyramids whose rows do not fit into sixteen voxels.
-    #[cold]
-    fn spread_deep(&mut self, position: Vec3, change: impl Fn(u32, u32) -> u32) {
-        let [x, y, z] = voxel_of(position);
-        for row in 0..self.rows.len() {
-            let PyramidRow { depth, z: beside, half, .. } = self.rows[row];
-            let shadow = self.strength[depth as usize];
-            for at_x in x - half..=x + half {
-                let voxel = [at_x, y - depth, z + beside];
-                let chunk = self.number_or_make(chunk_of(voxel));
-                let value = &mut self.chunks.all_mut()[chunk][offset(voxel)];
-                *value = change(*value, shadow);
-            }
-        }
     }
 
     /// The number of the chunk at these coordinates, made if there was none.
