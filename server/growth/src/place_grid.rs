@@ -1,8 +1,11 @@
 //! Points in space, found by place.
 
+mod neighbours;
+
 use espalier_plant::reserve;
 use glam::{Vec3, Vec4};
 
+use self::neighbours::Neighbours;
 use crate::{
     cells::bits,
     voxel_grid::{VoxelGrid, voxel_of},
@@ -151,6 +154,15 @@ impl<L: Lanes> Block<L> {
         self.number[lane] = number;
     }
 
+    /// The lanes of all points within the root of `limit` of a place.
+    #[inline(always)]
+    fn near(&self, place: Vec3, limit: f32) -> impl Iterator<Item = usize> {
+        bits(lanes(|lane| {
+            let offsets = self.places.offsets(lane, place);
+            dot(offsets, offsets).cmple(Vec4::splat(limit)).bitmask()
+        }))
+    }
+
     /// Takes out the last point.
     fn pop(&mut self) -> (Vec3, u32, L::Item) {
         self.len -= 1;
@@ -269,11 +281,7 @@ impl<L: Lanes> PlaceGrid<L> {
     pub(crate) fn visit_near(&self, place: Vec3, radius: f32, mut visit: impl FnMut(u32, f32) -> Visit) {
         let limit = radius * radius;
         self.visit_blocks(place, radius, |block| {
-            let near = lanes(|lane| {
-                let offsets = block.places.offsets(lane, place);
-                dot(offsets, offsets).cmple(Vec4::splat(limit)).bitmask()
-            });
-            for lane in bits(near) {
+            for lane in block.near(place, limit) {
                 let square = (place - block.places.get(lane)).length_squared();
                 if visit(block.number[lane], square) == Visit::Stop {
                     return Visit::Stop;
@@ -339,7 +347,36 @@ impl<L: Lanes> PlaceGrid<L> {
     }
 
     /// Whether some point within `radius` of a place counts.
+    #[inline]
     pub(crate) fn any_near(&self, place: Vec3, radius: f32, counts: impl Fn(u32) -> bool) -> bool {
+        if radius > Neighbours::LONGEST * self.cell {
+            return self.any_farther(place, radius, counts);
+        }
+        let own = self.cell_of(place);
+        let cells = Neighbours::new(place, own, self.cell, radius);
+        let window = self.heads.within(own, cells.corner());
+        // The first block of each chain that is still to be searched, after one that stands for none. All are looked up
+        // before any is searched, and chains are searched as if they were one: no branch depends on how many there are.
+        let (mut heads, mut left) = ([0; 9], 0);
+        for (cell, is_in_reach) in cells.cells() {
+            let head = window.get(cell);
+            heads[left + 1] = head;
+            left += usize::from(is_in_reach & (head != 0));
+        }
+        let mut at = heads[left];
+        while let Some(block) = self.blocks.get((at as usize).wrapping_sub(1)) {
+            if block.near(place, radius * radius).any(|lane| counts(block.number[lane])) {
+                return true;
+            }
+            left -= usize::from(block.next == 0);
+            at = if block.next == 0 { heads[left] } else { block.next };
+        }
+        false
+    }
+
+    /// The same for a radius that may reach any number of cells.
+    #[cold]
+    fn any_farther(&self, place: Vec3, radius: f32, counts: impl Fn(u32) -> bool) -> bool {
         let mut found = false;
         self.visit_near(place, radius, |number, _| {
             found = counts(number);

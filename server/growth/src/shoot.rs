@@ -133,8 +133,10 @@ impl Growth {
         if matches!(aim.region, Region::Envelope { .. }) && self.leaves_outline(tip.base, draft.end) {
             return None;
         }
-        let is_taken =
-            scene.space.is_occupied(draft.end, draft.zone, |id| !self.is_kin(scene, axis, draft.end, id));
+        // Mostly it is the only one near.
+        let own = scene.plant.bud_node(axis);
+        let is_other = |id| id != own && !self.is_kin(scene, axis, draft.end, id);
+        let is_taken = scene.space.is_occupied(draft.end, draft.zone, is_other);
         (!is_taken).then_some(draft)
     }
 

@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Edges of the cells: as wide as what is searched for, so that few cells are visited; found by measuring.
-const NODE_CELL: f32 = 6.0;
+const NODE_CELL: f32 = 4.0;
 const BUD_CELL: f32 = 6.0;
 
 /// All living nodes and buds by place. A bud is named by its axis.
