@@ -9,23 +9,23 @@ use crate::{parameters::Parameters, random::Draw};
 /// The tropic direction T of an axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Tropism {
-    /// Keep the set-point angle to the vertical; `chance` says where to bend from the vertical itself.
-    SetPoint { chance: Draw },
+    /// Keep the set-point angle to the vertical; from the vertical itself chance says where to bend.
+    SetPoint,
     /// Go this way: upwards for a forced trunk, or along a stroke.
     Towards(Vec3),
 }
 
 impl Tropism {
     /// T for an internode with this heading.
-    fn vector(self, heading: Vec3, parameters: &Parameters) -> Vec3 {
+    fn vector(self, heading: Vec3, parameters: &Parameters, chance: impl FnOnce() -> Draw) -> Vec3 {
         match self {
             Self::Towards(direction) => direction,
-            Self::SetPoint { chance } => {
+            Self::SetPoint => {
                 let (sin, cos) = parameters.setpoint;
                 let level = Vec3::new(heading.x, 0.0, heading.z);
                 // Near the vertical the plane of bending is a matter of chance, but of one chance per axis.
                 let outward = if level.length_squared() < 1e-4 {
-                    azimuth(chance, parameters)
+                    azimuth(chance(), parameters)
                 } else {
                     level.normalize()
                 };
@@ -44,16 +44,18 @@ pub(crate) fn azimuth(chance: Draw, parameters: &Parameters) -> Vec3 {
     Vec3::new(cos, 0.0, sin)
 }
 
-/// H′ from the heading H, tropism, and the direction E to free space where there is one, by their weights.
+/// H′ from the heading H, tropism, and the direction E to free space where there is one, by their weights. `chance`
+/// decides where nothing else does.
 pub(crate) fn next_heading(
     heading: Vec3,
     tropism: Tropism,
     space: Option<Vec3>,
     [alpha, beta, gamma]: [f32; 3],
     parameters: &Parameters,
+    chance: impl FnOnce() -> Draw,
 ) -> Vec3 {
-    let sum =
-        alpha * heading + beta * tropism.vector(heading, parameters) + gamma * space.unwrap_or(Vec3::ZERO);
+    let tropism = tropism.vector(heading, parameters, chance);
+    let sum = alpha * heading + beta * tropism + gamma * space.unwrap_or(Vec3::ZERO);
     // Forces that cancel leave the axis as it goes.
     if sum.length_squared() < 1e-6 { heading } else { sum.normalize() }
 }
@@ -105,8 +107,8 @@ mod tests {
         let parameters = Parameters::new(values).expect("in range");
         let mut heading = Vec3::new(0.6, 0.8, 0.0);
         for _ in 0..60 {
-            let chance = Draw::new(1, Purpose::Azimuth, 0, 0);
-            heading = next_heading(heading, Tropism::SetPoint { chance }, None, [0.7, 0.3, 0.0], &parameters);
+            let chance = || Draw::new(1, Purpose::Azimuth, 0, 0);
+            heading = next_heading(heading, Tropism::SetPoint, None, [0.7, 0.3, 0.0], &parameters, chance);
         }
         heading.y
     }

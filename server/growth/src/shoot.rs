@@ -204,6 +204,7 @@ impl Growth {
             aim.space,
             aim.weights(parameters),
             parameters,
+            || self.chance(axis),
         );
         if let Some(Waypoint { position, weight }) = waypoint {
             let towards = (position - base).try_normalize().unwrap_or(heading);
@@ -253,7 +254,7 @@ impl Growth {
         if let Some(direction) = aim.stroke.filter(|_| parameters.tropism_from_stroke) {
             return Tropism::Towards(direction);
         }
-        Tropism::SetPoint { chance: self.chance(axis) }
+        Tropism::SetPoint
     }
 
     /// What decides where an axis turns if nothing else does.
