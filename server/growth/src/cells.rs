@@ -4,8 +4,10 @@ use glam::Vec3;
 
 use crate::directory::{Directory, voxel_of};
 
-/// Cells in a word: x fastest, then z, then y.
+/// Cells in a word: four to a row, 2 × 2 along x and z, x faster; of the rows, x fastest, then z, then y.
 pub(crate) const CELLS: usize = 64;
+/// Cells in a row.
+pub(crate) const ROW: usize = 4;
 const EDGE: i32 = 4;
 /// Cells of a word whose x, y or z is at least a value, and at most one: `FROM[axis][least]`, `TO[axis][greatest]`.
 const FROM: [[u64; 4]; 3] = ranges(false);
@@ -35,14 +37,14 @@ impl CellBox {
         Self { first, last, ends }
     }
 
-    /// Calls `visit` with the chunks of all words that the box meets, made if there were none, and with those of a
-    /// word's cells that lie in the box.
+    /// Calls `visit` with the chunks of all words that the box meets, made if there were none: with the chunk's number
+    /// among all, its word, and those of the word's cells that lie in the box.
     #[inline(always)]
     pub(crate) fn visit<C>(
         &self,
         chunks: &mut Directory<C>,
         make: impl Fn([i32; 3]) -> C + Copy,
-        mut visit: impl FnMut(&mut C, u64),
+        mut visit: impl FnMut(&mut C, Word),
     ) {
         let Self { first, last, ends } = *self;
         let within = |axis: usize, word: i32| match word {
@@ -58,7 +60,9 @@ impl CellBox {
             for z in first[2]..last[2] + 1 {
                 let of_yz = of_y & within(2, z);
                 for (x, slot) in (first[0]..last[0] + 1).zip(row..) {
-                    visit(chunks.in_slot(slot, [x, y, z], make), of_yz & within(0, x));
+                    let at = [x, y, z];
+                    let number = chunks.number_in_slot(slot, at, make);
+                    visit(&mut chunks.all_mut()[number], Word { number, at, cells: of_yz & within(0, x) });
                 }
                 row += per_z;
             }
@@ -67,11 +71,33 @@ impl CellBox {
     }
 }
 
+/// A word of which a box holds some cells.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Word {
+    /// The number of its chunk among all.
+    pub number: usize,
+    /// Its coordinates.
+    pub at: [i32; 3],
+    /// The cells.
+    pub cells: u64,
+}
+
 /// The coordinates of a cell of a word.
 pub(crate) fn cell_at(word: [i32; 3], cell: usize) -> [i32; 3] {
+    core::array::from_fn(|axis| word[axis] * EDGE + within_word(cell)[axis])
+}
+
+/// The coordinates of a cell among those of its word.
+const fn within_word(cell: usize) -> [i32; 3] {
     let i = cell as i32;
-    let within = [i & 3, i >> 4, i >> 2 & 3];
-    core::array::from_fn(|axis| word[axis] * EDGE + within[axis])
+    [i & 1 | i >> 1 & 2, i >> 4, i >> 1 & 1 | i >> 2 & 2]
+}
+
+/// The first cells of those rows in which some bit is set, one bit each.
+#[inline(always)]
+pub(crate) fn rows_of(word: u64) -> u64 {
+    let any = word | word >> 1;
+    (any | any >> 2) & 0x1111_1111_1111_1111
 }
 
 /// The numbers of the bits that are set, lowest first.
@@ -100,7 +126,7 @@ impl CellSet {
 
     /// Puts in the cells that meet the box from `low` to `high`, in cells.
     pub(crate) fn insert(&mut self, low: Vec3, high: Vec3) {
-        CellBox::new(low, high).visit(&mut self.words, |at| (at, 0), |word, cells| word.1 |= cells);
+        CellBox::new(low, high).visit(&mut self.words, |at| (at, 0), |found, word| found.1 |= word.cells);
     }
 
     /// Every cell.
@@ -113,12 +139,13 @@ const fn ranges(is_upper: bool) -> [[u64; 4]; 3] {
     let mut ranges = [[0; 4]; 3];
     let mut cell = 0;
     while cell < CELLS {
-        let within = [cell & 3, cell >> 4, cell >> 2 & 3];
+        let within = within_word(cell);
         let mut axis = 0;
         while axis < 3 {
             let mut bound = 0;
             while bound < 4 {
-                let belongs = if is_upper { within[axis] <= bound } else { within[axis] >= bound };
+                let belongs =
+                    if is_upper { within[axis] <= bound as i32 } else { within[axis] >= bound as i32 };
                 ranges[axis][bound] |= (belongs as u64) << cell;
                 bound += 1;
             }

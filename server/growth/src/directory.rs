@@ -72,14 +72,19 @@ impl<C> Directory<C> {
         self.slot(first).unwrap_or_else(|| self.widen(first))
     }
 
-    /// The chunk in a slot that was reserved, made if there was none.
+    /// The number of the chunk in a slot that was reserved, made if there was none.
     #[inline(always)]
-    pub(crate) fn in_slot(&mut self, slot: usize, at: [i32; 3], make: impl FnOnce([i32; 3]) -> C) -> &mut C {
+    pub(crate) fn number_in_slot(
+        &mut self,
+        slot: usize,
+        at: [i32; 3],
+        make: impl FnOnce([i32; 3]) -> C,
+    ) -> usize {
         let mut chunk = self.table[slot];
         if chunk == ABSENT {
             chunk = self.append(at, make);
         }
-        &mut self.chunks[chunk as usize]
+        chunk as usize
     }
 
     #[cold]

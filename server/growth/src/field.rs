@@ -6,12 +6,15 @@
 //! so a step costs what has changed, not what there is. The field holds nothing that could not be made afresh
 //! from the nodes and the buds.
 
-use espalier_plant::AxisId;
+mod chunk;
+
+use espalier_plant::{AxisId, reserve};
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
+use self::chunk::{Chunk, Status};
 use crate::{
-    cells::{CELLS, CellBox, bits, cell_at},
+    cells::{CellBox, bits},
     directory::Directory,
     obstacles::Obstacles,
     parameter_table::ParameterTable,
@@ -30,7 +33,9 @@ const BATCH: usize = 64;
 #[derive(Clone, Debug)]
 pub(crate) struct MarkerField {
     lattice: Lattice,
-    chunks: Directory<Chunk>,
+    statuses: Directory<Status>,
+    /// One for each status.
+    chunks: Vec<Chunk>,
 }
 
 /// Where markers lie: one in each cell, or, for plants that grow in the plane z = 0, one in each cell of that plane.
@@ -42,53 +47,32 @@ pub(crate) struct Lattice {
     is_flat: bool,
 }
 
-/// 4 × 4 × 4 markers, x fastest, then z, then y.
-#[derive(Clone, Debug)]
-struct Chunk {
-    x: [f32; CELLS],
-    y: [f32; CELLS],
-    z: [f32; CELLS],
-    /// Squared distance to the bud that claims the marker, infinite for none. Should that bud have gone, the
-    /// others are at least as far away.
-    nearest: [f32; CELLS],
-    claimant: [AxisId; CELLS],
-    /// Markers that may ever be claimed: above ground and in no obstacle.
-    valid: u64,
-    /// Markers in no occupancy zone.
-    free: u64,
-    /// Markers that some bud claims or claimed.
-    claimed: u64,
-}
-
 impl MarkerField {
     /// A field that nothing has touched.
     pub(crate) fn new(seed: u32, parameters: &Parameters) -> Self {
-        Self { lattice: Lattice::new(seed, parameters), chunks: Directory::new() }
+        Self { lattice: Lattice::new(seed, parameters), statuses: Directory::new(), chunks: Vec::new() }
     }
 
     /// A node takes the markers in its zone.
     pub(crate) fn occupy(&mut self, place: Vec3, radius: f32, obstacles: &Obstacles) {
-        self.visit(obstacles, place - radius, place + radius, |chunk, cells| {
-            let mut near = 0;
-            for row in rows(cells & chunk.free) {
-                near |= chunk.near(row, place, radius * radius);
-            }
-            let left = !(near & cells);
-            chunk.free &= left;
-            chunk.claimed &= left;
+        self.visit(obstacles, place - radius, place + radius, |chunk, status, cells| {
+            let left = !(chunk.near(cells & status.free, place, radius * radius) & cells);
+            status.free &= left;
+            status.claimed &= left;
         });
     }
 
     /// A node gives the markers back that lie in no other's zone.
     pub(crate) fn vacate(&mut self, place: Vec3, radius: f32, space: &Space, obstacles: &Obstacles) {
-        self.visit(obstacles, place - radius, place + radius, |chunk, cells| {
-            for cell in bits(cells & chunk.valid & !chunk.free) {
-                let near = chunk.distance_squared(cell, place) <= radius * radius;
-                if near && !space.is_occupied(chunk.marker(cell), radius, |_| true) {
+        self.visit(obstacles, place - radius, place + radius, |chunk, status, cells| {
+            for cell in bits(cells & chunk.valid & !status.free) {
+                let marker = chunk.marker(cell);
+                let near = (marker - place).length_squared() <= radius * radius;
+                if near && !space.is_occupied(marker, radius, |_| true) {
                     // Who claims it is unknown: as if a bud at this very place had gone.
-                    chunk.free |= 1 << cell;
-                    chunk.claimed |= 1 << cell;
-                    (chunk.nearest[cell], chunk.claimant[cell]) = (-1.0, nobody());
+                    status.free |= 1 << cell;
+                    status.claimed |= 1 << cell;
+                    chunk.set_claim(cell, (nobody(), -1.0));
                 }
             }
         });
@@ -102,81 +86,43 @@ impl MarkerField {
         parameters: &Parameters,
         obstacles: &Obstacles,
     ) {
-        let Bud { position: place, direction } = bud;
-        let (low, high) = reach(place, direction, parameters);
+        let (low, high) = reach(bud, parameters);
         let cone = Cone::new(parameters);
-        self.visit(obstacles, low, high, |chunk, cells| {
-            let free = cells & chunk.free;
-            let mut seen = 0;
-            for row in rows(free) {
-                seen |= chunk.seen(row, place, direction, cone);
-            }
-            for cell in bits(seen & free) {
-                let distance_squared = chunk.distance_squared(cell, place);
-                let is_outdone = distance_squared == chunk.nearest[cell] && chunk.claimant[cell] <= axis;
-                if is_outdone || obstacles.hides(place, chunk.marker(cell)) {
+        self.visit(obstacles, low, high, |chunk, status, cells| {
+            let free = cells & status.free;
+            for cell in bits(chunk.seen(free, bud, cone) & free) {
+                let marker = chunk.marker(cell);
+                let distance_squared = (marker - bud.position).length_squared();
+                let (claimant, nearest) = chunk.claim(cell);
+                let is_outdone = distance_squared == nearest && claimant <= axis;
+                if is_outdone || obstacles.hides(bud.position, marker) {
                     continue;
                 }
-                chunk.nearest[cell] = distance_squared;
-                chunk.claimant[cell] = axis;
-                chunk.claimed |= 1 << cell;
+                chunk.set_claim(cell, (axis, distance_squared));
+                status.claimed |= 1 << cell;
             }
         });
     }
 
     /// Finds the claimants of all markers whose claimants have gone: moved on, or died. The buds that have not moved
-    /// are those of the time before.
-    pub(crate) fn resolve(&mut self, space: &Space, parameters: &ParameterTable, obstacles: &Obstacles) {
-        let resolve = |chunk: &mut Chunk| {
-            for cell in bits(chunk.claimed) {
-                let claimant = chunk.claimant[cell];
-                if !space.has_moved(claimant) {
-                    continue;
-                }
-                let marker = chunk.marker(cell);
-                let stays = space.bud(claimant).is_some_and(|bud| {
-                    let distance_squared = (marker - bud.position).length_squared();
-                    distance_squared == chunk.nearest[cell]
-                        && Cone::new(parameters.of(claimant))
-                            .holds(distance_squared, (marker - bud.position).dot(bud.direction))
-                });
-                if stays {
-                    continue;
-                }
-                let sees = |axis| {
-                    obstacles.is_empty()
-                        || space.bud(axis).is_some_and(|bud| !obstacles.hides(bud.position, marker))
-                };
-                let nearest = space.nearest_perceiving(marker, parameters, sees);
-                match nearest {
-                    Some((axis, distance_squared)) => {
-                        (chunk.nearest[cell], chunk.claimant[cell]) = (distance_squared, axis);
-                    }
-                    None => {
-                        chunk.nearest[cell] = f32::INFINITY;
-                        chunk.claimed &= !(1 << cell);
-                    }
-                }
-            }
-        };
-        self.chunks.all_mut().par_iter_mut().with_min_len(BATCH).for_each(resolve);
-    }
-
-    /// Calls `visit` with every claimed marker's claimant, and where it sees the marker from itself, as they were last
-    /// resolved.
-    pub(crate) fn claims(&self, space: &Space, mut visit: impl FnMut(AxisId, Vec3)) {
-        let seen = |chunks: &[Chunk]| {
-            let mut seen: Vec<(AxisId, Vec3)> = Vec::with_capacity(8 * chunks.len());
-            for chunk in chunks {
-                for cell in bits(chunk.claimed) {
-                    let axis = chunk.claimant[cell];
-                    let bud = space.bud(axis);
-                    seen.extend(bud.map(|bud| (axis, chunk.marker(cell) - bud.position)));
-                }
+    /// are those of the time before. Calls `visit` with every claimed marker's claimant, and where it sees the marker
+    /// from itself.
+    pub(crate) fn resolve(
+        &mut self,
+        space: &Space,
+        parameters: &ParameterTable,
+        obstacles: &Obstacles,
+        mut visit: impl FnMut(AxisId, Vec3),
+    ) {
+        let resolve = |(statuses, chunks): (&mut [Status], &mut [Chunk])| {
+            let mut seen: Vec<(AxisId, Vec3)> = Vec::new();
+            for (status, chunk) in statuses.iter_mut().zip(chunks).filter(|(status, _)| status.claimed != 0) {
+                chunk.resolve(status, space, parameters, obstacles, |axis, offset| seen.push((axis, offset)));
             }
             seen
         };
-        let batches: Vec<_> = self.chunks.all().par_chunks(BATCH).map(seen).collect();
+        let batches = self.statuses.all_mut().par_chunks_mut(BATCH).zip(self.chunks.par_chunks_mut(BATCH));
+        let batches: Vec<_> = batches.map(resolve).collect();
         batches.into_iter().flatten().for_each(|(axis, offset)| visit(axis, offset));
     }
 
@@ -192,9 +138,9 @@ impl MarkerField {
         let mut perceived: Vec<([u32; 3], f32, AxisId)> = Vec::new();
         for (axis, bud) in buds {
             let cone = Cone::new(parameters.of(axis));
-            let (low, high) = reach(bud.position, bud.direction, parameters.of(axis));
-            self.visit(obstacles, low, high, |chunk, cells| {
-                for marker in bits(cells & chunk.free).map(|cell| chunk.marker(cell)) {
+            let (low, high) = reach(bud, parameters.of(axis));
+            self.visit(obstacles, low, high, |chunk, status, cells| {
+                for marker in bits(cells & status.free).map(|cell| chunk.marker(cell)) {
                     let offset = marker - bud.position;
                     let distance_squared = offset.length_squared();
                     if cone.holds(distance_squared, offset.dot(bud.direction))
@@ -212,82 +158,31 @@ impl MarkerField {
         }
     }
 
-    /// Calls `visit` with every chunk that meets the box from `low` to `high`, and which of its cells do.
+    /// Calls `visit` with every chunk that meets the box from `low` to `high`, its status, and which of its cells do.
     #[inline(always)]
-    fn visit(&mut self, obstacles: &Obstacles, low: Vec3, high: Vec3, visit: impl FnMut(&mut Chunk, u64)) {
-        let lattice = self.lattice;
+    fn visit(
+        &mut self,
+        obstacles: &Obstacles,
+        low: Vec3,
+        high: Vec3,
+        mut visit: impl FnMut(&mut Chunk, &mut Status, u64),
+    ) {
+        let Self { lattice, statuses, chunks } = self;
         let per_cell = 1.0 / lattice.spacing;
-        let make = move |at| Chunk::new(lattice, at, obstacles);
-        CellBox::new(low * per_cell, high * per_cell).visit(&mut self.chunks, make, visit);
+        CellBox::new(low * per_cell, high * per_cell).visit(
+            statuses,
+            |_| Status::default(),
+            |status, word| {
+                if word.number >= chunks.len() {
+                    let chunk = Chunk::new(*lattice, word.at, obstacles);
+                    status.free = chunk.valid;
+                    reserve(chunks, 1);
+                    chunks.push(chunk);
+                }
+                visit(&mut chunks[word.number], status, word.cells);
+            },
+        );
     }
-}
-
-impl Chunk {
-    #[cold]
-    fn new(lattice: Lattice, at: [i32; 3], obstacles: &Obstacles) -> Self {
-        let mut chunk = Self {
-            x: [0.0; CELLS],
-            y: [0.0; CELLS],
-            z: [0.0; CELLS],
-            nearest: [f32::INFINITY; CELLS],
-            claimant: [AxisId::new(0); CELLS],
-            valid: 0,
-            free: 0,
-            claimed: 0,
-        };
-        for cell in 0..CELLS {
-            let Some(marker) = lattice.marker_in(cell_at(at, cell)) else { continue };
-            [chunk.x[cell], chunk.y[cell], chunk.z[cell]] = marker.to_array();
-            chunk.valid |= u64::from(marker.y > 0.0 && !obstacles.contains(marker)) << cell;
-        }
-        chunk.free = chunk.valid;
-        chunk
-    }
-
-    #[inline(always)]
-    fn marker(&self, cell: usize) -> Vec3 {
-        Vec3::new(self.x[cell], self.y[cell], self.z[cell])
-    }
-
-    #[inline(always)]
-    fn distance_squared(&self, cell: usize, place: Vec3) -> f32 {
-        (self.marker(cell) - place).length_squared()
-    }
-
-    /// Which of the four markers from cell `row` on lie within the square root of `limit`.
-    #[inline(always)]
-    fn near(&self, row: usize, place: Vec3, limit: f32) -> u64 {
-        let [dx, dy, dz] = self.offsets(row, place);
-        let squares = dx * dx + dy * dy + dz * dz;
-        u64::from(squares.cmple(Vec4::splat(limit)).bitmask()) << row
-    }
-
-    /// Which of the four markers from cell `row` on a bud perceives no farther away than their claimants do.
-    #[inline(always)]
-    fn seen(&self, row: usize, place: Vec3, direction: Vec3, cone: Cone) -> u64 {
-        let [dx, dy, dz] = self.offsets(row, place);
-        let squares = dx * dx + dy * dy + dz * dz;
-        let dots = dx * direction.x + dy * direction.y + dz * direction.z;
-        let near = squares.cmple(four(&self.nearest, row).min(Vec4::splat(cone.far_squared)));
-        let ahead = (dots * dots.abs()).cmpge(squares * cone.signed_cos_squared);
-        u64::from((near & ahead).bitmask()) << row
-    }
-
-    /// Offsets of the four markers from cell `row` on, coordinate by coordinate.
-    #[inline(always)]
-    fn offsets(&self, row: usize, place: Vec3) -> [Vec4; 3] {
-        [
-            four(&self.x, row) - Vec4::splat(place.x),
-            four(&self.y, row) - Vec4::splat(place.y),
-            four(&self.z, row) - Vec4::splat(place.z),
-        ]
-    }
-}
-
-/// The four values of the row that begins with a cell.
-#[inline(always)]
-fn four(values: &[f32; CELLS], row: usize) -> Vec4 {
-    Vec4::from_slice(&values[row & (CELLS - 4)..])
 }
 
 impl Lattice {
@@ -324,26 +219,18 @@ fn spacing(parameters: &Parameters) -> f32 {
 }
 
 /// The box around the perception volume of a bud and the zone before it.
-fn reach(place: Vec3, direction: Vec3, parameters: &Parameters) -> (Vec3, Vec3) {
-    let cos = parameters.cos_half_perception;
-    let far = parameters.perception_radius();
-    let mut reach = [[0.0; 2]; 3];
-    for (reach, along) in reach.iter_mut().zip(direction.to_array()) {
-        // Sines of the angles that the axis of coordinates makes with the cone's own, and half its opening.
-        let across = ((1.0 - along * along) * (1.0 - cos * cos)).max(0.0).sqrt();
-        // How far the unit cone reaches both ways along an axis with which its own makes an angle of this cosine.
-        let extent = |along: f32| if along >= cos { 1.0 } else { (along * cos + across).max(0.0) };
-        *reach = [extent(-along), extent(along)];
-    }
-    let [low, high] = [0, 1].map(|end| Vec3::from_array(reach.map(|reach| reach[end])) * far);
+fn reach(bud: Bud, parameters: &Parameters) -> (Vec3, Vec3) {
+    let (cos, far) = (Vec4::splat(parameters.cos_half_perception), parameters.perception_radius());
+    let along = bud.direction.extend(0.0);
+    // Sines of the angles that the axes of coordinates make with the cone's own, and half its opening.
+    let across = ((1.0 - along * along) * (1.0 - cos * cos)).max(Vec4::ZERO).to_array().map(f32::sqrt);
+    // How far the unit cone reaches both ways along axes with which its own makes angles of these cosines.
+    let extent = |along: Vec4| {
+        let beside = (along * cos + Vec4::from_array(across)).max(Vec4::ZERO);
+        Vec4::select(along.cmpge(cos), Vec4::ONE, beside).truncate()
+    };
     // A hair wider, against rounding.
     let margin = Vec3::splat(1e-3);
-    (place - low - margin, place + high + margin)
-}
-
-/// The first cells of those rows of four in which some bit is set.
-#[inline(always)]
-fn rows(word: u64) -> impl Iterator<Item = usize> {
-    let any = word | word >> 1;
-    bits((any | any >> 2) & 0x1111_1111_1111_1111)
+    let (low, high) = (extent(-along) * far + margin, extent(along) * far + margin);
+    (bud.position - low, bud.position + high)
 }

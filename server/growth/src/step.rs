@@ -156,10 +156,10 @@ impl Growth {
     /// Gives each marker to the nearest bud that perceives it.
     fn claim_markers(&mut self, scene: &mut Scene, input: &StepInput, selection: &Selection) {
         if input.autonomous {
-            self.refresh_field(scene);
+            self.make_field(scene);
         }
         let Self { markers, claims, parameters, field, .. } = self;
-        let Scene { plant, space, obstacles, .. } = &*scene;
+        let Scene { plant, space, obstacles, .. } = scene;
         claims.clear(plant.axis_count());
         for &Marker { position: marker, source, .. } in markers.as_slice() {
             let sees = |axis| space.bud(axis).is_some_and(|bud| !obstacles.hides(bud.position, marker));
@@ -170,9 +170,13 @@ impl Growth {
             }
         }
         let Some(field) = field.as_mut().filter(|_| input.autonomous) else { return };
-        if selection.is_everyone() {
-            field.claims(space, |axis, offset| claims.add(axis, offset));
-        } else {
+        field.resolve(space, parameters, obstacles, |axis, offset| {
+            if selection.is_everyone() {
+                claims.add(axis, offset);
+            }
+        });
+        space.forget_moves();
+        if !selection.is_everyone() {
             let claim = |marker, axis| {
                 if let Some(bud) = space.bud(axis) {
                     claims.add(axis, marker - bud.position);
@@ -184,11 +188,11 @@ impl Growth {
         }
     }
 
-    /// Brings the field up to date, or makes it.
-    fn refresh_field(&mut self, scene: &mut Scene) {
+    /// Makes the field, if there is none.
+    fn make_field(&mut self, scene: &Scene) {
         let Self { parameters, seed, .. } = self;
         let Scene { plant, space, obstacles, .. } = scene;
-        let field = self.field.get_or_insert_with(|| {
+        self.field.get_or_insert_with(|| {
             let mut field = MarkerField::new(*seed, parameters.scene());
             let radius = parameters.scene().occupancy_radius;
             for id in (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id)) {
@@ -201,8 +205,6 @@ impl Growth {
             }
             field
         });
-        field.resolve(space, parameters, obstacles);
-        space.forget_moves();
     }
 
     /// Whether a step judges the branches. One that only a hand guides does not: nothing but what is drawn grows in it, so
