@@ -5,14 +5,13 @@
 //! back. What is left lies packed in birth order: parents stand before what they bear.
 
 mod priority;
+mod reading;
 mod slots;
 mod waves;
 mod wood;
 
 use espalier_plant::{AxisId, Condition, MetamerId, Plant, reserve};
 use espalier_settings::VigorModel;
-use glam::Vec3;
-use rayon::prelude::*;
 
 use crate::{
     gravimorphism::propensity,
@@ -20,7 +19,7 @@ use crate::{
     parameter_table::ParameterTable,
     parameters::Parameters,
     scene::Scene,
-    vigor::{self, Flow, Split},
+    vigor::{self, Split, Sums},
 };
 use slots::Slots;
 use waves::Waves;
@@ -50,7 +49,12 @@ pub(crate) struct Canopy {
     sky: Vec<f32>,
     /// Light at each node, 0 to 1.
     light: Vec<f32>,
-    flows: Vec<Flow>,
+    /// Whether that of nodes without buds is older than the others'.
+    is_partly_read: bool,
+    /// Light that flows down into each node; from its own buds alone between reading and adding up.
+    sums: Vec<Sums>,
+    /// Vigor that enters each metamer.
+    vigors: Vec<f64>,
     /// Each plant's seed and its apical control λ.
     plants: Vec<(MetamerId, f64)>,
     /// Vigor of each axis' bud under the priority model; empty under the other.
@@ -94,6 +98,11 @@ impl Node {
 
     fn set_tip(&mut self, is_tip: bool) {
         self.bits = self.bits & !Self::TIP | if is_tip { Self::TIP } else { 0 };
+    }
+
+    /// Whether any bud sits here that may get light.
+    fn has_bud(&self) -> bool {
+        self.is_tip() | (self.propensity > 0.0)
     }
 
     fn is_dead(&self) -> bool {
@@ -169,9 +178,11 @@ impl Canopy {
             self.nodes.push(Node { bits, propensity });
         }
         reserve(&mut self.light, more);
-        reserve(&mut self.flows, more);
+        reserve(&mut self.sums, more);
+        reserve(&mut self.vigors, more);
         self.light.resize(self.nodes.len(), 0.0);
-        self.flows.resize(self.nodes.len(), Flow::default());
+        self.sums.resize(self.nodes.len(), Sums::default());
+        self.vigors.resize(self.nodes.len(), 0.0);
     }
 
     /// Goes back to where the plant has gone back to: its latest metamers are no more, and it has lost none of
@@ -204,43 +215,6 @@ impl Canopy {
         }
     }
 
-    /// Reads the light: where shadows have come or gone at these nodes, or everywhere.
-    pub(crate) fn read_light(&mut self, scene: &Scene, changed: &[Vec3]) {
-        let Scene { plant, space, shadows, obstacles, .. } = scene;
-        let is_new = self.spots.is_empty();
-        let wood = self.wood.of(plant);
-        let place = |slot: usize| plant.metamers().end(wood.id(slot));
-        let new = self.spots.len()..self.nodes.len();
-        reserve(&mut self.spots, new.len());
-        self.spots.extend(new.map(|slot| shadows.spot(place(slot))));
-        if !obstacles.is_empty() {
-            let new = self.sky.len()..self.nodes.len();
-            self.sky.extend(new.map(|slot| obstacles.sky_share(place(slot))));
-        }
-        let (nodes, spots, sky) = (&self.nodes, &self.spots, &self.sky);
-        let read = |slot: usize, spot: Spot| {
-            let exposure = shadows.exposure_at(&spot, || place(slot));
-            sky.get(slot).map_or(exposure, |sky| exposure * sky)
-        };
-        if !is_new && changed.len() * NODES_IN_SHADOW < nodes.len() {
-            let boxes = changed.iter().map(|&place| shadows.reach(place));
-            space.nodes_around(boxes, |id| {
-                let slot = self.slots.of(id) as usize;
-                if let Some(light) = self.light.get_mut(slot) {
-                    *light = read(slot, spots[slot]);
-                }
-            });
-            return;
-        }
-        let read_all = |(slot, (light, &spot)): (usize, (&mut f32, &Spot))| *light = read(slot, spot);
-        if nodes.len() < PARALLEL_FROM {
-            self.light.iter_mut().zip(spots).enumerate().for_each(read_all);
-        } else {
-            let all = self.light.par_iter_mut().zip(spots).with_min_len(PARALLEL_FROM / 4);
-            all.enumerate().for_each(read_all);
-        }
-    }
-
     /// Lets light flow down and vigor up.
     pub(crate) fn distribute_vigor(&mut self, plant: &Plant, parameters: &ParameterTable) {
         for (seed, lambda) in &mut self.plants {
@@ -255,12 +229,12 @@ impl Canopy {
         let may_pack = parameters.scene().shedding_threshold == 0.0;
         if may_pack && dark * DARK_SHARE > self.nodes.len() {
             self.has_left_out = true;
-            self.pack(plant, |_, flow| flow.light() > 0);
+            self.pack(plant, |_, sums| sums.light() > 0);
         }
         self.bud_vigors.clear();
         let gain = f64::from(parameters.scene().vigor_gain) / vigor::UNIT;
-        let Self { nodes, wood, flows, plants, waves, .. } = self;
-        waves.share_out(nodes, wood.of(plant), flows, plants, gain);
+        let Self { nodes, wood, sums, vigors, plants, waves, .. } = self;
+        waves.share_out(nodes, wood.of(plant), sums, vigors, plants, gain);
     }
 
     /// Tips before bases. Returns how many nodes no light flows through.
@@ -268,22 +242,17 @@ impl Canopy {
         let counts_size = parameters.scene().shedding_threshold > 0.0;
         self.sizes.clear();
         self.sizes.resize(if counts_size { self.nodes.len() } else { 0 }, 0);
-        self.flows.fill(Flow::default());
         let mut dark = 0;
         let wood = self.wood.of(plant);
-        for slot in (0..self.nodes.len()).rev() {
-            let node = self.nodes[slot];
-            let response = response(self.light[slot], parameters.of(plant.metamers().axis(wood.id(slot))));
-            let flow = &mut self.flows[slot];
-            flow.main += if node.is_tip() { vigor::quantised(response) } else { 0 };
-            flow.lateral += vigor::quantised(response * node.propensity);
-            let through = flow.light();
+        let (nodes, sums) = (&self.nodes[..], &mut self.sums[..]);
+        for slot in (0..nodes.len()).rev() {
+            let (node, through) = (nodes[slot], sums[slot].light());
             dark += usize::from(through == 0);
             let parent = wood.parent(slot);
             if parent == NOWHERE {
                 continue;
             }
-            let below = &mut self.flows[parent as usize];
+            let below = &mut sums[parent as usize];
             *(if node.is_main() { &mut below.main } else { &mut below.lateral }) += through;
             if counts_size {
                 self.sizes[slot] += u32::from(!node.is_dead());
@@ -310,15 +279,15 @@ impl Canopy {
     }
 
     /// Keeps the nodes for which `stays` holds; what they bear stays only with them.
-    fn pack(&mut self, plant: &Plant, stays: impl Fn(&Node, &Flow) -> bool) {
+    fn pack(&mut self, plant: &Plant, stays: impl Fn(&Node, &Sums) -> bool) {
         let mut kept = 0;
         self.wood.write_down(self.nodes.len(), plant);
         self.waves.clear();
         self.dead = 0;
         for slot in 0..self.nodes.len() {
-            let (node, flow) = (self.nodes[slot], self.flows[slot]);
+            let (node, sums) = (self.nodes[slot], self.sums[slot]);
             let id = self.wood.of(plant).id(slot);
-            if !stays(&node, &flow) {
+            if !stays(&node, &sums) {
                 if !node.is_dead() {
                     self.slots.set(id, NOWHERE);
                     self.darkened.push(id);
@@ -335,7 +304,8 @@ impl Canopy {
                 self.sky[kept] = sky;
             }
             self.light[kept] = self.light[slot];
-            self.flows[kept] = flow;
+            self.sums[kept] = sums;
+            self.vigors[kept] = self.vigors[slot];
             kept += 1;
         }
         self.nodes.truncate(kept);
@@ -343,12 +313,8 @@ impl Canopy {
         self.spots.truncate(kept);
         self.sky.truncate(kept);
         self.light.truncate(kept);
-        self.flows.truncate(kept);
-    }
-
-    /// What flows through a metamer's node, if any light does.
-    fn flow(&self, id: MetamerId) -> Option<&Flow> {
-        self.flows.get(self.slots.of(id) as usize)
+        self.sums.truncate(kept);
+        self.vigors.truncate(kept);
     }
 
     /// Vigor of the bud of a living axis.
@@ -357,9 +323,9 @@ impl Canopy {
         if let Some(&vigor) = self.bud_vigors.get(axis.index()) {
             return vigor;
         }
-        let Some(flow) = self.flow(node) else { return 0.0 };
-        let of_plant = self.nodes[self.slots.of(node) as usize].plant();
-        let split = Split::new(flow, self.plants[of_plant].1);
+        let slot = self.slots.of(node) as usize;
+        let Some(of_node) = self.nodes.get(slot) else { return 0.0 };
+        let split = Split::new(self.vigors[slot], self.sums[slot], self.plants[of_node.plant()].1);
         if plant.axes().last(axis).is_some() {
             return split.to_main();
         }
@@ -391,32 +357,34 @@ impl Canopy {
         let old = wood.partition(self.nodes.len(), is_old);
         let starve = |slot: usize| {
             let axis = plant.metamers().axis(wood.id(slot));
-            let (vigor, size) = (self.flows[slot].vigor, self.sizes[slot]);
+            let (vigor, size) = (self.vigors[slot], self.sizes[slot]);
             (vigor < threshold(axis) * f64::from(size)).then_some(axis)
         };
         (0..old).filter(|&slot| !self.nodes[slot].is_main()).filter_map(starve).collect()
     }
 
     /// Hands light and vigor on to whoever draws the plant.
-    pub(crate) fn write_conditions(&mut self, plant: &mut Plant) {
+    pub(crate) fn write_conditions(&mut self, scene: &mut Scene, parameters: &ParameterTable) {
+        self.read_rest(scene, parameters);
+        let plant = &mut scene.plant;
         let count = plant.metamer_count();
         for id in self.darkened.drain(..).filter(|id| id.index() < count) {
             plant.set_condition(id, Condition { light: 0, vigor: 0 });
         }
-        let per_tip = |plant: &Plant, id: MetamerId, flow: &Flow| {
-            flow.vigor as f32 / plant.metamers().tips(id).max(1) as i32 as f32
+        let per_tip = |plant: &Plant, id: MetamerId, vigor: f64| {
+            vigor as f32 / plant.metamers().tips(id).max(1) as i32 as f32
         };
         let wood = self.wood.of(plant);
-        let flows = self.flows.iter().enumerate();
-        let greatest = flows.map(|(slot, flow)| per_tip(plant, wood.id(slot), flow)).fold(0.0, f32::max);
+        let vigors = self.vigors.iter().enumerate();
+        let greatest = vigors.map(|(slot, &vigor)| per_tip(plant, wood.id(slot), vigor)).fold(0.0, f32::max);
         let scale = if greatest > 0.0 { 255.0 / greatest } else { 0.0 };
-        for (slot, (flow, light)) in self.flows.iter().zip(&self.light).enumerate() {
+        for (slot, (sums, light)) in self.sums.iter().zip(&self.light).enumerate() {
             let id = self.wood.of(plant).id(slot);
             // By way of i32: LLVM 22 crashes on a vectorised conversion of floats to bytes.
             let byte = |x: f32| x as i32 as u8;
-            let vigor = per_tip(plant, id, flow) * scale;
+            let vigor = per_tip(plant, id, self.vigors[slot]) * scale;
             // Wood that bears only buds in the dark is drawn as what has been left out, which it soon will be.
-            let light = if flow.light() > 0 { *light } else { 0.0 };
+            let light = if sums.light() > 0 { *light } else { 0.0 };
             let condition = Condition { light: byte(light * 255.0), vigor: byte(vigor) };
             plant.set_condition(id, condition);
         }
@@ -424,6 +392,7 @@ impl Canopy {
 }
 
 /// L^κ (TreeSketch §3.2).
+#[inline]
 fn response(light: f32, parameters: &Parameters) -> f32 {
     let kappa = parameters.light_sensitivity;
     if kappa == 1.0 { light } else { libm::powf(light, kappa) }

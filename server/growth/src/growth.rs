@@ -166,7 +166,7 @@ impl Growth {
     }
 
     pub(crate) fn show(&mut self, scene: &mut Scene) {
-        self.canopy.write_conditions(&mut scene.plant);
+        self.canopy.write_conditions(scene, &self.parameters);
     }
 
     pub(crate) fn take_in(&mut self, scene: &Scene, change: &Change) {
@@ -203,7 +203,7 @@ impl Growth {
         let Self { canopy, parameters, .. } = self;
         observer.enter(Phase::Light);
         canopy.follow(&scene.plant, parameters);
-        canopy.read_light(scene, changed);
+        canopy.read_light(scene, changed, parameters);
         observer.enter(Phase::Vigor);
         canopy.distribute_vigor(&scene.plant, parameters);
     }

@@ -30,20 +30,18 @@ pub(crate) fn shoot_length(vigor: f64, greatest: f64, parameters: &Parameters) -
     length.min(longest) as u32
 }
 
-/// What flows through one node. Light is counted in steps of 1/[`UNIT`].
+/// Light that flows down into one node, in steps of 1/[`UNIT`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Flow {
-    /// Light from what continues the metamer: its successor or its axis' bud.
+pub(crate) struct Sums {
+    /// From what continues the metamer: its successor or its axis' bud.
     pub main: u64,
-    /// Light from the laterals at its node.
+    /// From the laterals at its node.
     pub lateral: u64,
-    /// Vigor that enters the metamer.
-    pub vigor: f64,
 }
 
-impl Flow {
+impl Sums {
     /// Light from everything above.
-    pub(crate) fn light(&self) -> u64 {
+    pub(crate) fn light(self) -> u64 {
         self.main + self.lateral
     }
 }
@@ -58,12 +56,12 @@ pub(crate) struct Split {
 }
 
 impl Split {
-    /// The split under this apical control λ.
+    /// The split of so much vigor, at a node that gets so much light, under this apical control λ.
     #[inline]
-    pub(crate) fn new(flow: &Flow, lambda: f64) -> Self {
-        let (main, laterals) = (flow.main as i64 as f64, flow.lateral as i64 as f64);
+    pub(crate) fn new(vigor: f64, sums: Sums, lambda: f64) -> Self {
+        let (main, laterals) = (sums.main as i64 as f64, sums.lateral as i64 as f64);
         let all = lambda * main + (1.0 - lambda) * laterals;
-        let rate = if all > 0.0 { flow.vigor / all } else { 0.0 };
+        let rate = if all > 0.0 { vigor / all } else { 0.0 };
         Self { main, rate, lambda }
     }
 

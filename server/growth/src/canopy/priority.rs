@@ -41,7 +41,7 @@ impl Canopy {
             let wood = self.wood.of(plant);
             let (first, axis) = (slots[0], plant.metamers().axis(wood.id(slots[0])));
             if wood.parent(first) == NOWHERE {
-                self.bud_vigors[axis.index()] = gain * self.flows[first].light() as f64;
+                self.bud_vigors[axis.index()] = gain * self.sums[first].light() as f64;
             }
             let vigor = self.bud_vigors[axis.index()];
             let lambda = self.plants[self.nodes[first].plant()].1;
@@ -62,7 +62,7 @@ impl Canopy {
             }
             let mut left: f64 = left_at.iter().sum();
             for (&slot, spent) in slots.iter().zip(&left_at) {
-                self.flows[slot].vigor = left;
+                self.vigors[slot] = left;
                 left = (left - spent).max(0.0);
             }
         }
@@ -96,7 +96,7 @@ impl Canopy {
             let (light, buds) = match plant.axes().first(axis) {
                 Some(first) => {
                     let first = self.slots.of(first) as usize;
-                    (self.flows[first].light(), buds[first])
+                    (self.sums[first].light(), buds[first])
                 }
                 None => (self.lateral_input(plant, axis, id, parameters), 1),
             };
@@ -106,7 +106,7 @@ impl Canopy {
             }
         }
         if self.nodes[slot].is_tip() {
-            let (axis, light) = (plant.metamers().axis(id), self.flows[slot].main);
+            let (axis, light) = (plant.metamers().axis(id), self.sums[slot].main);
             claimants.push(Claimant { axis, node: slot, light, buds: 1, is_first: terminal_first });
         }
     }
@@ -186,7 +186,7 @@ mod tests {
         }
         let (plant, canopy) = (simulation.plant(), &simulation.generator.canopy);
         assert!(plant.living_count() > 30);
-        let at_base = canopy.flows[0].vigor;
+        let at_base = canopy.vigors[0];
         let buds = (0..plant.axis_count()).map(AxisId::new).filter(|&axis| plant.is_axis_alive(axis));
         let in_buds: f64 =
             buds.map(|axis| canopy.bud_vigor(plant, axis, &simulation.generator.parameters)).sum();

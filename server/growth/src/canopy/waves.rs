@@ -3,7 +3,7 @@
 use espalier_plant::MetamerId;
 
 use super::{NOWHERE, Node, wood::Slotted};
-use crate::vigor::{Flow, Split};
+use crate::vigor::{Split, Sums};
 
 /// Waves smaller than this are not worth handing to other threads.
 const PARALLEL_FROM: usize = if cfg!(test) { 4 } else { 2048 };
@@ -42,15 +42,16 @@ impl Waves {
         &self,
         nodes: &[Node],
         wood: Slotted<'_>,
-        flows: &mut [Flow],
+        sums: &[Sums],
+        vigors: &mut [f64],
         plants: &[(MetamerId, f64)],
         gain: f64,
     ) {
         let mut starts = self.starts.iter().map(|&start| start as usize).peekable();
         while let Some(start) = starts.next() {
             let end = starts.peek().copied().unwrap_or(nodes.len());
-            let (below, wave) = flows[..end].split_at_mut(start);
-            Wave { nodes, wood, plants, gain, below }.share_out(wave, start);
+            let (below, wave) = vigors[..end].split_at_mut(start);
+            Wave { nodes, wood, sums, plants, gain, below }.share_out(wave, start);
         }
     }
 }
@@ -60,35 +61,39 @@ impl Waves {
 struct Wave<'a> {
     nodes: &'a [Node],
     wood: Slotted<'a>,
+    sums: &'a [Sums],
     plants: &'a [(MetamerId, f64)],
     gain: f64,
-    /// Flows of all nodes before the wave.
-    below: &'a [Flow],
+    /// Vigor of all nodes before the wave.
+    below: &'a [f64],
 }
 
 impl Wave<'_> {
     /// Lets vigor flow through a part of the wave that begins with a shoot, in this slot.
-    fn share_out(self, flows: &mut [Flow], first: usize) {
-        let nodes = &self.nodes[first..first + flows.len()];
-        if flows.len() >= PARALLEL_FROM {
+    fn share_out(self, vigors: &mut [f64], first: usize) {
+        if vigors.len() >= PARALLEL_FROM {
             // Not amid a shoot.
             let begins = |at: &usize| self.wood.parent(first + at) as usize != first + at - 1;
-            if let Some(middle) = (flows.len() / 2..flows.len()).find(begins) {
-                let (left, right) = flows.split_at_mut(middle);
+            if let Some(middle) = (vigors.len() / 2..vigors.len()).find(begins) {
+                let (left, right) = vigors.split_at_mut(middle);
                 rayon::join(|| self.share_out(left, first), || self.share_out(right, first + middle));
                 return;
             }
         }
-        for (at, node) in nodes.iter().enumerate() {
-            let light = flows[at].light();
-            let parent = match self.wood.parent(first + at) {
-                NOWHERE => None,
-                parent => self.below.get(parent as usize).or_else(|| flows.get(at.wrapping_sub(1))),
+        let nodes = &self.nodes[first..first + vigors.len()];
+        let sums = &self.sums[first..first + vigors.len()];
+        let mut before = 0.0;
+        for (at, ((vigor, node), sums)) in vigors.iter_mut().zip(nodes).zip(sums).enumerate() {
+            let light = sums.light();
+            *vigor = match self.wood.parent(first + at) {
+                NOWHERE => self.gain * light as i64 as f64,
+                parent => {
+                    let enters = self.below.get(parent as usize).copied().unwrap_or(before);
+                    let split = Split::new(enters, self.sums[parent as usize], self.plants[node.plant()].1);
+                    if node.is_main() { split.to_main() } else { split.to_lateral(light) }
+                }
             };
-            flows[at].vigor = parent.map_or(self.gain * light as i64 as f64, |parent| {
-                let split = Split::new(parent, self.plants[node.plant()].1);
-                if node.is_main() { split.to_main() } else { split.to_lateral(light) }
-            });
+            before = *vigor;
         }
     }
 }

@@ -9,12 +9,13 @@ use crate::{
     light::ShadowGrid,
     obstacles::Obstacles,
     parameter_table::ParameterTable,
-    vigor::{self, Flow, Split},
+    vigor::{self, Split, Sums},
 };
 
 /// Light and vigor of a plant, by the definitions.
 pub(super) struct Vigor {
-    flows: Vec<Flow>,
+    sums: Vec<Sums>,
+    vigors: Vec<f64>,
     light: Vec<f32>,
     sizes: Vec<u32>,
     /// Steps of growth each metamer has lived through.
@@ -32,7 +33,8 @@ impl Vigor {
             shadows.cast(plant.metamers().end(id));
         }
         let mut vigor = Self {
-            flows: vec![Flow::default(); count],
+            sums: vec![Sums::default(); count],
+            vigors: vec![0.0; count],
             light: vec![0.0; count],
             sizes: vec![0; count],
             ages: (0..count).map(|index| plant.age(MetamerId::new(index))).collect(),
@@ -43,17 +45,17 @@ impl Vigor {
             vigor.light[id.index()] = shadows.exposure(node) * obstacles.sky_share(node);
         }
         for axis in all_axes(plant).filter(|&axis| plant.is_axis_alive(axis)) {
-            let flow = &mut vigor.flows[plant.bud_node(axis).index()];
+            let sums = &mut vigor.sums[plant.bud_node(axis).index()];
             let light = vigor.light[plant.bud_node(axis).index()];
             match plant.axes().last(axis) {
-                Some(_) => flow.main += bud_input(plant, axis, light, parameters),
-                None => flow.lateral += bud_input(plant, axis, light, parameters),
+                Some(_) => sums.main += bud_input(plant, axis, light, parameters),
+                None => sums.lateral += bud_input(plant, axis, light, parameters),
             }
         }
         for &id in nodes.iter().rev() {
             let Some(parent) = plant.metamers().parent(id) else { continue };
-            let light = vigor.flows[id.index()].light();
-            let below = &mut vigor.flows[parent.index()];
+            let light = vigor.sums[id.index()].light();
+            let below = &mut vigor.sums[parent.index()];
             let continues = plant.metamers().axis(parent) == plant.metamers().axis(id);
             *(if continues { &mut below.main } else { &mut below.lateral }) += light;
             vigor.sizes[id.index()] += 1;
@@ -64,13 +66,13 @@ impl Vigor {
             return vigor;
         }
         for &id in &nodes {
-            let light = vigor.flows[id.index()].light();
-            vigor.flows[id.index()].vigor = match plant.metamers().parent(id) {
+            let light = vigor.sums[id.index()].light();
+            vigor.vigors[id.index()] = match plant.metamers().parent(id) {
                 None => f64::from(parameters.scene().vigor_gain) / vigor::UNIT * light as f64,
                 Some(parent) => {
                     let axis = plant.metamers().axis(parent);
-                    let split =
-                        Split::new(&vigor.flows[parent.index()], lambda(plant, id, parameters, &vigor.ages));
+                    let (vigor_below, sums) = (vigor.vigors[parent.index()], vigor.sums[parent.index()]);
+                    let split = Split::new(vigor_below, sums, lambda(plant, id, parameters, &vigor.ages));
                     if axis == plant.metamers().axis(id) { split.to_main() } else { split.to_lateral(light) }
                 }
             };
@@ -97,7 +99,7 @@ impl Vigor {
             let Some(&first) = nodes.first() else { continue };
             if plant.is_seed(first) {
                 let gain = f64::from(parameters.scene().vigor_gain) / vigor::UNIT;
-                self.of_axes[axis.index()] = gain * self.flows[first.index()].light() as f64;
+                self.of_axes[axis.index()] = gain * self.sums[first.index()].light() as f64;
             }
             let lambda = lambda(plant, first, parameters, &self.ages);
             // Who claims a share: whether it comes first, its light, its buds, its axis, and where it is borne.
@@ -106,7 +108,7 @@ impl Vigor {
                 let borne = all_axes(plant).filter(|&lateral| plant.axes().bearer(lateral) == Some(id));
                 for lateral in borne.filter(|&lateral| plant.is_standing(lateral)) {
                     let (light, buds) = match plant.axes().first(lateral) {
-                        Some(wood) => (self.flows[wood.index()].light(), buds[wood.index()]),
+                        Some(wood) => (self.sums[wood.index()].light(), buds[wood.index()]),
                         None => (bud_input(plant, lateral, self.light[id.index()], parameters), 1),
                     };
                     claimants.push((false, light, buds, lateral, place));
@@ -143,7 +145,7 @@ impl Vigor {
             }
             let mut left: f64 = spent.iter().sum();
             for (id, spent) in nodes.into_iter().zip(spent) {
-                self.flows[id.index()].vigor = left;
+                self.vigors[id.index()] = left;
                 left = (left - spent).max(0.0);
             }
         }
@@ -154,7 +156,8 @@ impl Vigor {
             return vigor;
         }
         let node = plant.bud_node(axis);
-        let split = Split::new(&self.flows[node.index()], lambda(plant, node, parameters, &self.ages));
+        let (vigor, sums) = (self.vigors[node.index()], self.sums[node.index()]);
+        let split = Split::new(vigor, sums, lambda(plant, node, parameters, &self.ages));
         match plant.axes().last(axis) {
             Some(_) => split.to_main(),
             None => split.to_lateral(bud_input(plant, axis, self.light[node.index()], parameters)),
@@ -167,8 +170,7 @@ impl Vigor {
         };
         let threshold =
             f64::from(parameters.scene().vigor_gain) * f64::from(parameters.of(axis).shedding_threshold);
-        plant.age(first) >= 3
-            && self.flows[first.index()].vigor < threshold * f64::from(self.sizes[first.index()])
+        plant.age(first) >= 3 && self.vigors[first.index()] < threshold * f64::from(self.sizes[first.index()])
     }
 }
 

@@ -1,0 +1,120 @@
+//! Light is read at the canopy's nodes.
+//!
+//! Only where buds sit does it count for growth. While a whole crown grows, what the others get is left for whoever
+//! draws the plant.
+
+use espalier_plant::{Plant, reserve};
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::{Canopy, NODES_IN_SHADOW, Node, PARALLEL_FROM, response, wood::Slotted};
+use crate::{
+    cells::bits,
+    light::{ShadowGrid, Spot},
+    parameter_table::ParameterTable,
+    scene::Scene,
+    vigor::{self, Sums},
+};
+
+/// Nodes that are looked at together: one bit each.
+const GROUP: usize = 64;
+
+/// What light at the nodes follows from.
+#[derive(Clone, Copy)]
+struct Reader<'a> {
+    plant: &'a Plant,
+    wood: Slotted<'a>,
+    shadows: &'a ShadowGrid,
+    sky: &'a [f32],
+    parameters: &'a ParameterTable,
+}
+
+impl Reader<'_> {
+    fn place(self, slot: usize) -> Vec3 {
+        self.plant.metamers().end(self.wood.id(slot))
+    }
+
+    #[inline(always)]
+    fn light(self, slot: usize, spot: &Spot) -> f32 {
+        let exposure = self.shadows.exposure_at(spot, || self.place(slot));
+        self.sky.get(slot).map_or(exposure, |sky| exposure * sky)
+    }
+
+    /// Q = bL^κ of the buds at a node.
+    #[inline(always)]
+    fn input(self, slot: usize, node: &Node, light: f32) -> Sums {
+        let axis = self.plant.metamers().axis(self.wood.id(slot));
+        let response = response(light, self.parameters.of(axis));
+        let main = if node.is_tip() { vigor::quantised(response) } else { 0 };
+        Sums { main, lateral: vigor::quantised(response * node.propensity) }
+    }
+}
+
+impl Canopy {
+    /// Reads the light: where shadows have come or gone at these nodes, or everywhere. Puts in what all buds make of it.
+    pub(crate) fn read_light(&mut self, scene: &Scene, changed: &[Vec3], parameters: &ParameterTable) {
+        let Scene { plant, space, shadows, obstacles, .. } = scene;
+        let Self { nodes, wood, spots, sky, light, sums, slots, .. } = self;
+        let is_new = spots.is_empty();
+        let wood = wood.of(plant);
+        let place = |slot: usize| plant.metamers().end(wood.id(slot));
+        let new = spots.len()..nodes.len();
+        reserve(spots, new.len());
+        spots.extend(new.map(|slot| shadows.spot(place(slot))));
+        if !obstacles.is_empty() {
+            let new = sky.len()..nodes.len();
+            sky.extend(new.map(|slot| obstacles.sky_share(place(slot))));
+        }
+        let reader = Reader { plant, wood, shadows, sky, parameters };
+        let are_few = changed.len() * NODES_IN_SHADOW < nodes.len();
+        let reads_all = !are_few || is_new || self.is_partly_read;
+        if !reads_all {
+            let boxes = changed.iter().map(|&place| shadows.reach(place));
+            space.nodes_around(boxes, |id| {
+                let slot = slots.of(id) as usize;
+                if let Some(light) = light.get_mut(slot) {
+                    *light = reader.light(slot, &spots[slot]);
+                }
+            });
+        }
+        self.is_partly_read = !are_few;
+        let put_in = |(number, (((nodes, spots), light), sums)): (usize, Group<'_>)| {
+            sums.fill(Sums::default());
+            // Bit by bit rather than node by node: whether a node bears buds cannot be foreseen.
+            for at in bits(if are_few { u64::MAX >> (GROUP - nodes.len()) } else { bearing(nodes) }) {
+                let slot = number * GROUP + at;
+                if reads_all {
+                    light[at] = reader.light(slot, &spots[at]);
+                }
+                sums[at] = reader.input(slot, &nodes[at], light[at]);
+            }
+        };
+        let groups = nodes.par_chunks(GROUP).zip(spots.par_chunks(GROUP));
+        let groups = groups.zip(light.par_chunks_mut(GROUP)).zip(sums.par_chunks_mut(GROUP));
+        groups.enumerate().with_min_len(PARALLEL_FROM / 4 / GROUP).for_each(put_in);
+    }
+
+    /// Reads the light that has been left for whoever draws the plant.
+    pub(super) fn read_rest(&mut self, scene: &Scene, parameters: &ParameterTable) {
+        if !core::mem::take(&mut self.is_partly_read) {
+            return;
+        }
+        let Scene { plant, shadows, .. } = scene;
+        let Self { nodes, wood, spots, sky, light, .. } = self;
+        let reader = Reader { plant, wood: wood.of(plant), shadows, sky, parameters };
+        for (slot, ((node, spot), light)) in nodes.iter().zip(spots).zip(light).enumerate() {
+            if !node.has_bud() {
+                *light = reader.light(slot, spot);
+            }
+        }
+    }
+}
+
+/// Which of a group of nodes bear buds.
+#[inline(always)]
+fn bearing(nodes: &[Node]) -> u64 {
+    nodes.iter().enumerate().fold(0, |bits, (at, node)| bits | u64::from(node.has_bud()) << at)
+}
+
+/// Nodes that are read together.
+type Group<'a> = (((&'a [Node], &'a [Spot]), &'a mut [f32]), &'a mut [Sums]);
