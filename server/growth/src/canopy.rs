@@ -4,6 +4,8 @@
 //! deepen, a branch in full shade stays without vigor for ever, so it is left out until something gives light
 //! back. What is left lies packed in birth order: parents stand before what they bear.
 
+mod node;
+mod plants;
 mod priority;
 mod reading;
 mod slots;
@@ -21,6 +23,8 @@ use crate::{
     scene::Scene,
     vigor::{self, Split, Sums},
 };
+use node::Node;
+use plants::Plants;
 use slots::Slots;
 use waves::Waves;
 use wood::Wood;
@@ -38,6 +42,8 @@ const NOWHERE: u32 = u32::MAX;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Canopy {
     nodes: Vec<Node>,
+    /// Propensities of the lateral buds at each node that have not grown (TreeSketch Figure 10), added up.
+    propensities: Vec<f32>,
     /// The metamer of each node, and the node of its parent.
     wood: Wood,
     waves: Waves,
@@ -55,8 +61,7 @@ pub(crate) struct Canopy {
     sums: Vec<Sums>,
     /// Vigor that enters each metamer.
     vigors: Vec<f64>,
-    /// Each plant's seed and its apical control λ.
-    plants: Vec<(MetamerId, f64)>,
+    plants: Plants,
     /// Vigor of each axis' bud under the priority model; empty under the other.
     bud_vigors: Vec<f64>,
     /// Living metamers from each node on upwards; empty while nothing can be shed.
@@ -69,57 +74,6 @@ pub(crate) struct Canopy {
     has_left_out: bool,
     /// Whether all must be made afresh.
     outdated: bool,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    /// Which of the plants it belongs to, shifted, and below that [`Node::MAIN`], [`Node::TIP`] and [`Node::DEAD`].
-    bits: u32,
-    /// Propensities of the lateral buds here that have not grown (TreeSketch Figure 10), added up.
-    propensity: f32,
-}
-
-impl Node {
-    /// It continues its parent's axis.
-    const MAIN: u32 = 1;
-    /// Its axis' bud sits here.
-    const TIP: u32 = 2;
-    /// It has died, and is left out when the canopy is next packed.
-    const DEAD: u32 = 4;
-    const PLANT_SHIFT: u32 = 3;
-
-    fn is_main(&self) -> bool {
-        self.bits & Self::MAIN != 0
-    }
-
-    fn is_tip(&self) -> bool {
-        self.bits & Self::TIP != 0
-    }
-
-    fn set_tip(&mut self, is_tip: bool) {
-        self.bits = self.bits & !Self::TIP | if is_tip { Self::TIP } else { 0 };
-    }
-
-    /// Whether any bud sits here that may get light.
-    fn has_bud(&self) -> bool {
-        self.is_tip() | (self.propensity > 0.0)
-    }
-
-    fn is_dead(&self) -> bool {
-        self.bits & Self::DEAD != 0
-    }
-
-    /// From now on it has no buds.
-    fn die(&mut self) {
-        self.set_tip(false);
-        self.propensity = 0.0;
-        self.bits |= Self::DEAD;
-    }
-
-    /// Which of the plants it belongs to.
-    fn plant(&self) -> usize {
-        (self.bits >> Self::PLANT_SHIFT) as usize
-    }
 }
 
 impl Canopy {
@@ -145,37 +99,37 @@ impl Canopy {
         self.slots.reserve(more);
         self.wood.reserve(more);
         reserve(&mut self.nodes, more);
+        reserve(&mut self.propensities, more);
         for index in self.slots.len()..plant.metamer_count() {
             let id = MetamerId::new(index);
             if !plant.is_alive(id) {
                 self.slots.push(NOWHERE);
                 continue;
             }
-            let slot = self.nodes.len() as u32;
+            let slot = self.nodes.len();
             let parent = metamers.parent(id).map_or(NOWHERE, |parent| self.slots.of(parent));
-            let (mut is_main, mut of_plant) = (true, self.plants.len());
-            if let Some(below) = self.nodes.get_mut(parent as usize) {
-                of_plant = below.plant();
-                let below_id = self.wood.of(plant).id(parent as usize);
-                is_main = metamers.axis(below_id) == metamers.axis(id);
+            let (mut is_main, mut of_plant) = (true, None);
+            if (parent as usize) < slot {
+                of_plant = Some(self.plants.number(parent as usize));
+                let below = self.wood.of(plant).id(parent as usize);
+                is_main = metamers.axis(below) == metamers.axis(id);
                 if is_main {
-                    below.set_tip(false);
+                    self.nodes[parent as usize].set_tip(false);
                 } else {
-                    below.propensity = propensity_of_buds(plant, below_id, parameters);
+                    self.count_laterals(parent as usize, plant, parameters);
                 }
             }
-            if of_plant == self.plants.len() {
-                self.plants.push((id, 0.0));
-            }
-            let propensity = propensity_of_buds(plant, id, parameters);
-            self.slots.push(slot);
+            let of_plant = of_plant.unwrap_or_else(|| self.plants.add(id));
+            self.slots.push(slot as u32);
+            self.waves.add(slot as u32, parent);
+            self.wood.push(slot, id, parent, plant);
+            self.plants.push(slot, of_plant);
+            let mut node = Node::new(is_main);
             // An axis that was cut has no bud any more.
-            let tip = if plant.is_axis_alive(metamers.axis(id)) { Node::TIP } else { 0 };
-            let kind = tip | if is_main { Node::MAIN } else { 0 };
-            let bits = (of_plant as u32) << Node::PLANT_SHIFT | kind;
-            self.waves.add(slot, parent);
-            self.wood.push(slot as usize, id, parent, plant);
-            self.nodes.push(Node { bits, propensity });
+            node.set_tip(plant.is_axis_alive(metamers.axis(id)));
+            self.nodes.push(node);
+            self.propensities.push(0.0);
+            self.count_laterals(slot, plant, parameters);
         }
         reserve(&mut self.light, more);
         reserve(&mut self.sums, more);
@@ -183,6 +137,13 @@ impl Canopy {
         self.light.resize(self.nodes.len(), 0.0);
         self.sums.resize(self.nodes.len(), Sums::default());
         self.vigors.resize(self.nodes.len(), 0.0);
+    }
+
+    /// Takes in which lateral buds at a node have not grown.
+    fn count_laterals(&mut self, slot: usize, plant: &Plant, parameters: &ParameterTable) {
+        let propensity = propensity_of_buds(plant, self.wood.of(plant).id(slot), parameters);
+        self.propensities[slot] = propensity;
+        self.nodes[slot].set_laterals(propensity > 0.0);
     }
 
     /// Goes back to where the plant has gone back to: its latest metamers are no more, and it has lost none of
@@ -200,27 +161,27 @@ impl Canopy {
             .collect();
         self.dead -= self.nodes[kept..].iter().filter(|node| node.is_dead()).count();
         self.nodes.truncate(kept);
+        self.propensities.truncate(kept);
         self.wood.truncate(kept);
         self.waves.truncate(kept as u32);
         self.spots.truncate(kept);
         self.sky.truncate(kept);
         self.slots.truncate(count);
-        self.plants.retain(|(seed, _)| seed.index() < count);
+        self.plants.truncate(kept);
+        self.plants.retain(|seed| seed.index() < count);
         for parent in orphaned {
             let id = self.wood.of(plant).id(parent as usize);
-            let node = &mut self.nodes[parent as usize];
             let axis = plant.metamers().axis(id);
-            node.set_tip(plant.axes().last(axis) == Some(id) && plant.is_axis_alive(axis));
-            node.propensity = propensity_of_buds(plant, id, parameters);
+            let is_tip = plant.axes().last(axis) == Some(id) && plant.is_axis_alive(axis);
+            self.nodes[parent as usize].set_tip(is_tip);
+            self.count_laterals(parent as usize, plant, parameters);
         }
     }
 
     /// Lets light flow down and vigor up.
     pub(crate) fn distribute_vigor(&mut self, plant: &Plant, parameters: &ParameterTable) {
-        for (seed, lambda) in &mut self.plants {
-            let age = plant.age(*seed);
-            *lambda = f64::from(parameters.scene().apical_control_at(age));
-        }
+        let lambda = |seed| f64::from(parameters.scene().apical_control_at(plant.age(seed)));
+        self.plants.set_lambdas(lambda);
         let dark = self.gather_light(plant, parameters);
         if parameters.scene().vigor_model == VigorModel::Priority {
             return self.distribute_by_priority(plant, parameters);
@@ -269,6 +230,7 @@ impl Canopy {
             self.slots.set(*id, NOWHERE);
             if let Some(node) = self.nodes.get_mut(slot as usize) {
                 node.die();
+                self.propensities[slot as usize] = 0.0;
                 self.darkened.push(*id);
                 self.dead += 1;
             }
@@ -299,6 +261,8 @@ impl Canopy {
             self.waves.add(kept as u32, parent);
             self.wood.set(kept, id, parent);
             self.nodes[kept] = node;
+            self.propensities[kept] = self.propensities[slot];
+            self.plants.shift(slot, kept);
             self.spots[kept] = self.spots[slot];
             if let Some(&sky) = self.sky.get(slot) {
                 self.sky[kept] = sky;
@@ -309,6 +273,8 @@ impl Canopy {
             kept += 1;
         }
         self.nodes.truncate(kept);
+        self.propensities.truncate(kept);
+        self.plants.truncate(kept);
         self.wood.truncate(kept);
         self.spots.truncate(kept);
         self.sky.truncate(kept);
@@ -324,8 +290,8 @@ impl Canopy {
             return vigor;
         }
         let slot = self.slots.of(node) as usize;
-        let Some(of_node) = self.nodes.get(slot) else { return 0.0 };
-        let split = Split::new(self.vigors[slot], self.sums[slot], self.plants[of_node.plant()].1);
+        let Some(&vigor) = self.vigors.get(slot) else { return 0.0 };
+        let split = Split::new(vigor, self.sums[slot], self.plants.lambda(slot));
         if plant.axes().last(axis).is_some() {
             return split.to_main();
         }

@@ -44,7 +44,7 @@ impl Canopy {
                 self.bud_vigors[axis.index()] = gain * self.sums[first].light() as f64;
             }
             let vigor = self.bud_vigors[axis.index()];
-            let lambda = self.plants[self.nodes[first].plant()].1;
+            let lambda = self.plants.lambda(first);
             claimants.clear();
             for &slot in &slots {
                 self.claimants_at(slot, plant, parameters, &buds, lambda >= 0.5, &mut claimants);

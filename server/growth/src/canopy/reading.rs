@@ -7,7 +7,7 @@ use espalier_plant::{Plant, reserve};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::{Canopy, NODES_IN_SHADOW, Node, PARALLEL_FROM, response, wood::Slotted};
+use super::{Canopy, NODES_IN_SHADOW, PARALLEL_FROM, node::Node, response, wood::Slotted};
 use crate::{
     cells::bits,
     light::{ShadowGrid, Spot},
@@ -26,7 +26,18 @@ struct Reader<'a> {
     wood: Slotted<'a>,
     shadows: &'a ShadowGrid,
     sky: &'a [f32],
+    propensities: &'a [f32],
     parameters: &'a ParameterTable,
+}
+
+/// Nodes that are read together.
+struct Group<'a> {
+    /// Slot of the first.
+    first: usize,
+    nodes: &'a [Node],
+    spots: &'a [Spot],
+    light: &'a mut [f32],
+    sums: &'a mut [Sums],
 }
 
 impl Reader<'_> {
@@ -42,11 +53,25 @@ impl Reader<'_> {
 
     /// Q = bL^κ of the buds at a node.
     #[inline(always)]
-    fn input(self, slot: usize, node: &Node, light: f32) -> Sums {
+    fn input(self, slot: usize, node: Node, light: f32) -> Sums {
         let axis = self.plant.metamers().axis(self.wood.id(slot));
         let response = response(light, self.parameters.of(axis));
         let main = if node.is_tip() { vigor::quantised(response) } else { 0 };
-        Sums { main, lateral: vigor::quantised(response * node.propensity) }
+        Sums { main, lateral: vigor::quantised(response * self.propensities[slot]) }
+    }
+
+    /// Puts in what the buds at those nodes of a group make of light, which is read before if `reads` holds.
+    #[inline(never)]
+    fn put_in(self, group: Group<'_>, which: u64, reads: bool) {
+        let Group { first, nodes, spots, light, sums } = group;
+        sums.fill(Sums::default());
+        // Bit by bit rather than node by node: whether a node bears buds cannot be foreseen.
+        for at in bits(which & u64::MAX >> (GROUP - nodes.len())) {
+            if reads {
+                light[at] = self.light(first + at, &spots[at]);
+            }
+            sums[at] = self.input(first + at, nodes[at], light[at]);
+        }
     }
 }
 
@@ -54,7 +79,7 @@ impl Canopy {
     /// Reads the light: where shadows have come or gone at these nodes, or everywhere. Puts in what all buds make of it.
     pub(crate) fn read_light(&mut self, scene: &Scene, changed: &[Vec3], parameters: &ParameterTable) {
         let Scene { plant, space, shadows, obstacles, .. } = scene;
-        let Self { nodes, wood, spots, sky, light, sums, slots, .. } = self;
+        let Self { nodes, propensities, wood, spots, sky, light, sums, slots, .. } = self;
         let is_new = spots.is_empty();
         let wood = wood.of(plant);
         let place = |slot: usize| plant.metamers().end(wood.id(slot));
@@ -65,7 +90,7 @@ impl Canopy {
             let new = sky.len()..nodes.len();
             sky.extend(new.map(|slot| obstacles.sky_share(place(slot))));
         }
-        let reader = Reader { plant, wood, shadows, sky, parameters };
+        let reader = Reader { plant, wood, shadows, sky, propensities, parameters };
         let are_few = changed.len() * NODES_IN_SHADOW < nodes.len();
         let reads_all = !are_few || is_new || self.is_partly_read;
         if !reads_all {
@@ -78,16 +103,9 @@ impl Canopy {
             });
         }
         self.is_partly_read = !are_few;
-        let put_in = |(number, (((nodes, spots), light), sums)): (usize, Group<'_>)| {
-            sums.fill(Sums::default());
-            // Bit by bit rather than node by node: whether a node bears buds cannot be foreseen.
-            for at in bits(if are_few { u64::MAX >> (GROUP - nodes.len()) } else { bearing(nodes) }) {
-                let slot = number * GROUP + at;
-                if reads_all {
-                    light[at] = reader.light(slot, &spots[at]);
-                }
-                sums[at] = reader.input(slot, &nodes[at], light[at]);
-            }
+        let put_in = |(number, (((nodes, spots), light), sums)): (usize, (_, &mut [Sums]))| {
+            let which = if are_few { u64::MAX } else { bearing(nodes) };
+            reader.put_in(Group { first: number * GROUP, nodes, spots, light, sums }, which, reads_all);
         };
         let groups = nodes.par_chunks(GROUP).zip(spots.par_chunks(GROUP));
         let groups = groups.zip(light.par_chunks_mut(GROUP)).zip(sums.par_chunks_mut(GROUP));
@@ -100,10 +118,10 @@ impl Canopy {
             return;
         }
         let Scene { plant, shadows, .. } = scene;
-        let Self { nodes, wood, spots, sky, light, .. } = self;
-        let reader = Reader { plant, wood: wood.of(plant), shadows, sky, parameters };
+        let Self { nodes, propensities, wood, spots, sky, light, .. } = self;
+        let reader = Reader { plant, wood: wood.of(plant), shadows, sky, propensities, parameters };
         for (slot, ((node, spot), light)) in nodes.iter().zip(spots).zip(light).enumerate() {
-            if !node.has_bud() {
+            if !node.has_buds() {
                 *light = reader.light(slot, spot);
             }
         }
@@ -113,8 +131,5 @@ impl Canopy {
 /// Which of a group of nodes bear buds.
 #[inline(always)]
 fn bearing(nodes: &[Node]) -> u64 {
-    nodes.iter().enumerate().fold(0, |bits, (at, node)| bits | u64::from(node.has_bud()) << at)
+    nodes.iter().enumerate().fold(0, |bits, (at, node)| bits | u64::from(node.has_buds()) << at)
 }
-
-/// Nodes that are read together.
-type Group<'a> = (((&'a [Node], &'a [Spot]), &'a mut [f32]), &'a mut [Sums]);

@@ -1,8 +1,6 @@
 //! Vigor flows up wave by wave: through many nodes at once.
 
-use espalier_plant::MetamerId;
-
-use super::{NOWHERE, Node, wood::Slotted};
+use super::{NOWHERE, node::Node, plants::Plants, wood::Slotted};
 use crate::vigor::{Split, Sums};
 
 /// Waves smaller than this are not worth handing to other threads.
@@ -44,7 +42,7 @@ impl Waves {
         wood: Slotted<'_>,
         sums: &[Sums],
         vigors: &mut [f64],
-        plants: &[(MetamerId, f64)],
+        plants: &Plants,
         gain: f64,
     ) {
         let mut starts = self.starts.iter().map(|&start| start as usize).peekable();
@@ -62,7 +60,7 @@ struct Wave<'a> {
     nodes: &'a [Node],
     wood: Slotted<'a>,
     sums: &'a [Sums],
-    plants: &'a [(MetamerId, f64)],
+    plants: &'a Plants,
     gain: f64,
     /// Vigor of all nodes before the wave.
     below: &'a [f64],
@@ -89,7 +87,8 @@ impl Wave<'_> {
                 NOWHERE => self.gain * light as i64 as f64,
                 parent => {
                     let enters = self.below.get(parent as usize).copied().unwrap_or(before);
-                    let split = Split::new(enters, self.sums[parent as usize], self.plants[node.plant()].1);
+                    let split =
+                        Split::new(enters, self.sums[parent as usize], self.plants.lambda(first + at));
                     if node.is_main() { split.to_main() } else { split.to_lateral(light) }
                 }
             };
