@@ -12,7 +12,7 @@ use espalier_plant::{AxisId, reserve};
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
-use self::chunk::{Chunk, Status};
+use self::chunk::{Chunk, Seeker, Status};
 use crate::{
     cells::{CellBox, bits},
     directory::Directory,
@@ -53,12 +53,42 @@ impl MarkerField {
         Self { lattice: Lattice::new(seed, parameters), statuses: Directory::new(), chunks: Vec::new() }
     }
 
-    /// A node takes the markers in its zone.
-    pub(crate) fn occupy(&mut self, place: Vec3, radius: f32, obstacles: &Obstacles) {
-        self.visit(obstacles, place - radius, place + radius, |chunk, status, cells| {
-            let left = !(chunk.near(cells & status.free, place, radius * radius) & cells);
-            status.free &= left;
-            status.claimed &= left;
+    /// A node takes the markers in its zone; its buds claim of the others what they perceive and no bud is nearer to.
+    pub(crate) fn settle(
+        &mut self,
+        node: Vec3,
+        buds: &[(AxisId, Bud)],
+        parameters: &ParameterTable,
+        obstacles: &Obstacles,
+    ) {
+        match *buds {
+            [] => self.settle_with(node, [], parameters, obstacles),
+            [one] => self.settle_with(node, [one], parameters, obstacles),
+            [one, two, ref rest @ ..] => {
+                self.settle_with(node, [one, two], parameters, obstacles);
+                if !rest.is_empty() {
+                    self.settle(node, rest, parameters, obstacles);
+                }
+            }
+        }
+    }
+
+    fn settle_with<const BUDS: usize>(
+        &mut self,
+        node: Vec3,
+        buds: [(AxisId, Bud); BUDS],
+        parameters: &ParameterTable,
+        obstacles: &Obstacles,
+    ) {
+        let radius = parameters.scene().occupancy_radius;
+        let (mut low, mut high) = (node - radius, node + radius);
+        let seekers = buds.map(|(axis, bud)| {
+            let reach = reach(bud, parameters.of(axis));
+            (low, high) = (low.min(reach.0), high.max(reach.1));
+            Seeker { axis, direction: bud.direction, cone: Cone::new(parameters.of(axis)) }
+        });
+        self.visit(obstacles, low, high, |chunk, status, cells| {
+            chunk.settle(status, cells, node, radius * radius, &seekers, obstacles);
         });
     }
 
@@ -74,32 +104,6 @@ impl MarkerField {
                     status.claimed |= 1 << cell;
                     chunk.set_claim(cell, (nobody(), -1.0));
                 }
-            }
-        });
-    }
-
-    /// A bud claims what it perceives and no bud is nearer to.
-    pub(crate) fn place_bud(
-        &mut self,
-        axis: AxisId,
-        bud: Bud,
-        parameters: &Parameters,
-        obstacles: &Obstacles,
-    ) {
-        let (low, high) = reach(bud, parameters);
-        let cone = Cone::new(parameters);
-        self.visit(obstacles, low, high, |chunk, status, cells| {
-            let free = cells & status.free;
-            for cell in bits(chunk.seen(free, bud, cone) & free) {
-                let marker = chunk.marker(cell);
-                let distance_squared = (marker - bud.position).length_squared();
-                let (claimant, nearest) = chunk.claim(cell);
-                let is_outdone = distance_squared == nearest && claimant <= axis;
-                if is_outdone || obstacles.hides(bud.position, marker) {
-                    continue;
-                }
-                chunk.set_claim(cell, (axis, distance_squared));
-                status.claimed |= 1 << cell;
             }
         });
     }

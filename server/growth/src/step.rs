@@ -194,13 +194,12 @@ impl Growth {
         let Scene { plant, space, obstacles, .. } = scene;
         self.field.get_or_insert_with(|| {
             let mut field = MarkerField::new(*seed, parameters.scene());
-            let radius = parameters.scene().occupancy_radius;
             for id in (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id)) {
-                field.occupy(plant.metamers().end(id), radius, obstacles);
+                field.settle(plant.metamers().end(id), &[], parameters, obstacles);
             }
             for axis in (0..plant.axis_count()).map(AxisId::new) {
                 if let Some(bud) = space.bud(axis) {
-                    field.place_bud(axis, bud, parameters.of(axis), obstacles);
+                    field.settle(bud.position, &[(axis, bud)], parameters, obstacles);
                 }
             }
             field
@@ -309,22 +308,26 @@ impl Growth {
             }
             buds
         };
+        // Node by node, in batches of as many nodes.
         let buds: Vec<Vec<(AxisId, Bud)>> = match new.len() {
             ..=BATCH => vec![buds_at(&new)],
             _ => new.par_chunks(BATCH).map(buds_at).collect(),
         };
-        let buds = || buds.iter().flatten().copied();
         let update_space = || {
             shadows.cast_all(nodes().map(|(_, node)| node));
             let unentered = nodes().filter(|(id, _)| unentered.contains(&id.index()));
             unentered.for_each(|(id, node)| space.occupy(id, node));
-            buds().for_each(|(axis, bud)| space.place_bud(axis, bud));
+            buds.iter().flatten().for_each(|&(axis, bud)| space.place_bud(axis, bud));
         };
         let update_field = || {
             let Some(field) = field else { return };
-            let radius = parameters.scene().occupancy_radius;
-            nodes().for_each(|(_, node)| field.occupy(node, radius, obstacles));
-            buds().for_each(|(axis, bud)| field.place_bud(axis, bud, parameters.of(axis), obstacles));
+            for (nodes, mut buds) in new.chunks(BATCH).zip(buds.iter().map(Vec::as_slice)) {
+                for node in nodes.iter().map(|&row| plant.metamers().end(id(row))) {
+                    let own = buds.iter().take_while(|(_, bud)| bud.position == node).count();
+                    field.settle(node, &buds[..own], parameters, obstacles);
+                    buds = &buds[own..];
+                }
+            }
         };
         rayon::join(update_space, update_field);
         nodes().map(|(_, node)| node).collect()

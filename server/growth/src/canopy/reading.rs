@@ -109,7 +109,7 @@ impl Canopy {
         };
         let groups = nodes.par_chunks(GROUP).zip(spots.par_chunks(GROUP));
         let groups = groups.zip(light.par_chunks_mut(GROUP)).zip(sums.par_chunks_mut(GROUP));
-        groups.enumerate().with_min_len(PARALLEL_FROM / 4 / GROUP).for_each(put_in);
+        groups.enumerate().with_min_len(PARALLEL_FROM / 2 / GROUP).for_each(put_in);
     }
 
     /// Reads the light that has been left for whoever draws the plant.

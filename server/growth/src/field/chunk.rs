@@ -8,7 +8,7 @@ use crate::{
     cells::{CELLS, ROW, bits, cell_at, rows_of},
     obstacles::Obstacles,
     parameter_table::ParameterTable,
-    space::{Bud, Cone, Space},
+    space::{Cone, Space},
 };
 
 /// Which of the markers are free and which are claimed: all that must be known of a chunk in which nothing happens.
@@ -24,12 +24,12 @@ pub(super) struct Status {
 #[derive(Clone, Debug)]
 pub(super) struct Chunk {
     rows: [Row; CELLS / ROW],
-    claimant: [AxisId; CELLS],
+    claimants: [[AxisId; ROW]; CELLS / ROW],
     /// Markers that may ever be claimed: above ground and in no obstacle.
     pub valid: u64,
 }
 
-/// The markers of a row of cells, in one line of a cache.
+/// The markers of a row of cells, side by side.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(16))]
 struct Row {
@@ -41,29 +41,18 @@ struct Row {
     nearest: [f32; ROW],
 }
 
+/// A bud that looks for markers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seeker {
+    pub axis: AxisId,
+    pub direction: Vec3,
+    pub cone: Cone,
+}
+
 impl Row {
     const NONE: Self = Self { x: [0.0; ROW], y: [0.0; ROW], z: [0.0; ROW], nearest: [f32::INFINITY; ROW] };
 
-    /// Which of the markers lie within the square root of `limit`.
-    #[inline(always)]
-    fn near(&self, place: Vec3, limit: f32) -> u32 {
-        let [dx, dy, dz] = self.offsets(place);
-        let squares = dx * dx + dy * dy + dz * dz;
-        squares.cmple(Vec4::splat(limit)).bitmask()
-    }
-
-    /// Which of the markers a bud perceives no farther away than their claimants do.
-    #[inline(always)]
-    fn seen(&self, bud: Bud, cone: Cone) -> u32 {
-        let [dx, dy, dz] = self.offsets(bud.position);
-        let squares = dx * dx + dy * dy + dz * dz;
-        let dots = dx * bud.direction.x + dy * bud.direction.y + dz * bud.direction.z;
-        let near = squares.cmple(Vec4::from_array(self.nearest).min(Vec4::splat(cone.far_squared)));
-        let ahead = (dots * dots.abs()).cmpge(squares * cone.signed_cos_squared);
-        (near & ahead).bitmask()
-    }
-
-    /// Offsets of the markers, coordinate by coordinate.
+    /// Offsets of the markers from a place, coordinate by coordinate.
     #[inline(always)]
     fn offsets(&self, place: Vec3) -> [Vec4; 3] {
         [
@@ -72,13 +61,25 @@ impl Row {
             Vec4::from_array(self.z) - Vec4::splat(place.z),
         ]
     }
+
+    /// Which of the markers, with these offsets and their squares, a bud perceives no farther away than their claimants
+    /// do.
+    #[inline(always)]
+    fn seen(&self, [dx, dy, dz]: [Vec4; 3], squares: Vec4, seeker: &Seeker) -> u32 {
+        let Seeker { direction, cone, .. } = seeker;
+        let dots = dx * direction.x + dy * direction.y + dz * direction.z;
+        let near = squares.cmple(Vec4::from_array(self.nearest).min(Vec4::splat(cone.far_squared)));
+        let ahead = (dots * dots.abs()).cmpge(squares * cone.signed_cos_squared);
+        (near & ahead).bitmask()
+    }
 }
 
 impl Chunk {
     /// The chunk of a word of the lattice, unclaimed.
     #[cold]
     pub fn new(lattice: Lattice, at: [i32; 3], obstacles: &Obstacles) -> Self {
-        let mut chunk = Self { rows: [Row::NONE; CELLS / ROW], claimant: [AxisId::new(0); CELLS], valid: 0 };
+        let nobody = [[AxisId::new(0); ROW]; CELLS / ROW];
+        let mut chunk = Self { rows: [Row::NONE; CELLS / ROW], claimants: nobody, valid: 0 };
         for cell in 0..CELLS {
             let Some(marker) = lattice.marker_in(cell_at(at, cell)) else { continue };
             let (row, lane) = (&mut chunk.rows[cell / ROW], cell % ROW);
@@ -95,43 +96,76 @@ impl Chunk {
         Vec3::new(row.x[lane], row.y[lane], row.z[lane])
     }
 
-    /// Which markers lie within the square root of `limit`, as far as they lie in these cells; of others it may be said
-    /// as well.
+    /// A node comes to a place with its buds. It takes the markers within the square root of `zone_squared`; of the others
+    /// in these cells the buds claim what they perceive, is not hidden, and no bud is nearer to.
     #[inline(always)]
-    pub fn near(&self, cells: u64, place: Vec3, limit: f32) -> u64 {
-        self.in_rows(cells, |row| row.near(place, limit))
-    }
-
-    /// Which markers a bud perceives no farther away than their claimants do; the same holds.
-    #[inline(always)]
-    pub fn seen(&self, cells: u64, bud: Bud, cone: Cone) -> u64 {
-        self.in_rows(cells, |row| row.seen(bud, cone))
-    }
-
-    /// What `test` says of the rows of these cells.
-    #[inline(always)]
-    fn in_rows(&self, cells: u64, test: impl Fn(&Row) -> u32) -> u64 {
-        let mut all = 0;
-        let mut left = rows_of(cells);
+    pub fn settle<const BUDS: usize>(
+        &mut self,
+        status: &mut Status,
+        cells: u64,
+        place: Vec3,
+        zone_squared: f32,
+        buds: &[Seeker; BUDS],
+        obstacles: &Obstacles,
+    ) {
+        let Status { mut free, mut claimed } = *status;
+        let mut left = rows_of(cells & free);
         while left != 0 {
-            let first = left.trailing_zeros() as usize;
+            let cell = left.trailing_zeros() as usize;
             left &= left - 1;
-            all |= u64::from(test(&self.rows[first / ROW % (CELLS / ROW)])) << first;
+            let row = cell / ROW % (CELLS / ROW);
+            let offsets @ [dx, dy, dz] = self.rows[row].offsets(place);
+            let squares = dx * dx + dy * dy + dz * dz;
+            free &= !(u64::from(squares.cmple(Vec4::splat(zone_squared)).bitmask()) << cell);
+            let is_free = (free >> cell) as u32;
+            let seen = buds.each_ref().map(|bud| self.rows[row].seen(offsets, squares, bud) & is_free);
+            if seen.iter().fold(0, |all, seen| all | seen) & 0xf == 0 {
+                continue;
+            }
+            for (bud, mut seen) in buds.iter().zip(seen) {
+                if !obstacles.is_empty() {
+                    seen &= self.not_hidden(row, place, obstacles);
+                }
+                claimed |= u64::from(self.claim_in(row, bud.axis, seen & 0xf, squares)) << cell;
+            }
         }
-        all
+        *status = Status { free, claimed: claimed & free };
+    }
+
+    /// A bud claims those of the markers of a row that it has seen and is nearest to. Returns which.
+    #[inline(always)]
+    fn claim_in(&mut self, row: usize, axis: AxisId, seen: u32, squares: Vec4) -> u32 {
+        let (squares, nearest, claimants) =
+            (squares.to_array(), &mut self.rows[row].nearest, &mut self.claimants[row]);
+        // Of equally near ones the oldest claims.
+        let wins: [bool; ROW] = core::array::from_fn(|lane| {
+            (seen >> lane & 1 != 0) & ((squares[lane] < nearest[lane]) | (axis < claimants[lane]))
+        });
+        *nearest = core::array::from_fn(|lane| if wins[lane] { squares[lane] } else { nearest[lane] });
+        *claimants = core::array::from_fn(|lane| if wins[lane] { axis } else { claimants[lane] });
+        (0..ROW).fold(0, |all, lane| all | u32::from(wins[lane]) << lane)
+    }
+
+    /// Which of the markers of a row no obstacle hides from a place.
+    #[inline(never)]
+    fn not_hidden(&self, row: usize, place: Vec3, obstacles: &Obstacles) -> u32 {
+        let is_seen = |lane: usize| !obstacles.hides(place, self.marker(row * ROW + lane));
+        (0..ROW).fold(0, |all, lane| all | u32::from(is_seen(lane)) << lane)
     }
 
     /// Who claims a marker, and how far away it is, squared.
     #[inline(always)]
     pub fn claim(&self, cell: usize) -> (AxisId, f32) {
-        (self.claimant[cell], self.rows[cell / ROW].nearest[cell % ROW])
+        let (row, lane) = (cell / ROW, cell % ROW);
+        (self.claimants[row][lane], self.rows[row].nearest[lane])
     }
 
     /// Enters a claim.
     #[inline(always)]
     pub fn set_claim(&mut self, cell: usize, (axis, distance_squared): (AxisId, f32)) {
-        self.claimant[cell] = axis;
-        self.rows[cell / ROW].nearest[cell % ROW] = distance_squared;
+        let (row, lane) = (cell / ROW, cell % ROW);
+        self.claimants[row][lane] = axis;
+        self.rows[row].nearest[lane] = distance_squared;
     }
 
     /// Finds the claimants of all markers whose claimants have gone, and calls `visit` with every claimant, and where it
