@@ -11,6 +11,7 @@ import type { Sort } from "./painting/paint";
 import type { Painter } from "./painting/painter";
 import type { Fineness } from "./rendering/fineness";
 import { NodeTexture } from "./table/node-texture";
+import { PlaceEase } from "./table/place-ease";
 import { RadiusEase } from "./table/radius-ease";
 import { Dirty, type TreeTable } from "./table/tree-table";
 import { Bark } from "./wood/bark";
@@ -30,6 +31,7 @@ export class TreeView {
   private readonly solid = new Group();
   private readonly nodes = new NodeTexture();
   private readonly radii = new RadiusEase();
+  private readonly places = new PlaceEase();
   private readonly traits: TraitTexture;
   private readonly branches: Branches;
   private readonly foliage: Foliage;
@@ -62,9 +64,9 @@ export class TreeView {
     return this.traits.legend;
   }
 
-  /** When the last radius that glides will have arrived, in the table's seconds. */
+  /** When the last radius or place that glides will have arrived, in the table's seconds. */
   get glidesUntil(): number {
-    return this.radii.until;
+    return Math.max(this.radii.until, this.places.until);
   }
 
   /** Whether whole textures are there and coarse ones still shown. */
@@ -125,6 +127,7 @@ export class TreeView {
   /** What bark, leaves, flowers and fruits look like. */
   setAppearance({ bark, leaves, flowers, fruits }: Appearance): void {
     this.branches.setBark(bark);
+    if (this.table.shape(bark.root_flare, bark.smoothing > 0)) this.changed();
     this.foliage.setLook(leaves, flowers, fruits);
     this.foliage.upload(this.table);
   }
@@ -142,6 +145,8 @@ export class TreeView {
     if (tableChanged) this.syncTable();
     this.traits.upload(table);
     if (tableChanged || this.overlaysChanged) this.syncOverlays(tableChanged);
+    this.places.step(table.now(), table.rows, (row, from, at, left) => this.nodes.glide(table, row, from, at, left));
+    this.nodes.upload();
     this.showMode();
     return tableChanged;
   }
@@ -185,12 +190,14 @@ export class TreeView {
       (row, bits) => {
         const moved = (bits & Dirty.Shape) !== 0;
         this.noteRadius(row, this.overlays.slotOf(row), now);
+        if (!moved) this.nodes.notePlace(this.places, row);
         this.nodes.write(table, row);
         this.branches.update(table, row);
         this.traits.update(row, moved);
         this.foliage.update(table, row, bits);
       },
     );
+    this.places.begin(now, table.course.placed);
     this.branches.upload(table);
     this.foliage.upload(table);
     this.skeleton.changed();
@@ -215,7 +222,6 @@ export class TreeView {
       (row) => this.overlays.radiusIn(this.overlays.slotOf(row), table.girth.radius[row]!),
       (row, from) => this.nodes.ease(row, from, now),
     );
-    this.nodes.upload();
   }
 
   /** A row is about to change; until now it was drawn with what this slot makes of its radius. */

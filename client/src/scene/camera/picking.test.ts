@@ -1,7 +1,8 @@
-import { Matrix4, PerspectiveCamera } from "three";
+import { Line3, Matrix4, PerspectiveCamera, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 import { randoms } from "../../../test/randoms";
 import { sampleTree } from "../../../test/sample-tree";
+import { type Twig, tableOf } from "../../../test/small-tree";
 import { radiusOf, TreeTable } from "../table/tree-table";
 import { type Projection, pickBranch } from "./picking";
 
@@ -51,6 +52,32 @@ describe("a pick", () => {
     const [x, y] = onScreen(v, [table.position[9]!, table.position[10]!, table.position[11]!]);
     const pick = pickBranch(table, v, x, y, 4);
     expect([3, 4]).toContain(pick?.row);
+  });
+
+  it("meets thick wood where it is drawn, beside its nodes", () => {
+    const corner = (i: number): Twig => ({ parent: i, at: [(i % 3) * 0.7, i + 1, 0], radius: 1.2 });
+    const crooked = tableOf([{ parent: -1, at: [0, 0, 0] }, ...Array.from({ length: 20 }, (_, i) => corner(i))]);
+    const v = view();
+    const { placed } = crooked.course;
+    const at = (of: Float32Array, row: number) => new Vector3().fromArray(of, 3 * row);
+    const offLine = (of: Float32Array, row: number, point: Vector3) =>
+      new Line3(at(of, crooked.parent[row]!), at(of, row))
+        .closestPointToPoint(point, true, new Vector3())
+        .distanceTo(point);
+    let aside = 0;
+    for (let row = 1; row < crooked.rows; row += 1) {
+      const pick = pickBranch(
+        crooked,
+        v,
+        ...(onScreen(v, at(placed, row).toArray()).slice(0, 2) as [number, number]),
+        1,
+      )!;
+      expect(Math.abs(pick.row - row), `row ${row}`).toBeLessThan(4);
+      const point = new Vector3(...pick.point);
+      expect(offLine(placed, pick.row, point), `row ${row}`).toBeLessThan(1e-3);
+      aside += offLine(crooked.position, pick.row, point);
+    }
+    expect(aside).toBeGreaterThan(1);
   });
 
   it("prefers the branch in front where two cross", () => {

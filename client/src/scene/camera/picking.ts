@@ -36,7 +36,8 @@ export function pickBranch(
   tolerancePixels: number,
   drawn: DrawnElsewhere | null = null,
 ): Pick | null {
-  const { position, rows } = table;
+  const { rows } = table;
+  const { placed } = table.course;
   if (scratch.length < 3 * rows) scratch = new Float32Array(3 * table.parent.length);
   const screen = scratch;
   const m = view.clipFromWorld;
@@ -49,9 +50,9 @@ export function pickBranch(
   let nearest = tolerancePixels;
   for (let row = 0, at = 0; row < rows; row += 1, at += 3) {
     // A parent's row is below its child's (FR5), so that one pass both projects and compares.
-    let px = position[at]!;
-    let py = position[at + 1]!;
-    let pz = position[at + 2]!;
+    let px = placed[at]!;
+    let py = placed[at + 1]!;
+    let pz = placed[at + 2]!;
     if (drawn) [px, py, pz] = drawn.placeOf(table, row);
     const wb = m3 * px + m7 * py + m11 * pz + m15;
     const per = 1 / wb;
@@ -92,7 +93,7 @@ export function pickBranch(
   const { row, share } = best;
   const parent = table.parent[row]!;
   const place = (of: number) =>
-    drawn?.placeOf(table, of) ?? [position[3 * of]!, position[3 * of + 1]!, position[3 * of + 2]!];
+    drawn?.placeOf(table, of) ?? [placed[3 * of]!, placed[3 * of + 1]!, placed[3 * of + 2]!];
   const [a, b] = [place(parent), place(row)];
   const at = (axis: 0 | 1 | 2) => a[axis]! + (b[axis]! - a[axis]!) * share;
   return { row, point: [at(0), at(1), at(2)] };

@@ -1,4 +1,5 @@
 import { EASES_OVER, NO_SLOPE, SLOPE_STEPS, STEEPEST } from "../table/girth";
+import { RISES } from "../table/limb-curve";
 import { BARK } from "./bark";
 import { COVER, HEAD, LIGHT, NODES, NOISE } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
@@ -13,6 +14,18 @@ float rootFlare(float turn, float along, float foot) {
   float rib = 0.5 + 0.5 * sin(angle * 5.0 + 1.3 * sin(angle * 2.0) + 0.9 * cos(angle));
   float height = max(along, 0.0) / (foot + 0.05);
   return 1.0 + uBarkShape.y * (0.22 * exp(-0.7 * height) + exp(-1.6 * height) * (0.08 + 0.66 * rib * sqrt(rib)));
+}
+/** The same on the average around the trunk. */
+float meanFlare(float along, float foot) {
+  float height = max(along, 0.0) / (foot + 0.05);
+  return 1.0 + uBarkShape.y * (0.22 * exp(-0.7 * height) + 0.36 * exp(-1.6 * height));
+}
+/** How much longer the surface of a trunk is than its axis, from a place upwards: bark is not drawn out where it spreads. */
+float surplus(float along, float foot) {
+  float fades = 1.3 / (foot + 0.05);
+  float incline = 0.8 * uBarkShape.y * exp(-fades * max(along, 0.0));
+  float way = sqrt(1.0 + incline * incline);
+  return (way - 1.0 - log(0.5 * (1.0 + way))) / fades - min(along, 0.0) * (way - 1.0);
 }
 `;
 
@@ -126,7 +139,7 @@ void main() {
   vec3 n0 = turned(start.turn, vec3(1, 0, 0));
   if (begins) {
     // A lateral leaves along its bearing axis and bends away; one from the ground comes up, one from a cliff straight out.
-    t0 = (metamer.w & FROM_SEED) != 0u ? normalize(heading + vec3(0, 0.6 * max(heading.y, 0.0), 0)) : normalize(heading + 0.55 * t0);
+    t0 = (metamer.w & FROM_SEED) != 0u ? normalize(heading + vec3(0, ${RISES.toFixed(1)} * max(heading.y, 0.0), 0)) : normalize(heading + 0.55 * t0);
     n0 = n1;
   }
   float smoothing = clamp(uBarkShape.w, 0.0, 1.0);
@@ -143,12 +156,18 @@ void main() {
   // Rings at a joint lie across it for both its metamers, also where the axis has a corner there.
   float joint = pow(abs(2.0 * u - 1.0), 6.0) * (1.0 - smoothing);
   tangent = normalize(mix(tangent, u < 0.5 ? t0 : t1, joint));
+  float r1 = woodAt(end, cut) * mix(0.25, 1.0, grown);
+  float r0 = begins ? end.radius : woodAt(start, false);
+  // Rings of thick wood turn evenly from node to node, or they would cross where the curve gathers its turn.
+  bool rooted = (metamer.w & FROM_SEED) != 0u;
+  if (!begins || rooted) {
+    float stout = smoothstep(0.25, 0.6, max(r0, r1) / max(len, 1e-3)) * smoothing;
+    tangent = normalize(mix(tangent, normalize(mix(t0, t1, u)), stout));
+  }
   vec3 normal = mix(n0, n1, u);
   normal = normalize(normal - tangent * dot(tangent, normal));
   vec3 binormal = cross(normal, tangent);
 
-  float r1 = woodAt(end, cut) * mix(0.25, 1.0, grown);
-  float r0 = begins ? end.radius : woodAt(start, false);
   // Widths meet without a corner at the joints; the last metamer is a cone.
   float drop = r1 - r0;
   vec2 incline = vec2(slopeOf(metamer.w >> 8u) * r0, slopeOf(metamer.w >> 16u) * r1) * len;
@@ -200,9 +219,17 @@ void main() {
     vNormal = outward - cross(outward, tangent) * (around / flare) - tangent * (slope * flare + radius * upwards);
     radius *= flare;
     // The foot goes on into what it stands on, however that slopes; deeper where it leans, for it is round.
-    if (begins) centre -= t0 * ((1.0 - u) * (1.0 - u) * foot * (0.5 + 0.9 * length(t0.xz) + 1.1 * dot(t0.xz, t0.xz)));
+    if (begins) {
+      float sunk = (1.0 - u) * (1.0 - u) * foot * (0.5 + 0.9 * length(t0.xz) + 1.1 * dot(t0.xz, t0.xz));
+      centre -= t0 * sunk;
+      along -= sunk;
+    }
     world = centre + outward * radius * wide;
+    plain *= 1.0 + 0.6 * (meanFlare(along, foot) - 1.0);
+    along -= surplus(along, foot);
   } else {
+    // Its open end stays within its bearer, also where that is no thicker and bends away.
+    radius *= mix(0.5, 1.0, smoothstep(0.0, 0.6 * bearing.radius, along));
     world = centre + outward * radius * wide;
     if (along < 5.0 * (bearing.radius + end.radius)) {
       Junction junction = junctionAt(world, outward, max(radius, 1e-4), heading, bearing);

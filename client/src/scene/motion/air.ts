@@ -293,7 +293,7 @@ export class Air {
     let far = 0;
     for (let row = 0; row < table.rows; row += Math.ceil(table.rows / SAMPLES)) {
       const place = seen(table, row);
-      far = Math.max(far, ...[0, 1, 2].map((a) => Math.abs(place[a]! - table.position[3 * row + a]!)));
+      far = Math.max(far, ...[0, 1, 2].map((a) => Math.abs(place[a]! - table.course.placed[3 * row + a]!)));
     }
     // By whole steps and never less, so that shadows do not swim.
     sun.margin = Math.max(sun.margin, this.margin + 4 * Math.ceil(far / 4));

@@ -16,7 +16,7 @@ export function swayedPlace(stands: Float64Array, { rows, count }: Riding, drawn
     const rest = drawn?.placeOf(table, row) ?? placeOf(table, row);
     const joint = row < count ? rows[ROW_NUMBERS * row + JOINT]! : NONE;
     if (joint === NONE) return rest;
-    const { position } = table;
+    const position = table.course.placed;
     nodeOn(stands, joint, position, 3 * row, rows, ROW_NUMBERS * row, node);
     const height = position[3 * row + 1]!;
     const y = Math.max(node[1]!, Math.min(height, 0));
@@ -37,8 +37,8 @@ export function restingPlace(table: TreeTable, pick: Pick, seen: PlaceOf, drawn:
   return [at(0), at(1), at(2)];
 }
 
-function placeOf({ position }: TreeTable, row: number): Vec3 {
-  return [position[3 * row]!, position[3 * row + 1]!, position[3 * row + 2]!];
+function placeOf({ course: { placed } }: TreeTable, row: number): Vec3 {
+  return [placed[3 * row]!, placed[3 * row + 1]!, placed[3 * row + 2]!];
 }
 
 function distance(a: Vec3, b: Vec3): number {

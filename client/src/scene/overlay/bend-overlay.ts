@@ -19,7 +19,7 @@ export class BendOverlay implements Overlay {
   private readonly rest: Vec3[];
   private rotations: Rotation[];
   private ends: Vec3[];
-  /** The path with what stands around it, in rows of its own: the nodes' orientations follow from it. */
+  /** The path as it is drawn, in rows of its own: the nodes' orientations follow from it. */
   private readonly skeleton: Chain;
 
   /** `path` goes upwards, each row the child of the one before. */
@@ -41,7 +41,7 @@ export class BendOverlay implements Overlay {
       this.rotations[i] = rotation;
       this.ends[i] = to;
     }
-    this.skeleton.move(this.rotations, this.rest, this.ends);
+    this.skeleton.move(this.rotations, this.ends);
   }
 
   /** Whether this is the way from the same base to the same end. */
@@ -72,68 +72,105 @@ export class BendOverlay implements Overlay {
   }
 }
 
-/** The nodes of a path: 0 for the one that bears it, then its own, then those with which limbs leave it for good. */
+/** A path as it is drawn: 0 for the node that bears it, then its own. */
 class Chain {
   readonly position: Float32Array;
+  readonly across: Float32Array;
   readonly parent: Int32Array;
-  readonly successor: Int32Array;
   readonly startsAxis: Uint8Array;
   readonly orientations: Float32Array;
-  private readonly asideRest: { readonly from: number; readonly place: Vec3 }[] = [];
+  /** From each of its nodes to where that is drawn, and across which its ring lies there, both at rest. */
+  private readonly asides: Vec3[];
+  private readonly ways: Vec3[];
+  /** How its limb goes on from each node and is not part of the path, and the mean of how it comes and goes, both at rest. */
+  private readonly leaves: (Vec3 | null)[];
+  private readonly means: Vec3[];
+  /** Whether the next row of the path is how it goes on. */
+  private readonly goesOn: boolean[];
 
-  constructor(
-    table: TreeTable,
-    private readonly path: readonly number[],
-  ) {
-    const asides = path.map((row, i) => {
-      const next = table.limbs.onward[row]!;
-      return next >= 0 && next !== path[i + 1] ? next : -1;
-    });
-    const count = 1 + path.length + asides.filter((next) => next >= 0).length;
+  constructor(table: TreeTable, path: readonly number[]) {
+    const count = 1 + path.length;
+    const { placed, across } = table.course;
     this.position = new Float32Array(3 * count);
-    this.parent = new Int32Array(count).fill(-1);
-    this.successor = new Int32Array(count).fill(-1);
+    this.across = new Float32Array(3 * count);
+    this.parent = Int32Array.from({ length: count }, (_, i) => i - 1);
     this.startsAxis = new Uint8Array(count);
     this.orientations = new Float32Array(4 * count);
+    this.asides = path.map((row) => difference(vectorOf(placed, row), placeOf(table, row)));
+    this.ways = path.map((row) => vectorOf(across, row));
+    this.leaves = path.map((row, i) => {
+      const next = table.limbs.onward[row]!;
+      return next < 0 || next === path[i + 1] ? null : difference(vectorOf(placed, next), vectorOf(placed, row));
+    });
     const below = table.parent[path[0] ?? 0] ?? -1;
     if (below >= 0) {
-      this.position.set(placeOf(table, below));
+      this.position.set(vectorOf(placed, below));
+      this.across.set(vectorOf(across, below));
       this.orientations.set(table.orientations.subarray(4 * below, 4 * below + 4));
       // The node below a seed has no orientation to continue from.
       this.parent[0] = table.parent[below]! < 0 ? -1 : 0;
+    } else {
+      this.parent[1] = -1;
     }
-    let aside = 1 + path.length;
-    for (const [i, row] of path.entries()) {
-      this.parent[i + 1] = below < 0 && i === 0 ? -1 : i;
-      this.startsAxis[i + 1] = table.limbs.begins[row]!;
-      this.position.set(placeOf(table, row), 3 * (i + 1));
-      const next = asides[i]!;
-      if (next < 0) {
-        if (table.limbs.onward[row] === path[i + 1] && i + 1 < path.length) this.successor[i + 1] = i + 2;
-        continue;
-      }
-      this.successor[i + 1] = aside;
-      this.parent[aside] = i + 1;
-      this.asideRest.push({ from: i, place: placeOf(table, next) });
-      this.position.set(placeOf(table, next), 3 * aside);
-      aside += 1;
-    }
+    for (const [i, row] of path.entries()) this.startsAxis[i + 1] = table.limbs.begins[row]!;
+    this.goesOn = path.map((row, i) => table.limbs.onward[row] === path[i + 1]);
+    for (const [i, row] of path.entries()) this.position.set(vectorOf(placed, row), 3 * (i + 1));
+    this.means = path.map((_, i) => this.meanAt(i, [0, 0, 0, 1]));
+    for (const [i, way] of this.ways.entries()) this.across.set(way, 3 * (i + 1));
     for (let i = 1; i <= path.length; i += 1) updateOrientation(this, this.orientations, i);
   }
 
   /** Brings places and orientations to where these motions have them. */
-  move(rotations: readonly Rotation[], rest: readonly Vec3[], ends: readonly Vec3[]): void {
-    const { length } = this.path;
-    for (const [i, end] of ends.entries()) this.position.set(end, 3 * (i + 1));
-    for (const [k, { from, place }] of this.asideRest.entries()) {
-      const [base, end] = [rest[from]!, ends[from]!];
-      const [x, y, z] = rotated(rotations[from]!, [place[0] - base[0], place[1] - base[1], place[2] - base[2]]);
-      this.position.set([x + end[0], y + end[1], z + end[2]], 3 * (1 + length + k));
+  move(rotations: readonly Rotation[], ends: readonly Vec3[]): void {
+    const count = rotations.length;
+    for (let i = 0; i < count; i += 1) {
+      const [x, y, z] = rotated(rotations[i]!, this.asides[i]!);
+      const end = ends[i]!;
+      this.position.set([end[0] + x, end[1] + y, end[2] + z], 3 * (i + 1));
     }
-    for (let i = 1; i <= length; i += 1) updateOrientation(this, this.orientations, i);
+    for (let i = 0; i < count; i += 1) {
+      const swing = between(this.means[i]!, this.meanAt(i, rotations[i]!));
+      this.across.set(rotated(swing, this.ways[i]!), 3 * (i + 1));
+    }
+    for (let i = 1; i <= count; i += 1) updateOrientation(this, this.orientations, i);
+  }
+
+  /** The mean of how a limb comes to a node and goes on, which its row turns like this. */
+  private meanAt(i: number, rotation: Rotation): Vec3 {
+    const here = vectorOf(this.position, i + 1);
+    const comes = this.parent[i + 1]! < 0 ? null : difference(here, vectorOf(this.position, i));
+    const aside = this.leaves[i]!;
+    const next = this.goesOn[i] ? difference(vectorOf(this.position, i + 2), here) : null;
+    return unit(sum(unit(comes ?? [0, 0, 0]), unit((aside && rotated(rotation, aside)) ?? next ?? [0, 0, 0])));
   }
 }
 
+/** The shortest rotation from one direction to another. */
+function between(a: Vec3, b: Vec3): Rotation {
+  const w = 1 + a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  const [x, y, z] = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const length = Math.hypot(x, y, z, w);
+  return length < 1e-6 ? [0, 0, 0, 1] : [x / length, y / length, z / length, w / length];
+}
+
+/** Of length 1, or of none. */
+function unit(v: Vec3): Vec3 {
+  const length = Math.hypot(...v);
+  return length < 1e-6 ? [0, 0, 0] : [v[0] / length, v[1] / length, v[2] / length];
+}
+
+function sum(a: Vec3, b: Vec3): Vec3 {
+  return [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+}
+
+function difference(a: Vec3, b: Vec3): Vec3 {
+  return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+}
+
 function placeOf({ position }: TreeTable, row: number): Vec3 {
-  return [position[3 * row]!, position[3 * row + 1]!, position[3 * row + 2]!];
+  return vectorOf(position, row);
+}
+
+function vectorOf(of: Float32Array, row: number): Vec3 {
+  return [of[3 * row]!, of[3 * row + 1]!, of[3 * row + 2]!];
 }

@@ -98,7 +98,7 @@ export class Ghost {
       this.leaves.update(table, row);
       if (table.radiusCode[row] === 0) continue;
       for (const axis of [0, 1, 2] as const) {
-        const at = table.position[3 * row + axis]!;
+        const at = table.course.placed[3 * row + axis]!;
         low[axis] = Math.min(low[axis], at);
         high[axis] = Math.max(high[axis], at);
       }

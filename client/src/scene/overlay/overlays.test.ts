@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { sampleTree } from "../../../test/sample-tree";
+import { type Twig, tableOf } from "../../../test/small-tree";
 import type { ChunkChange } from "../../wire/frame";
 import { CHUNK_ROWS, POSITION_STEPS } from "../../wire/generated";
 import { normalOf } from "../table/node-orientations";
@@ -114,6 +115,29 @@ describe("a bent path", () => {
       if (!carried(row) || path.includes(row)) continue;
       const normal = rotated(QUARTER, normalOf(table.orientations, row));
       expect(distance(normal, normalOf(after.orientations, row)), `row ${row}`).toBeLessThan(0.25);
+    }
+  });
+
+  it("at rest is drawn where thick wood runs, beside its nodes, and turns with them", () => {
+    const corner = (i: number): Twig => ({ parent: i, at: [(i % 3) * 0.7, i + 1, 0], radius: 1.2 });
+    const table = tableOf([{ parent: -1, at: [0, 0, 0] }, ...Array.from({ length: 12 }, (_, i) => corner(i))]);
+    const path = [4, 5, 6, 7, 8, 9];
+    const bent = new BendOverlay(table, path);
+    bent.move([]);
+    const texels = written(bent, table);
+    for (const [i, row] of path.entries()) {
+      for (const k of [0, 1, 2]) expect(texels[SLOT * i + 8 + k]).toBeCloseTo(table.orientations[4 * row + k]!, 4);
+    }
+    const seen = (row: number): Vec3 => [...table.course.placed.slice(3 * row, 3 * row + 3)] as unknown as Vec3;
+    const far = (row: number) => distance(seen(row), place(table, row));
+    expect(far(6)).toBeGreaterThan(0.05);
+    const swung = swing(table, path, 2);
+    const overlays = new Overlays();
+    overlays.add(swung.bent);
+    assigned(overlays, table);
+    // As far from its node as it was, wherever that is taken.
+    for (const row of [7, 8, 9]) {
+      expect(distance(overlays.placeOf(table, row), swung.swung(row))).toBeCloseTo(far(row), 4);
     }
   });
 

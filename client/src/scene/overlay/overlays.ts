@@ -211,8 +211,8 @@ export class Overlays {
 
   /** Where a row is drawn. */
   placeOf(table: TreeTable, row: number): Vec3 {
-    const { position } = table;
-    const place: Vec3 = [position[3 * row]!, position[3 * row + 1]!, position[3 * row + 2]!];
+    const { placed } = table.course;
+    const place: Vec3 = [placed[3 * row]!, placed[3 * row + 1]!, placed[3 * row + 2]!];
     const slot = Math.abs(this.slotOf(row));
     if (slot === 0) return place;
     const at = slot * SLOT;

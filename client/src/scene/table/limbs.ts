@@ -80,6 +80,11 @@ export class Limbs {
     this.touch(node);
   }
 
+  /** Visits the living laterals of a node. */
+  eachLateral(node: number, visit: (row: number) => void): void {
+    for (let lateral = this.first[node]!; lateral !== NOBODY; lateral = this.next[lateral]!) visit(lateral);
+  }
+
   /** What a node bears has changed, in width, place or number. */
   touch(node: number): void {
     if (this.noted[node] === 1) return;

@@ -7,12 +7,12 @@
 
 /** What the orientations are computed from. */
 export interface Skeleton {
-  /** x y z per row. */
+  /** x y z per row: where it is drawn. */
   position: Float32Array;
+  /** x y z per row: the direction of the tube there. */
+  across: Float32Array;
   /** -1 for a seed. */
   parent: Int32Array;
-  /** The row that continues the same axis, or -1. */
-  successor: Int32Array;
   /** 1 where a row begins an axis. */
   startsAxis: Uint8Array;
 }
@@ -20,6 +20,8 @@ export interface Skeleton {
 type Vector = [number, number, number];
 
 const MIN_LENGTH = 1e-6;
+/** The numbers of an orientation together differ by less than this where it is the same. */
+const UNMOVED = 1e-6;
 /** A vector with less of itself than this across an axis, squared, says nothing about which way is across. */
 const MIN_ACROSS = 1e-4;
 
@@ -29,13 +31,18 @@ const TANGENT: Vector = [0, 0, 0];
 const NORMAL: Vector = [0, 0, 0];
 const BEARER: Vector = [0, 0, 0];
 const STEP: Vector = [0, 0, 0];
-const OUTGOING: Vector = [0, 0, 0];
 
-/** Writes the orientation of `row` into `orientations` (x y z w per row); says whether it moved noticeably. */
-export function updateOrientation(skeleton: Skeleton, orientations: Float32Array, row: number): boolean {
-  toNodeTangent(TANGENT, skeleton, row);
+/** Writes the orientation of `row` into `orientations` (x y z w per row), unless it moved by less than `slack`; says whether it did. */
+export function updateOrientation(
+  skeleton: Skeleton,
+  orientations: Float32Array,
+  row: number,
+  slack = UNMOVED,
+): boolean {
+  const { across } = skeleton;
+  set(TANGENT, across[3 * row]!, across[3 * row + 1]!, across[3 * row + 2]!);
   toNormal(NORMAL, skeleton, orientations, row, TANGENT);
-  return writeOrientation(orientations, row, NORMAL, TANGENT);
+  return writeOrientation(orientations, row, NORMAL, TANGENT, slack);
 }
 
 /** The third column of an orientation: its tangent. */
@@ -56,23 +63,6 @@ export function normalOf(orientations: Float32Array, row: number, out: Vector = 
   out[1] = 2 * (x * y + w * z);
   out[2] = 2 * (x * z - w * y);
   return out;
-}
-
-/** The direction of the tube at a node: the mean of the metamer that ends there and the one that goes on. */
-function toNodeTangent(out: Vector, { position, parent, successor }: Skeleton, row: number): void {
-  const [before, after] = [parent[row]!, successor[row]!];
-  const comes = before >= 0 && toDirection(out, position, before, row);
-  const goes = after >= 0 && toDirection(OUTGOING, position, row, after);
-  if (comes && goes) {
-    const [x, y, z] = [out[0] + OUTGOING[0], out[1] + OUTGOING[1], out[2] + OUTGOING[2]];
-    const length = Math.hypot(x, y, z);
-    // An axis that doubles back on itself has no mean direction; it keeps the incoming one.
-    if (length >= MIN_LENGTH) set(out, x / length, y / length, z / length);
-  } else if (goes) {
-    set(out, OUTGOING[0], OUTGOING[1], OUTGOING[2]);
-  } else if (!comes) {
-    set(out, 0, 1, 0);
-  }
 }
 
 /** A lateral takes its normal from the axis that bears it, so that its bark turns with what bears it. */
@@ -125,29 +115,37 @@ function toAnyNormal(out: Vector, tangent: Vector): void {
 }
 
 /** The quaternion of the rotation whose columns are normal, tangent and normal × tangent. */
-function writeOrientation(orientations: Float32Array, row: number, n: Vector, t: Vector): boolean {
+function writeOrientation(orientations: Float32Array, row: number, n: Vector, t: Vector, slack: number): boolean {
   const bx = n[1] * t[2] - n[2] * t[1];
   const by = n[2] * t[0] - n[0] * t[2];
   const bz = n[0] * t[1] - n[1] * t[0];
   const trace = n[0] + t[1] + bz;
   if (trace > 0) {
     const s = 2 * Math.sqrt(trace + 1);
-    return write(orientations, row, (t[2] - by) / s, (bx - n[2]) / s, (n[1] - t[0]) / s, s / 4);
+    return write(orientations, row, (t[2] - by) / s, (bx - n[2]) / s, (n[1] - t[0]) / s, s / 4, slack);
   }
   if (n[0] > t[1] && n[0] > bz) {
     const s = 2 * Math.sqrt(1 + n[0] - t[1] - bz);
-    return write(orientations, row, s / 4, (t[0] + n[1]) / s, (bx + n[2]) / s, (t[2] - by) / s);
+    return write(orientations, row, s / 4, (t[0] + n[1]) / s, (bx + n[2]) / s, (t[2] - by) / s, slack);
   }
   if (t[1] > bz) {
     const s = 2 * Math.sqrt(1 + t[1] - n[0] - bz);
-    return write(orientations, row, (t[0] + n[1]) / s, s / 4, (by + t[2]) / s, (bx - n[2]) / s);
+    return write(orientations, row, (t[0] + n[1]) / s, s / 4, (by + t[2]) / s, (bx - n[2]) / s, slack);
   }
   const s = 2 * Math.sqrt(1 + bz - n[0] - t[1]);
-  return write(orientations, row, (bx + n[2]) / s, (by + t[2]) / s, s / 4, (n[1] - t[0]) / s);
+  return write(orientations, row, (bx + n[2]) / s, (by + t[2]) / s, s / 4, (n[1] - t[0]) / s, slack);
 }
 
 /** One of the two quaternions of a rotation: w is not negative, so that three numbers are enough to store it. */
-function write(orientations: Float32Array, row: number, x: number, y: number, z: number, w: number): boolean {
+function write(
+  orientations: Float32Array,
+  row: number,
+  x: number,
+  y: number,
+  z: number,
+  w: number,
+  slack: number,
+): boolean {
   const sign = w < 0 ? -1 : 1;
   const at = 4 * row;
   const moved =
@@ -155,11 +153,12 @@ function write(orientations: Float32Array, row: number, x: number, y: number, z:
     Math.abs(orientations[at + 1]! - sign * y) +
     Math.abs(orientations[at + 2]! - sign * z) +
     Math.abs(orientations[at + 3]! - sign * w);
+  if (moved < slack) return false;
   orientations[at] = sign * x;
   orientations[at + 1] = sign * y;
   orientations[at + 2] = sign * z;
   orientations[at + 3] = sign * w;
-  return !(moved < 1e-6);
+  return true;
 }
 
 function toDifference(out: Vector, position: Float32Array, from: number, to: number): void {
@@ -168,18 +167,9 @@ function toDifference(out: Vector, position: Float32Array, from: number, to: num
   out[2] = position[3 * to + 2]! - position[3 * from + 2]!;
 }
 
-/** Says whether there is one. */
-function toDirection(out: Vector, position: Float32Array, from: number, to: number): boolean {
-  toDifference(out, position, from, to);
-  return normalise(out);
-}
-
-/** Says whether it could be. */
-function normalise(v: Vector): boolean {
-  const length = Math.hypot(v[0], v[1], v[2]);
-  if (length < MIN_LENGTH) return false;
-  set(v, v[0] / length, v[1] / length, v[2] / length);
-  return true;
+function normalise(v: Vector): void {
+  const length = Math.sqrt(dot(v, v));
+  if (length >= MIN_LENGTH) set(v, v[0] / length, v[1] / length, v[2] / length);
 }
 
 /** Takes a multiple of one vector from another. */

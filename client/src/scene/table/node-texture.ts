@@ -1,6 +1,7 @@
 import { DataTexture, FloatType, NearestFilter, RGBAFormat } from "three";
 import { CHUNK_ROWS } from "../../wire/generated";
 import { grown } from "./column";
+import type { PlaceEase } from "./place-ease";
 import { EASE_SECONDS, eased } from "./radius-ease";
 import type { TreeTable } from "./tree-table";
 
@@ -56,9 +57,10 @@ export class NodeTexture {
     const { texels } = this;
     const at = 4 * TEXELS * row;
     const onward = table.limbs.onward[row]!;
-    texels[at] = table.position[3 * row]!;
-    texels[at + 1] = table.position[3 * row + 1]!;
-    texels[at + 2] = table.position[3 * row + 2]!;
+    const { placed, arc } = table.course;
+    texels[at] = placed[3 * row]!;
+    texels[at + 1] = placed[3 * row + 1]!;
+    texels[at + 2] = placed[3 * row + 2]!;
     texels[at + 3] = table.girth.radius[row]!;
     const parent = table.parent[row]!;
     // A seed is drawn as thick as its trunk, which spreads at its foot by that measure all the way up.
@@ -73,7 +75,7 @@ export class NodeTexture {
     texels[at + 8] = table.birth[row]!;
     texels[at + 9] = table.growing[row]!;
     texels[at + 10] = onward < 0 ? NEVER : table.birth[onward]!;
-    texels[at + 11] = table.arc[row]!;
+    texels[at + 11] = arc[row]!;
     this.stale.add(Math.floor(row / CHUNK_ROWS));
   }
 
@@ -101,6 +103,22 @@ export class NodeTexture {
     const at = 4 * TEXELS * row;
     this.texels[at + 8] = now;
     this.texels[at + 9] = -from;
+    this.stale.add(Math.floor(row / CHUNK_ROWS));
+  }
+
+  /** Notes where a row is shown, which is about to be written anew. */
+  notePlace(places: PlaceEase, row: number): void {
+    if (this.shows(row)) places.note(row, this.texels, 4 * TEXELS * row);
+  }
+
+  /** Shows a row on its way from a place to its own, of which so much is left. */
+  glide(table: TreeTable, row: number, from: Float32Array, at: number, left: number): void {
+    const { placed } = table.course;
+    const to = 4 * TEXELS * row;
+    for (let axis = 0; axis < 3; axis += 1) {
+      const own = placed[3 * row + axis]!;
+      this.texels[to + axis] = own + left * (from[at + axis]! - own);
+    }
     this.stale.add(Math.floor(row / CHUNK_ROWS));
   }
 

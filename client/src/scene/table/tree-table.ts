@@ -3,6 +3,7 @@ import { CHUNK_ROWS, MIN_RADIUS, POSITION_STEPS, RADIUS_LOG_STEP } from "../../w
 import { Bounds } from "./bounds";
 import { Cascade } from "./cascade";
 import { grown } from "./column";
+import { Course } from "./course";
 import { Girth } from "./girth";
 import { Limbs } from "./limbs";
 import { type Skeleton, updateOrientation } from "./node-orientations";
@@ -15,6 +16,8 @@ export const Dirty = {
   Shape: 2,
 } as const;
 
+/** Numbers of an orientation that differ by less together are not worth to turn a whole tree's bark for. */
+const UNSEEN_TURN = 0.03;
 /** Births this far back mean that a row never eased in. */
 const LONG_AGO = -1000;
 /** Positions beyond this many internodes are not a tree; the server's limit is 1000 plus what grows past it. */
@@ -31,8 +34,15 @@ export function radiusOf(code: number): number {
   return RADII[code]!;
 }
 
+const NOTHING: Skeleton = {
+  position: new Float32Array(0),
+  across: new Float32Array(0),
+  parent: new Int32Array(0),
+  startsAxis: new Uint8Array(0),
+};
+
 /** The table of rows a session's frames build, with what drawing them needs derived. */
-export class TreeTable implements Skeleton {
+export class TreeTable {
   /** How many rows. */
   rows = 0;
   /** Epoch of the frames applied; 0 while there are none. */
@@ -64,7 +74,9 @@ export class TreeTable implements Skeleton {
   readonly limbs = new Limbs();
   /** How thick they are drawn. */
   readonly girth = new Girth();
-  /** Length along the limb from where it begins, in internodes. */
+  /** Where they are drawn. */
+  readonly course = new Course();
+  /** Length along the limb's nodes from where it begins, in internodes. */
   arc = new Float32Array(0);
   /** The row at which the limb begins, which belongs to the limb that bears it. */
   limbOrigin = new Int32Array(0);
@@ -84,10 +96,11 @@ export class TreeTable implements Skeleton {
   };
   private staleOrientations = new Uint8Array(0);
   private moved = new Uint8Array(0);
-  private turned = new Uint8Array(0);
+  /** Which of those turn with the node below them alone. */
+  private follows = new Uint8Array(0);
   private firstStale = Number.POSITIVE_INFINITY;
   /** What orientations are computed from: limbs as they are drawn. */
-  private drawn: Skeleton = this;
+  private drawn: Skeleton = NOTHING;
   private readonly extent = new Bounds();
   private readonly start: number;
 
@@ -109,6 +122,19 @@ export class TreeTable implements Skeleton {
   bounds(): Bounds {
     this.extent.refresh(this);
     return this.extent;
+  }
+
+  /** Visits the living rows that grow from a node. */
+  eachChild(node: number, visit: (row: number) => void): void {
+    if (this.successor[node]! >= 0) visit(this.successor[node]!);
+    this.limbs.eachLateral(node, visit);
+  }
+
+  /** How far trunks spread at their feet, and whether wood is drawn without corners; says whether rows change by it. */
+  shape(flare: number, rounded: boolean): boolean {
+    if (!this.course.shape(flare, rounded)) return false;
+    this.derive();
+    return true;
   }
 
   /** The radius in internodes that the server has for a row; 0 for the dead, and a seed has its trunk's. */
@@ -377,39 +403,60 @@ export class TreeTable implements Skeleton {
     this.settledAt = Math.max(this.settledAt, last);
   }
 
-  /** Brings limbs, orientations, arcs and girth up to date, in row order so that parents come first. */
+  /** Brings limbs, arcs, girth, courses and orientations up to date, in row order so that parents come first. */
   private derive(): void {
     this.limbs.judge(this, (row) => {
       this.markStale(row);
       this.girth.touch(row);
       this.mark(row, Dirty.Drawn);
     });
+    this.measureStale();
+    this.girth.derive(this, (row) => {
+      this.course.thicken(row);
+      this.mark(row, Dirty.Drawn);
+    });
+    this.course.derive(this, (row) => {
+      this.markStale(row);
+      this.mark(row, Dirty.Drawn);
+    });
     this.orient();
-    this.girth.derive(this, (row) => this.mark(row, Dirty.Drawn));
+  }
+
+  private measureStale(): void {
+    const { moved, limbs, staleOrientations: stale } = this;
+    const follow = (row: number) => {
+      this.mark(row, Dirty.Drawn | Dirty.Shape);
+      this.markStale(row);
+    };
+    for (let row = stale.indexOf(1, this.firstStale); row >= 0; row = stale.indexOf(1, row + 1)) {
+      if (moved[row] === 1) {
+        moved[row] = 0;
+        this.eachChild(row, follow);
+      }
+      this.course.touch(row);
+      if (!this.measure(row, this.parent[row]!)) continue;
+      this.mark(row, Dirty.Drawn);
+      this.girth.touch(row);
+      if (limbs.onward[row]! >= 0) this.markStale(limbs.onward[row]!);
+    }
   }
 
   private orient(): void {
-    for (let row = this.firstStale; row < this.rows; row += 1) {
-      const parent = this.parent[row]!;
-      if (parent >= 0 && this.moved[parent] === 1) {
-        this.mark(row, Dirty.Drawn | Dirty.Shape);
-        this.staleOrientations[row] = 1;
-      }
-      // A lateral's orientation follows from the one of the node that bears it.
-      if (parent >= 0 && this.turned[parent] === 1) this.staleOrientations[row] = 1;
-      if (this.staleOrientations[row] === 0) continue;
-      this.staleOrientations[row] = 0;
-      const turned = updateOrientation(this.drawn, this.orientations, row);
-      if (turned) this.turned[row] = 1;
-      const measured = this.measure(row, parent);
-      if (!turned && !measured) continue;
+    const { drawn, orientations, follows, staleOrientations: stale } = this;
+    // A lateral's orientation follows from the one of the node that bears it.
+    const follow = (row: number) => {
+      if (stale[row] === 1) return;
+      stale[row] = 1;
+      follows[row] = 1;
+    };
+    for (let row = stale.indexOf(1, this.firstStale); row >= 0; row = stale.indexOf(1, row + 1)) {
+      stale[row] = 0;
+      const slack = follows[row] === 1 ? UNSEEN_TURN : undefined;
+      follows[row] = 0;
+      if (!updateOrientation(drawn, orientations, row, slack)) continue;
       this.mark(row, Dirty.Drawn);
-      if (measured) this.girth.touch(row);
-      const onward = this.limbs.onward[row]!;
-      if (onward >= 0) this.staleOrientations[onward] = 1;
+      this.eachChild(row, follow);
     }
-    this.moved.fill(0, Math.min(this.firstStale, this.rows), this.rows);
-    this.turned.fill(0, Math.min(this.firstStale, this.rows), this.rows);
     this.firstStale = Number.POSITIVE_INFINITY;
   }
 
@@ -455,12 +502,13 @@ export class TreeTable implements Skeleton {
     this.growing = grown(this.growing, capacity);
     this.staleOrientations = grown(this.staleOrientations, capacity);
     this.moved = grown(this.moved, capacity);
-    this.turned = grown(this.turned, capacity);
+    this.follows = grown(this.follows, capacity);
     this.dirty.bits = grown(this.dirty.bits, capacity);
     this.limbs.reserve(capacity);
     this.girth.reserve(capacity);
-    const { position, parent } = this;
-    this.drawn = { position, parent, successor: this.limbs.onward, startsAxis: this.limbs.begins };
+    this.course.reserve(capacity);
+    const { placed: position, across } = this.course;
+    this.drawn = { position, across, parent: this.parent, startsAxis: this.limbs.begins };
   }
 }
 

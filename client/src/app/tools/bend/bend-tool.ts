@@ -304,7 +304,7 @@ export class BendTool implements GripTool {
     }
     const fingerOf = new Map(dragged.map(([id, { row }]) => [row, id]));
     const touches = hold.touches.slice(0, MAX_BEND_TOUCHES).map((row): Touch => {
-      const rest = view.placeOf(row);
+      const rest = nodeOf(table, row);
       const id = fingerOf.get(row);
       const finger = id === undefined ? undefined : this.#fingers.get(id);
       const now = finger?.regrips ? view.pointOnPlane(finger.x, finger.y, finger.point) : null;
@@ -312,7 +312,7 @@ export class BendTool implements GripTool {
     });
     const { path } = hold;
     const overlay = new BendOverlay(table, path);
-    const nodes = [view.placeOf(table.parent[path[0] ?? 0] ?? 0), ...path.map((row) => view.placeOf(row))];
+    const nodes = [table.parent[path[0] ?? 0] ?? 0, ...path].map((row) => nodeOf(table, row));
     const radii = path.map((row) => radiusOf(table.radiusCode[row] ?? 0));
     const number = newBend();
     this.#bending = {
@@ -423,4 +423,9 @@ export class BendTool implements GripTool {
 /** Whether two rows are the same place to a finger. */
 function near(table: TreeTable, a: number, b: number): boolean {
   return a === b || table.parent[a] === b || table.parent[b] === a;
+}
+
+/** Where a row's metamer ends: what bends is its nodes, which thick wood is drawn beside. */
+function nodeOf({ position }: TreeTable, row: number): Vec3 {
+  return [position[3 * row] ?? 0, position[3 * row + 1] ?? 0, position[3 * row + 2] ?? 0];
 }

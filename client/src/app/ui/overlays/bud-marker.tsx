@@ -35,8 +35,8 @@ export function BudMarker({ studio }: { studio: Studio }) {
     return null;
   }
   function positionOf(at: number): Vec3 {
-    const { position } = table;
-    return [position[3 * at] ?? 0, position[3 * at + 1] ?? 0, position[3 * at + 2] ?? 0];
+    const { placed } = table.course;
+    return [placed[3 * at] ?? 0, placed[3 * at + 1] ?? 0, placed[3 * at + 2] ?? 0];
   }
   return (
     <svg class="overlay bud" aria-hidden="true">
