@@ -45,6 +45,8 @@ pub struct Growth {
     /// Markers for growth without guidance; made when they are needed.
     pub(crate) field: Option<MarkerField>,
     pub(crate) canopy: Canopy,
+    /// Whether the light of the present is still to be read: edits often follow each other before anybody needs it.
+    pub(crate) is_blind: bool,
     pub(crate) claims: Claims,
     /// Steps after which, up to which, what was born is never shed.
     pub(crate) kept: Vec<(u32, u32)>,
@@ -62,6 +64,7 @@ impl Growth {
             enclosures: state.enclosures,
             field: None,
             canopy: Canopy::default(),
+            is_blind: false,
             claims: Claims::default(),
             kept: Vec::new(),
         };
@@ -85,7 +88,7 @@ impl Growth {
         if !same_shadows {
             scene.rebuild(self.parameters.scene());
         }
-        self.start_over(scene);
+        self.start_over();
     }
 
     /// From now on no axis is shed that began after the first and up to the second of any of these pairs of steps, nor
@@ -166,29 +169,39 @@ impl Growth {
     }
 
     pub(crate) fn show(&mut self, scene: &mut Scene) {
+        self.look(scene);
         self.canopy.write_conditions(scene, &self.parameters);
     }
 
     pub(crate) fn take_in(&mut self, scene: &Scene, change: &Change) {
         match change {
-            Change::Edited => self.start_over(scene),
+            Change::Edited => self.start_over(),
             Change::Travelled(shift) => self.travel(scene, shift),
         }
     }
 
-    /// Forgets what follows from the scene, and reads the light of the present.
-    fn start_over(&mut self, scene: &Scene) {
+    /// Forgets what follows from the scene.
+    fn start_over(&mut self) {
         self.field = None;
         self.canopy.forget();
-        self.see_light(scene, &[], &mut NoObserver);
+        self.is_blind = true;
+    }
+
+    /// Reads the light of the present, where that was put off.
+    pub(crate) fn look(&mut self, scene: &Scene) {
+        if self.is_blind {
+            self.is_blind = false;
+            self.see_light(scene, &[], &mut NoObserver);
+        }
     }
 
     fn travel(&mut self, scene: &Scene, shift: &TimeShift) {
         self.drop_guidance();
+        if shift.is_edited || self.is_blind {
+            return self.start_over();
+        }
         self.field = None;
-        if shift.is_edited {
-            self.canopy.forget();
-        } else if !shift.metamers_out.is_empty() {
+        if !shift.metamers_out.is_empty() {
             self.canopy.retreat(&scene.plant, &self.parameters);
         }
         let gone = shift.metamers_out.iter().map(|&(_, place)| place);

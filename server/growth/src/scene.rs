@@ -140,13 +140,26 @@ impl Scene {
     /// Goes to a recorded step, back or forth; shadows and buds follow exactly.
     pub(crate) fn go_to(&mut self, step: u32) -> TimeShift {
         let shift = self.plant.go_to(step);
+        let moved = || shift.moved.iter().copied();
+        let went = shift.metamers_out.iter().chain(&shift.moved).copied().collect();
+        let came = shift.metamers_in.iter().copied().chain(moved().map(|(id, _)| id)).collect();
+        self.update(went, came, shift.axes.iter().copied());
+        shift
+    }
+
+    /// Lets light and space follow what has happened to the plants: nodes that were here and are not, metamers whose nodes
+    /// are here now, and axes whose buds came, went or moved.
+    fn update(
+        &mut self,
+        went: Vec<(MetamerId, Vec3)>,
+        came: Vec<MetamerId>,
+        axes: impl Iterator<Item = AxisId> + Send,
+    ) {
         let Self { plant, space, shadows, obstacles, .. } = self;
         let plant = &*plant;
-        let moved = shift.moved.iter().map(|&(id, _)| (id, plant.metamers().end(id)));
-        let came = shift.metamers_in.iter().map(|&id| (id, plant.metamers().end(id)));
         // In the order of their places, for the same reason as what has grown (see `Growth::settle`).
-        let went = nearest_together(shift.metamers_out.iter().chain(&shift.moved).copied());
-        let came = nearest_together(came.chain(moved));
+        let went = nearest_together(went);
+        let came = nearest_together(came.into_iter().map(|id| (id, plant.metamers().end(id))).collect());
         came.iter().for_each(|&(_, node)| obstacles.survey_sky(node));
         let is_wood = |&&(id, _): &&(MetamerId, Vec3)| !plant.is_seed(id);
         let update_shadows = || {
@@ -156,23 +169,12 @@ impl Scene {
         let update_space = || {
             went.iter().for_each(|&(id, node)| space.vacate(id, node));
             came.iter().for_each(|&(id, node)| space.occupy(id, node));
-            shift.axes.iter().for_each(|&axis| replace_bud(plant, space, axis));
+            axes.for_each(|axis| replace_bud(plant, space, axis));
         };
         rayon::join(update_shadows, update_space);
-        shift
     }
 
-    /// Casts the shadow of a living metamer and occupies its node.
-    pub(crate) fn enter(&mut self, id: MetamerId) {
-        let node = self.plant.metamers().end(id);
-        self.space.occupy(id, node);
-        self.obstacles.survey_sky(node);
-        if !self.plant.is_seed(id) {
-            self.shadows.cast(node);
-        }
-    }
-
-    /// Undoes [`Scene::enter`], for a metamer whose node was here.
+    /// Lets a metamer leave whose node was here.
     pub(crate) fn leave(&mut self, id: MetamerId, node: Vec3) {
         self.space.vacate(id, node);
         if !self.plant.is_seed(id) {
@@ -184,20 +186,10 @@ impl Scene {
     pub(crate) fn rebuild(&mut self, shade: &Parameters) {
         self.shadows = ShadowGrid::new(shade);
         self.space = Space::new();
-        for index in 0..self.plant.metamer_count() {
-            let id = MetamerId::new(index);
-            if self.plant.is_alive(id) {
-                self.enter(id);
-            }
-        }
-        for index in 0..self.plant.axis_count() {
-            self.replace_bud(AxisId::new(index));
-        }
-    }
-
-    /// Puts the bud of an axis where the plant says it is now, or nowhere.
-    fn replace_bud(&mut self, axis: AxisId) {
-        replace_bud(&self.plant, &mut self.space, axis);
+        let rows = (0..self.plant.metamer_count()).map(MetamerId::new);
+        let living = rows.filter(|&id| self.plant.is_alive(id)).collect();
+        let axes = (0..self.plant.axis_count()).map(AxisId::new);
+        self.update(Vec::new(), living, axes);
     }
 }
 
@@ -212,8 +204,7 @@ fn replace_bud(plant: &Plant, space: &mut Space, axis: AxisId) {
 }
 
 /// Nodes in the order of their places.
-fn nearest_together(nodes: impl Iterator<Item = (MetamerId, Vec3)>) -> Vec<(MetamerId, Vec3)> {
-    let nodes: Vec<(MetamerId, Vec3)> = nodes.collect();
+fn nearest_together(nodes: Vec<(MetamerId, Vec3)>) -> Vec<(MetamerId, Vec3)> {
     let order = nearby_order(nodes.iter().enumerate().map(|(i, &(_, node))| (i, node)));
     order.into_iter().map(|i| nodes[i as usize]).collect()
 }

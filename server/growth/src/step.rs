@@ -48,6 +48,7 @@ impl Generator for Growth {
     type Input = StepInput;
 
     fn step(&mut self, scene: &mut Scene, input: &StepInput, observer: &mut impl Observer) -> StepOutcome {
+        self.look(scene);
         self.tick = self.tick.wrapping_add(1);
         scene.begin_step();
         let born = scene.plant.metamer_count();

@@ -1,7 +1,5 @@
 //! A step while it is recorded. Light and space follow when it ends.
 
-use std::collections::BTreeMap;
-
 use espalier_plant::{AxisId, BadColumns, Carried, Internode, MetamerId, Motion};
 use glam::Vec3;
 
@@ -16,8 +14,8 @@ pub struct Recording<'a> {
     /// Rows of metamers and axes there were before.
     before: (usize, usize),
     gone: Vec<MetamerId>,
-    /// What has moved, and where it was before the step.
-    moved: BTreeMap<MetamerId, Vec3>,
+    /// What has moved, and where it was before that; what moved twice within the step stands here twice.
+    moved: Vec<(MetamerId, Vec3)>,
 }
 
 impl Scene {
@@ -38,7 +36,7 @@ impl Scene {
 impl<'a> Recording<'a> {
     fn run<T>(scene: &'a mut Scene, change: impl FnOnce(&mut Self) -> T) -> T {
         let before = (scene.plant.metamer_count(), scene.plant.axis_count());
-        let mut recording = Self { scene, before, gone: Vec::new(), moved: BTreeMap::new() };
+        let mut recording = Self { scene, before, gone: Vec::new(), moved: Vec::new() };
         let done = change(&mut recording);
         recording.end();
         done
@@ -109,8 +107,10 @@ impl<'a> Recording<'a> {
     }
 
     fn note_moved(&mut self, moved: Vec<(MetamerId, Vec3)>) {
-        for (id, was) in moved {
-            self.moved.entry(id).or_insert(was);
+        if self.moved.is_empty() {
+            self.moved = moved;
+        } else {
+            self.moved.extend(moved);
         }
     }
 
@@ -119,27 +119,31 @@ impl<'a> Recording<'a> {
         scene.plant.end_step();
         let buds_turn = !self.gone.is_empty() || !self.moved.is_empty();
         let (born, born_axes) = self.before;
-        for id in self.gone.into_iter().filter(|id| id.index() < born) {
-            let node = self.moved.remove(&id).unwrap_or_else(|| scene.plant.metamers().end(id));
-            scene.leave(id, node);
-        }
-        for (&id, &node) in &self.moved {
-            scene.leave(id, node);
-        }
-        for &id in self.moved.keys() {
-            scene.enter(id);
-        }
-        for id in (born..scene.plant.metamer_count()).map(MetamerId::new) {
-            if scene.plant.is_alive(id) {
-                scene.enter(id);
-            }
-            let axis = scene.plant.metamers().axis(id);
-            scene.replace_bud(axis);
-        }
-        // Buds sit at nodes, and turn with the wood below them.
-        let changed = if buds_turn { 0 } else { born_axes };
-        for axis in (changed..scene.plant.axis_count()).map(AxisId::new) {
-            scene.replace_bud(axis);
-        }
+        let plant = &scene.plant;
+        // Where each was first; the sort keeps those of one metamer in their order.
+        self.moved.sort_by_key(|&(id, _)| id);
+        self.moved.dedup_by_key(|&mut (id, _)| id);
+        let mut gone: Vec<MetamerId> = self.gone.into_iter().filter(|id| id.index() < born).collect();
+        gone.sort_unstable();
+        let was_at = |id: MetamerId| match self.moved.binary_search_by_key(&id, |&(id, _)| id) {
+            Ok(at) => self.moved[at].1,
+            Err(_) => plant.metamers().end(id),
+        };
+        let mut went: Vec<(MetamerId, Vec3)> = gone.iter().map(|&id| (id, was_at(id))).collect();
+        self.moved.retain(|(id, _)| gone.binary_search(id).is_err());
+        went.extend_from_slice(&self.moved);
+        let born = (born..plant.metamer_count()).map(MetamerId::new);
+        let living = born.clone().filter(|&id| plant.is_alive(id));
+        let came = self.moved.iter().map(|&(id, _)| id).chain(living).collect();
+        // Buds sit at nodes, and turn with the wood below them. Otherwise those of axes that have grown are elsewhere.
+        let mut changed: Vec<AxisId> = match buds_turn {
+            true => Vec::new(),
+            false => born.map(|id| plant.metamers().axis(id)).filter(|id| id.index() < born_axes).collect(),
+        };
+        changed.sort_unstable();
+        changed.dedup();
+        let from = if buds_turn { 0 } else { born_axes };
+        let axes = (from..plant.axis_count()).map(AxisId::new);
+        scene.update(went, came, changed.into_iter().chain(axes));
     }
 }
