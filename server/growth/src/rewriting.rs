@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use espalier_plant::{AxisId, Carried, DormantBuds, Internode, MetamerId, Plant, Wood};
+use espalier_plant::{AxisId, Carried, DormantBuds, Internode, KeyTable, MetamerId, Plant, Wood};
 use glam::{Mat3, Quat, Vec3};
 
 use crate::{
@@ -71,7 +71,8 @@ impl Rewriting<'_> {
         if !self.now.wood.nodes.iter().all(|node| is_in_world(node.end + self.at)) {
             return Err(EditError::OutOfWorld);
         }
-        let is_known = |key: &&u64| self.row(**key).is_some();
+        let table = self.table();
+        let is_known = |key: &&u64| table.get(**key).is_some();
         let known = self.now.keys.iter().filter(is_known).count();
         let count = scene.plant().metamer_count() + self.now.keys.len() - known;
         if count > scene.metamer_budget() as usize { Err(EditError::OutOfBudget) } else { Ok(()) }
@@ -98,14 +99,15 @@ impl Rewriting<'_> {
         Ok(Rewritten { rows: writer.rows(), moved })
     }
 
-    fn row(&self, key: u64) -> Option<MetamerId> {
-        let at = self.rows.binary_search_by_key(&key, |&(key, _)| key).ok()?;
-        Some(MetamerId::new(self.rows[at].1 as usize))
+    /// Where names stand among the rows.
+    fn table(&self) -> KeyTable {
+        KeyTable::new(self.rows.iter().map(|&(key, _)| key))
     }
 }
 
 struct Writer<'a> {
     rewriting: &'a Rewriting<'a>,
+    table: KeyTable,
     parameters: &'a Parameters,
     /// The axes that nodes bear: bearers and axes, in order.
     borne: Vec<(u32, u32)>,
@@ -141,6 +143,7 @@ impl<'a> Writer<'a> {
         debug_assert!(plant.metamer_count() >= 1, "plants begin with a seed");
         Self {
             rewriting,
+            table: rewriting.table(),
             parameters,
             borne,
             first,
@@ -153,6 +156,11 @@ impl<'a> Writer<'a> {
             buds: vec![None; count],
             rows: vec![None; count],
         }
+    }
+
+    /// The row that a name had.
+    fn row(&self, key: u64) -> Option<MetamerId> {
+        self.table.get(key).map(|at| MetamerId::new(self.rewriting.rows[at].1 as usize))
     }
 
     fn wood(&self) -> &'a Wood {
@@ -195,7 +203,7 @@ impl<'a> Writer<'a> {
 
     fn fate(&self, plant: &Plant, number: usize) -> Fate {
         let node = self.wood().nodes[number];
-        let known = self.rewriting.row(self.rewriting.now.keys[number]);
+        let known = self.row(self.rewriting.now.keys[number]);
         let Some(parent) = node.parent else {
             let is_seed = |id: &MetamerId| id.index() < plant.metamer_count() && plant.is_seed(*id);
             let unused = || (number == 0).then(|| unused_seed(plant, node.end + self.rewriting.at)).flatten();
@@ -272,8 +280,10 @@ impl<'a> Writer<'a> {
                     // In proportion to short wood, or what stands nearly there would not be across its normal.
                     let near = MOVED * along.length().min(1.0);
                     let is_there = to.distance(was) <= near && across.distance(normal) <= near;
-                    let old = frame(plant.heading(id), normal);
-                    (!is_there).then(|| (to, across, frame(heading, across) * old.inverse()))
+                    (!is_there).then(|| {
+                        let old = frame(plant.heading(id), normal);
+                        (to, across, frame(heading, across) * old.inverse())
+                    })
                 }
                 None => {
                     let turned = turns[parent.index()]?;
@@ -344,6 +354,8 @@ impl<'a> Writer<'a> {
         let wood = self.wood();
         let mut axes: Vec<Option<AxisId>> = vec![None; wood.axes.len()];
         let mut radii = Vec::new();
+        // Where the axes that nodes bear begin among all of them, and room for the directions of those of one.
+        let (mut from, mut directions) = (0, Vec::new());
         for (number, node) in wood.nodes.iter().enumerate() {
             match self.fates[number] {
                 Fate::Stays(row) => self.rows[number] = Some(row),
@@ -361,7 +373,13 @@ impl<'a> Writer<'a> {
                         continue;
                     }
                     axes[node.axis as usize] = Some(axis);
-                    self.rows[number] = self.extend(step, number, axis, &mut axes);
+                    let borne = &self.borne[from..];
+                    from += borne.iter().take_while(|&&(bearer, _)| (bearer as usize) < number).count();
+                    let borne = &self.borne[from..];
+                    let count = borne.iter().take_while(|&&(bearer, _)| bearer as usize == number).count();
+                    directions.clear();
+                    let laterals = &borne[..count];
+                    self.rows[number] = self.extend(step, number, axis, laterals, &mut directions, &mut axes);
                 }
             }
             let plant = step.scene().plant();
@@ -379,16 +397,15 @@ impl<'a> Writer<'a> {
         step: &mut Recording<'_>,
         number: usize,
         axis: AxisId,
+        laterals: &[(u32, u32)],
+        directions: &mut Vec<Vec3>,
         axes: &mut [Option<AxisId>],
     ) -> Option<MetamerId> {
         let (end, normal) = (self.ends[number], self.normals[number]);
         let heading = (end - step.scene().plant().bud_position(axis)).try_normalize()?;
         let normal = across(normal, heading);
-        let from = self.borne.partition_point(|&(bearer, _)| (bearer as usize) < number);
-        let to = self.borne.partition_point(|&(bearer, _)| bearer as usize <= number);
-        let laterals = &self.borne[from..to];
-        let mut directions: Vec<Vec3> =
-            laterals.iter().map(|&(_, lateral)| self.direction(lateral as usize, number, heading)).collect();
+        directions
+            .extend(laterals.iter().map(|&(_, lateral)| self.direction(lateral as usize, number, heading)));
         if self.wood().buds != DormantBuds::Known {
             let (sin, cos) = self.parameters.branching;
             let buds = self.parameters.buds_per_node as usize;
@@ -397,7 +414,7 @@ impl<'a> Writer<'a> {
                 directions.push((heading * cos + aside * sin).normalize_or(heading));
             }
         }
-        let born = step.extend(axis, &Internode { end, normal, laterals: &directions })?;
+        let born = step.extend(axis, &Internode { end, normal, laterals: directions })?;
         for (&(_, lateral), axis) in laterals.iter().zip(step.scene().plant().laterals(born)) {
             axes[lateral as usize] = Some(axis);
         }
@@ -415,7 +432,7 @@ impl<'a> Writer<'a> {
     /// The rows of names: those that were cut off as well, as long as they are drawn, so that they stay away.
     fn rows(&self) -> Vec<(u64, u32)> {
         let row = |(number, &key): (usize, &u64)| {
-            let known = || self.rewriting.row(key).filter(|_| self.fates[number] == Fate::Lost);
+            let known = || self.row(key).filter(|_| self.fates[number] == Fate::Lost);
             Some((key, self.rows[number].or_else(known)?.raw()))
         };
         let mut rows: Vec<(u64, u32)> = self.rewriting.now.keys.iter().enumerate().filter_map(row).collect();
