@@ -6,16 +6,14 @@ use crate::{
     code::{Machine, Moment},
     contexts::Contexts,
     environment::{Environment, Stand},
-    keys::{self, Chance, Products},
-    limits::{Limits, Stop},
+    keys::{self, Chance},
+    limits::{Limits, MADE_FOR_EACH, Stop, WORK_FOR_EACH},
+    producing::{Firing, Made, is_over},
     program::{Production, Program},
-    reading::{FRAME, MOST_PARAMETERS, NoPen, Reading, When, choose, draw, finite, fires, holds},
+    reading::{FRAME, MOST_PARAMETERS, NoPen, Reading, When, draw, fires, holds},
     symbols::{Action, CUT, POP, PUSH, turtle},
     word::{Tag, Word},
 };
-
-/// How often modules that have waited may be rewritten within one step.
-const MOST_FIRINGS: u32 = 100;
 
 /// How far a slice of work has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,21 +37,24 @@ enum Phase {
 #[derive(Clone, Debug)]
 pub struct Derivation {
     program: Arc<Program>,
-    seed: u32,
-    limits: Limits,
+    pub(crate) seed: u32,
+    pub(crate) limits: Limits,
     word: Word,
-    next: Word,
+    pub(crate) next: Word,
     step: u32,
     /// The step that the next word is of: 0 while it is the axiom.
-    coming: u32,
+    pub(crate) coming: u32,
     phase: Phase,
     at: usize,
-    machine: Machine,
+    pub(crate) machine: Machine,
     /// Where the modules of the word stand, if the grammar asks.
     stands: Vec<Stand>,
     stopped: Option<Stop>,
     /// The keys of modules and the place of the rule that made them, if that is wanted.
-    traced: Option<Vec<(u64, Place)>>,
+    pub(crate) traced: Option<Vec<(u64, Place)>>,
+    pub(crate) made: Made,
+    /// Modules that slices have taken and made.
+    touched: u64,
 }
 
 /// The line and column of a rule.
@@ -97,6 +98,8 @@ impl Derivation {
             stands: Vec::new(),
             stopped: None,
             traced,
+            made: Made::default(),
+            touched: 0,
         };
         let start =
             Stand { place: glam::DVec3::ZERO, heading: glam::DVec3::Y, order: 0, below: 0, branch: 0 };
@@ -120,8 +123,10 @@ impl Derivation {
                 }
             }
             let values = &values[..product.arguments.len()];
+            derivation.made.of_one = 0;
             derivation.emit(&program, tag, values, 0, &mut moment)?;
         }
+        derivation.touched = (derivation.next.len() + derivation.made.in_step) as u64;
         mem::swap(&mut derivation.word, &mut derivation.next);
         derivation.coming = 1;
         Ok(derivation)
@@ -168,7 +173,7 @@ impl Derivation {
         When { seed: self.seed, step: self.step, time: self.time(self.step) }
     }
 
-    fn time(&self, step: u32) -> f64 {
+    pub(crate) fn time(&self, step: u32) -> f64 {
         f64::from(step) * self.program.time_step
     }
 
@@ -192,7 +197,13 @@ impl Derivation {
         Ok(())
     }
 
-    /// Works on about so many modules. Surroundings must not change within a step.
+    /// What it has cost: modules that it has taken and made, and steps of computing.
+    pub fn work(&self) -> u64 {
+        self.touched + self.machine.work
+    }
+
+    /// Works on so many modules, or fewer that make many others or compute long. Surroundings must not change within a
+    /// step.
     ///
     /// # Errors
     /// Where a budget ends or a number is none; the word stays that of the step before, and nothing goes on.
@@ -201,7 +212,7 @@ impl Derivation {
             return Err(stop);
         }
         let program = Arc::clone(&self.program);
-        let result = self.work(&program, surroundings, modules.max(1));
+        let result = self.go_on(&program, surroundings, modules.max(1));
         if let Err(stop) = result {
             self.stopped = Some(stop);
             self.next = Word::new(program.columns);
@@ -210,7 +221,7 @@ impl Derivation {
         result
     }
 
-    fn work(
+    fn go_on(
         &mut self,
         program: &Program,
         surroundings: &dyn Environment,
@@ -220,17 +231,24 @@ impl Derivation {
             self.next.clear();
             self.stands.clear();
             self.at = 0;
+            self.made = Made::default();
             self.phase = match program.asks_places {
-                true => Phase::Reading(Box::new(Reading::new(program, self.when(), self.limits.work))),
+                true => Phase::Reading(Box::new(Reading::new(program, self.when(), &self.limits))),
                 false => Phase::Rewriting,
             };
         }
-        let end = self.at.saturating_add(modules).min(self.word.len());
+        let from = self.at;
+        let end = from.saturating_add(modules).min(self.word.len());
         if let Phase::Reading(mut reading) = mem::replace(&mut self.phase, Phase::Rewriting) {
-            while self.at < end {
-                self.ask(program, &mut reading, surroundings)?;
+            let until = reading.cost.until(modules);
+            let before = reading.cost;
+            let mut asked = Ok(());
+            while self.at < end && reading.cost.is_below(&until) && asked.is_ok() {
+                asked = self.ask(program, &mut reading, surroundings);
                 self.at += 1;
             }
+            self.touched += (self.at - from) as u64 + reading.cost.since(&before);
+            asked?;
             match self.at < self.word.len() {
                 true => self.phase = Phase::Reading(reading),
                 false => self.at = 0,
@@ -239,8 +257,12 @@ impl Derivation {
         }
         // Taken out, so that what is read is not what is written.
         let word = mem::take(&mut self.word);
-        let rewritten = self.rewrite_until(program, &word, end, surroundings);
+        let before = self.next.len() + self.made.in_step;
+        let work_end = self.machine.work.saturating_add(WORK_FOR_EACH.saturating_mul(modules as u64));
+        let made_end = before.saturating_add(MADE_FOR_EACH.saturating_mul(modules));
+        let rewritten = self.rewrite_until(program, &word, [end, made_end], work_end, surroundings);
         self.word = word;
+        self.touched += (self.at - from + self.next.len() + self.made.in_step - before) as u64;
         rewritten?;
         if self.at < self.word.len() {
             return Ok(Progress::Working);
@@ -278,11 +300,13 @@ impl Derivation {
         &mut self,
         program: &Program,
         word: &Word,
-        end: usize,
+        [end, made_end]: [usize; 2],
+        work_end: u64,
         surroundings: &dyn Environment,
     ) -> Result<(), Stop> {
         let mut frame = [0.0; FRAME];
-        while self.at < end {
+        while self.at < end && self.machine.work < work_end && self.next.len() + self.made.in_step < made_end
+        {
             let run = word.run(self.at..end, &program.active);
             if run > 0 {
                 self.next.extend_from(word, self.at..self.at + run, &self.limits)?;
@@ -306,6 +330,7 @@ impl Derivation {
         surroundings: &dyn Environment,
     ) -> Result<usize, Stop> {
         let at = self.at;
+        self.made.of_one = 0;
         let tag = word.tag(at);
         let parameters = word.parameters(at);
         let stand = self.stands.get(at);
@@ -372,110 +397,6 @@ impl Derivation {
         }
         Ok(None)
     }
-
-    /// Appends what a rule makes of a module.
-    fn produce(
-        &mut self,
-        program: &Program,
-        rule: &Production,
-        of: Tag,
-        frame: &[f64],
-        firing: Firing,
-        moment: &mut Moment<'_>,
-    ) -> Result<(), Stop> {
-        // Most modules that only change are all that they become, and need no keys.
-        let is_heir_alone = rule.heir.is_some() && rule.products.len() == 1;
-        let keys = (!is_heir_alone).then(|| Products::of_rule(of.key, self.coming, firing.pass));
-        let born = self.coming;
-        for (number, product) in rule.products.iter().enumerate() {
-            let is_heir = rule.heir == Some(number);
-            let tag = Tag {
-                symbol: product.symbol,
-                key: keys.filter(|_| !is_heir).map_or(of.key, |keys| keys.key(number)),
-                born: if is_heir { of.born } else { born },
-                time: firing.time,
-            };
-            if let Some(traced) = self.traced.as_mut().filter(|_| !is_heir) {
-                traced.push((tag.key, rule.at));
-            }
-            if is_plain(program, tag) {
-                self.next.push(tag, &self.limits)?;
-                for code in &product.arguments {
-                    let value = finite(self.machine.run(code, frame, moment), rule)?;
-                    self.next.push_parameter(value);
-                }
-                continue;
-            }
-            let mut values = [0.0; MOST_PARAMETERS];
-            for (value, code) in values.iter_mut().zip(&product.arguments) {
-                *value = finite(self.machine.run(code, frame, moment), rule)?;
-            }
-            self.emit(program, tag, &values[..product.arguments.len()], firing.pass, moment)?;
-        }
-        Ok(())
-    }
-
-    /// Appends a module, or what decomposition and the time that has passed make of it at once.
-    fn emit(
-        &mut self,
-        program: &Program,
-        tag: Tag,
-        parameters: &[f64],
-        pass: u32,
-        moment: &mut Moment<'_>,
-    ) -> Result<(), Stop> {
-        let decomposition = &program.decomposition;
-        let candidates = decomposition.of(tag.symbol);
-        if !candidates.is_empty() {
-            self.machine.work += 1;
-            let found = choose(&mut self.machine, candidates, &decomposition.rules, parameters, moment)?;
-            if let Some(chosen) = found {
-                let firing = Firing { time: tag.time, pass: pass + 1 };
-                let most = program.decomposition_depth;
-                let frame = chosen.frame(parameters);
-                return self.again(program, chosen.rule, tag, frame, firing, most, moment);
-            }
-        }
-        let lifespan = program.lifespans.get(tag.symbol as usize).copied().flatten();
-        let now = self.time(self.coming);
-        if let Some(lifespan) = lifespan.filter(|&lifespan| is_over(now - tag.time, lifespan)) {
-            let rules = &program.rules;
-            let candidates = rules.of(tag.symbol);
-            let found = choose(&mut self.machine, candidates, &rules.rules, parameters, moment)?;
-            if let Some(chosen) = found {
-                let firing = Firing { time: tag.time + lifespan, pass: pass + 1 };
-                let frame = chosen.frame(parameters);
-                return self.again(program, chosen.rule, tag, frame, firing, MOST_FIRINGS, moment);
-            }
-        }
-        self.next.push(tag, &self.limits)?;
-        self.next.push_parameters(parameters);
-        Ok(())
-    }
-
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "two callers, and a struct of them would have no meaning of its own"
-    )]
-    fn again(
-        &mut self,
-        program: &Program,
-        rule: &Production,
-        tag: Tag,
-        parameters: &[f64],
-        firing: Firing,
-        most: u32,
-        moment: &mut Moment<'_>,
-    ) -> Result<(), Stop> {
-        if firing.pass > most {
-            let (line, column) = rule.at;
-            return Err(Stop::Endless { line, column, most });
-        }
-        if self.machine.work >= self.limits.work {
-            return Err(Stop::Work(self.limits.work));
-        }
-        self.produce(program, rule, tag, parameters, firing, moment)
-    }
 }
 
 /// Where the branch ends that a module lies in.
@@ -490,24 +411,4 @@ fn end_of_branch(word: &Word, from: usize) -> usize {
         }
     }
     word.len()
-}
-
-/// When rules have acted on a module in a step.
-#[derive(Clone, Copy, Debug)]
-struct Firing {
-    /// The time at which what it becomes begins.
-    time: f64,
-    /// How often rules have acted on it before in this step.
-    pass: u32,
-}
-
-/// Whether a time has passed, but for rounding.
-fn is_over(age: f64, lifespan: f64) -> bool {
-    age >= lifespan - 1e-9
-}
-
-/// Whether a new module is appended as it is.
-fn is_plain(program: &Program, tag: Tag) -> bool {
-    let waits = program.lifespans.get(tag.symbol as usize).is_some_and(Option::is_some);
-    program.decomposition.of(tag.symbol).is_empty() && !waits
 }

@@ -26,6 +26,15 @@ impl Default for Limits {
     }
 }
 
+/// What one module may become at most within a step, by decomposition or for its lifespan, or be read as.
+pub const MOST_OF_ONE: usize = 200_000;
+/// A word may be read as so many times the modules that it may have.
+pub(crate) const READ_FOR_EACH: usize = 4;
+/// For each module that a slice of work is to take it ends after so many steps of computing as well,
+pub(crate) const WORK_FOR_EACH: u64 = 8;
+/// and after so many modules that came of it.
+pub(crate) const MADE_FOR_EACH: usize = 2;
+
 /// Why a derivation or a reading ended. What was derived before stays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
@@ -60,6 +69,10 @@ pub enum Stop {
         /// How often it may.
         most: u32,
     },
+    /// One module becomes more modules at once than it may, or is read as more.
+    Single(usize),
+    /// The word is read as more modules than it may.
+    Read(usize),
     /// The wood would have more nodes than it may.
     Nodes(usize),
     /// The wood would reach farther than it may.
@@ -93,6 +106,8 @@ impl Stop {
                 let values = written(&[("line", line), ("column", column), ("most", most)]);
                 (wording::ENDS_ENDLESS, values)
             }
+            Self::Single(count) => most(wording::ENDS_SINGLE, count),
+            Self::Read(count) => most(wording::ENDS_READ, count),
             Self::Nodes(count) => most(wording::ENDS_NODES, count),
             Self::Extent(extent) => most(wording::ENDS_EXTENT, extent),
             Self::Full => (wording::ENDS_FULL, Vec::new()),

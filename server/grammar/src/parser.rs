@@ -55,6 +55,8 @@ pub(crate) struct Parser<'a> {
     pub macros: Vec<Macro>,
     /// How many macros are being read within each other.
     pub macro_depth: u32,
+    /// Modules that strings have, and macros that were read in them.
+    pub written: usize,
     pub section: Section,
     pub heading: Heading,
     pub sliders: Vec<SliderRow>,
@@ -83,6 +85,7 @@ impl<'a> Parser<'a> {
             curves: Vec::new(),
             macros: Vec::new(),
             macro_depth: 0,
+            written: 0,
             section: Section::Production,
             heading: Heading::default(),
             sliders: Vec::new(),

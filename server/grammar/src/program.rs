@@ -10,7 +10,7 @@ use crate::{
     grammar::{Ahead, Buds, Curve, Grammar, Module, Neighbour, Radii, Rule, Slider, SliderRow},
     review::are_alternatives,
     source::Span,
-    symbols::{Action, CUT, Symbol, turtle},
+    symbols::{Action, CUT, POP, Symbol, turtle},
     word::Columns,
     wording::{self, Wording, filled},
 };
@@ -71,9 +71,41 @@ pub(crate) struct Production {
     /// Whether an alternative before it decides for it.
     pub is_later: bool,
     pub products: Vec<Product>,
+    /// The products in columns, where all of them are appended as they are.
+    pub plain: Option<Plain>,
     /// The product that is the module itself, gone on.
     pub heir: Option<usize>,
     pub at: (u32, u32),
+}
+
+/// Modules in columns, without the values of their parameters.
+#[derive(Clone, Debug)]
+pub(crate) struct Plain {
+    pub symbols: Box<[Symbol]>,
+    /// Where the parameters of each begin.
+    pub first: Box<[u32]>,
+    pub parameters: usize,
+    /// Which of them are brackets.
+    pub brackets: Box<[u32]>,
+}
+
+impl Plain {
+    fn new(products: &[Product]) -> Self {
+        let mut parameters = 0;
+        let mut begin = |product: &Product| {
+            let first = parameters as u32;
+            parameters += product.arguments.len();
+            first
+        };
+        let first = products.iter().map(&mut begin).collect();
+        let brackets = (0..).zip(products).filter(|(_, product)| product.symbol <= POP);
+        Self {
+            symbols: products.iter().map(|product| product.symbol).collect(),
+            first,
+            parameters,
+            brackets: brackets.map(|(number, _)| number).collect(),
+        }
+    }
 }
 
 /// The rules of a section, found by symbol.
@@ -354,6 +386,12 @@ impl Compiling<'_> {
         modules.iter().map(product).collect()
     }
 
+    /// Whether a new module with this symbol is appended as it is.
+    fn is_plain(&self, symbol: Symbol) -> bool {
+        let waits = self.grammar.timing.iter().any(|row| row.0 == symbol);
+        !waits && !self.grammar.decomposition.iter().any(|rule| rule.symbol == symbol)
+    }
+
     fn set(&self, rules: &[Rule]) -> RuleSet {
         let mut by_symbol = vec![Vec::new(); self.grammar.symbols.len()];
         for (rule, number) in rules.iter().zip(0..) {
@@ -367,7 +405,10 @@ impl Compiling<'_> {
             let mut own =
                 rule.successor.iter().enumerate().filter(|(_, module)| module.symbol == rule.symbol);
             let heir = own.next().map(|(at, _)| at).filter(|_| own.next().is_none());
+            let products = self.products(&rule.successor);
+            let is_plain = products.iter().all(|product| self.is_plain(product.symbol));
             Production {
+                plain: is_plain.then(|| Plain::new(&products)),
                 arity: rule.arity,
                 left: rule.left.clone(),
                 right: rule.right.clone(),
@@ -379,7 +420,7 @@ impl Compiling<'_> {
                 weight: rule.weight.as_ref().map(|expr| self.code(expr)),
                 draw,
                 is_later,
-                products: self.products(&rule.successor),
+                products,
                 heir,
                 at: rule.at,
             }

@@ -4,7 +4,7 @@ use crate::{
     code::{Machine, Moment},
     environment::Environment,
     keys::{Chance, Products, WHILE_READING},
-    limits::Stop,
+    limits::{Limits, MADE_FOR_EACH, MOST_OF_ONE, READ_FOR_EACH, Stop, WORK_FOR_EACH},
     program::{Production, Program},
     symbols::{Action, turtle},
     turtle::{Moved, State, Turtle},
@@ -61,6 +61,33 @@ pub(crate) struct When {
     pub time: f64,
 }
 
+/// What reading has cost.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Cost {
+    /// Modules that others were read as.
+    pub read: usize,
+    /// Steps of computing.
+    pub work: u64,
+}
+
+impl Cost {
+    /// Where a slice of so many modules ends, if it does not end with them.
+    pub fn until(&self, modules: usize) -> Self {
+        Self {
+            read: self.read.saturating_add(MADE_FOR_EACH.saturating_mul(modules)),
+            work: self.work.saturating_add(WORK_FOR_EACH.saturating_mul(modules as u64)),
+        }
+    }
+
+    pub fn is_below(&self, end: &Self) -> bool {
+        self.read < end.read && self.work < end.work
+    }
+
+    pub fn since(&self, before: &Self) -> u64 {
+        (self.read - before.read) as u64 + (self.work - before.work)
+    }
+}
+
 /// Somewhere within a word.
 #[derive(Clone, Debug)]
 pub(crate) struct Reading {
@@ -71,13 +98,18 @@ pub(crate) struct Reading {
     polygons: u32,
     /// Branches within the rest of a branch that is cut off.
     cut: Option<u32>,
-    most_work: u64,
+    pub cost: Cost,
+    /// Modules that the present module of the word was read as.
+    of_one: usize,
+    most: Cost,
 }
 
 impl Reading {
-    pub fn new(program: &Program, when: When, most_work: u64) -> Self {
+    pub fn new(program: &Program, when: When, limits: &Limits) -> Self {
         let turtle = Turtle::new(program.angle, program.scale);
-        Self { turtle, machine: Machine::new(), when, polygons: 0, cut: None, most_work }
+        let most = Cost { read: limits.modules.saturating_mul(READ_FOR_EACH), work: limits.work };
+        let (machine, cost) = (Machine::new(), Cost::default());
+        Self { turtle, machine, when, polygons: 0, cut: None, cost, of_one: 0, most }
     }
 
     /// Reads one module of a word.
@@ -90,7 +122,10 @@ impl Reading {
         pen: &mut impl Pen,
     ) -> Result<(), Stop> {
         let tag = word.tag(at);
-        self.module(program, tag, word.parameters(at), 0, surroundings, pen)?;
+        self.of_one = 0;
+        let read = self.module(program, tag, word.parameters(at), 0, surroundings, pen);
+        self.cost.work = self.machine.work;
+        read?;
         if self.cut.is_none() && program.is_apex(tag.symbol) {
             pen.apex(&self.turtle.state);
         }
@@ -118,8 +153,8 @@ impl Reading {
                 return Ok(());
             }
         }
-        if self.machine.work > self.most_work {
-            return Err(Stop::Work(self.most_work));
+        if self.machine.work > self.most.work {
+            return Err(Stop::Work(self.most.work));
         }
         if level < program.homomorphism_depth && !program.homomorphism.of(tag.symbol).is_empty() {
             self.machine.work += 1;
@@ -158,6 +193,7 @@ impl Reading {
         moment: &mut Moment<'_>,
         pen: &mut impl Pen,
     ) -> Result<(), Stop> {
+        self.count(rule.products.len().max(1))?;
         let keys = Products::of_reading(tag.key, level);
         for (number, product) in rule.products.iter().enumerate() {
             let mut values = [0.0; MOST_PARAMETERS];
@@ -169,6 +205,16 @@ impl Reading {
             self.module(program, tag, values, level + 1, moment.environment, pen)?;
         }
         Ok(())
+    }
+
+    /// Counts modules that one is read as, before they are read.
+    fn count(&mut self, modules: usize) -> Result<(), Stop> {
+        self.of_one += modules;
+        self.cost.read += modules;
+        if self.of_one > MOST_OF_ONE {
+            return Err(Stop::Single(MOST_OF_ONE));
+        }
+        if self.cost.read > self.most.read { Err(Stop::Read(self.most.read)) } else { Ok(()) }
     }
 
     fn act(
@@ -201,7 +247,7 @@ impl Reading {
                 let count = if piece > 0.0 { (length / piece).ceil().clamp(1.0, MOST) } else { 1.0 };
                 let keys = Products::of_reading(tag.key, u32::MAX);
                 for number in 0..count as usize {
-                    self.machine.work += 1;
+                    self.count(1)?;
                     let tag = Tag { key: keys.key(number), ..tag };
                     self.moved(Action::Draw, &[length / count], tag, pen)?;
                 }

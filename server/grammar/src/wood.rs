@@ -1,6 +1,6 @@
 //! Words as wood: what the turtle draws becomes nodes and axes, and what goes on growing becomes buds.
 
-use espalier_plant::{DormantBuds, Wood, WoodAxis, WoodNode, wood::SHORTEST};
+use espalier_plant::{DormantBuds, KeyTable, Wood, WoodAxis, WoodNode, wood::SHORTEST};
 use glam::{DVec3, Vec3};
 
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
     keys,
     limits::Stop,
     program::Program,
-    reading::{Pen, Reading},
+    reading::{Cost, Pen, Reading},
     turtle::State,
     word::Tag,
 };
@@ -51,12 +51,13 @@ pub struct Drawn {
     pub lines: usize,
     /// Lines that were too short to be nodes, and were joined with what follows.
     pub joined: usize,
+    /// What drawing has cost, as [`Drawing::work`] says.
+    pub read: u64,
 }
 
 /// A word on its way to wood.
 #[derive(Clone, Debug)]
-pub struct Drawing<'a> {
-    derivation: &'a Derivation,
+pub struct Drawing {
     reading: Reading,
     at: usize,
     carpenter: Carpenter,
@@ -64,12 +65,21 @@ pub struct Drawing<'a> {
 
 impl Derivation {
     /// Begins to draw the word of the last step.
-    pub fn drawing(&self, options: WoodOptions) -> Drawing<'_> {
+    pub fn drawing(&self, options: WoodOptions) -> Drawing {
         let program = self.program();
-        let reading = Reading::new(program, self.when(), self.limits().work);
+        let reading = Reading::new(program, self.when(), self.limits());
         let mut carpenter = Carpenter::new(program, options);
         carpenter.modules = self.is_traced().then(Vec::new);
-        Drawing { derivation: self, reading, at: 0, carpenter }
+        Drawing { reading, at: 0, carpenter }
+    }
+
+    /// Begins to draw it as it goes on from a drawing of a word before, in which nodes had these keys. What was one node stays one, and what was several stays as many, however long it has become: so what bears
+    /// a node is the same from step to step.
+    pub fn drawing_on(&self, options: WoodOptions, keys: &[u64]) -> Drawing {
+        let mut drawing = self.drawing(options);
+        drawing.carpenter.known =
+            Some(Known { keys: KeyTable::new(keys.iter().copied()), depth: self.depth() });
+        drawing
     }
 
     /// Draws the word of the last step.
@@ -77,14 +87,10 @@ impl Derivation {
     /// # Errors
     /// Where there is too much wood, it reaches too far, or a number is none.
     pub fn draw(&self, surroundings: &dyn Environment, options: WoodOptions) -> Result<Drawn, Stop> {
-        let mut drawing = self.drawing(options);
-        while !drawing.advance(surroundings, usize::MAX)? {}
-        drawing.finish()
+        self.drawing(options).complete(self, surroundings)
     }
 
-    /// Draws the word of the last step as it goes on from a drawing of one before, in which nodes had these keys, in
-    /// ascending order. What was one node stays one, and what was several stays as many, however long it has become:
-    /// so what bears a node is the same from step to step.
+    /// Draws the word of the last step as [`Derivation::drawing_on`] says.
     ///
     /// # Errors
     /// As [`Derivation::draw`] does.
@@ -92,30 +98,43 @@ impl Derivation {
         &self,
         surroundings: &dyn Environment,
         options: WoodOptions,
-        keys: Vec<u64>,
+        keys: &[u64],
     ) -> Result<Drawn, Stop> {
-        let mut drawing = self.drawing(options);
-        drawing.carpenter.known = Some(Known { keys, depth: self.depth() });
-        while !drawing.advance(surroundings, usize::MAX)? {}
-        drawing.finish()
+        self.drawing_on(options, keys).complete(self, surroundings)
     }
 }
 
-impl Drawing<'_> {
-    /// Reads about so many modules; whether all have been read.
+impl Drawing {
+    /// Reads so many modules of the word that it was begun with, or fewer that are read as many others or compute long;
+    /// whether all have been read.
     ///
     /// # Errors
     /// Where there is too much wood, it reaches too far, or a number is none.
-    pub fn advance(&mut self, surroundings: &dyn Environment, modules: usize) -> Result<bool, Stop> {
-        let word = self.derivation.word();
+    pub fn advance(
+        &mut self,
+        derivation: &Derivation,
+        surroundings: &dyn Environment,
+        modules: usize,
+    ) -> Result<bool, Stop> {
+        let (program, word) = (derivation.program(), derivation.word());
         let end = self.at.saturating_add(modules.max(1)).min(word.len());
-        while self.at < end {
-            let program = self.derivation.program();
+        let until = self.reading.cost.until(modules.max(1));
+        while self.at < end && self.reading.cost.is_below(&until) {
             self.carpenter.module = word.key(self.at);
             self.reading.read(program, word, self.at, surroundings, &mut self.carpenter)?;
             self.at += 1;
         }
         Ok(self.at == word.len())
+    }
+
+    /// What it has cost: modules that it has read, as what they stand for, and steps of computing.
+    pub fn work(&self) -> u64 {
+        self.at as u64 + self.reading.cost.since(&Cost::default())
+    }
+
+    fn complete(mut self, derivation: &Derivation, surroundings: &dyn Environment) -> Result<Drawn, Stop> {
+        while !self.advance(derivation, surroundings, usize::MAX)? {}
+        self.finish()
     }
 
     /// The wood.
@@ -124,7 +143,8 @@ impl Drawing<'_> {
     /// Where there is too much of it, or it reaches too far.
     pub fn finish(mut self) -> Result<Drawn, Stop> {
         self.carpenter.end_axis()?;
-        Ok(self.carpenter.finish())
+        let read = self.work();
+        Ok(Drawn { read, ..self.carpenter.finish() })
     }
 }
 
@@ -161,14 +181,14 @@ struct Loose {
 /// What was drawn before.
 #[derive(Clone, Debug)]
 struct Known {
-    keys: Vec<u64>,
+    keys: KeyTable,
     /// The step of the word that is drawn now.
     depth: u32,
 }
 
 impl Known {
     fn has(&self, key: u64) -> bool {
-        self.keys.binary_search(&key).is_ok()
+        self.keys.get(key).is_some()
     }
 
     /// How long what a module draws must be to be a node of its own. What came to be earlier and was none then would
@@ -354,7 +374,7 @@ impl Carpenter {
         let wood = Wood { nodes: self.nodes, axes: self.axes, buds, ..Wood::default() };
         let modules = self.modules.unwrap_or_default();
         let (lines, joined) = (self.lines, self.joined);
-        Drawn { wood, keys: self.keys, growing: self.growing, modules, lines, joined }
+        Drawn { wood, keys: self.keys, growing: self.growing, modules, lines, joined, read: 0 }
     }
 
     /// The thinnest wood is as thick as a twig.

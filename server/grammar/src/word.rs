@@ -5,6 +5,7 @@ use std::ops::Range;
 use crate::{
     grammar::Grammar,
     limits::{Limits, Stop},
+    program::Plain,
     symbols::{POP, PUSH, Symbol},
 };
 
@@ -152,6 +153,44 @@ impl Word {
             self.mates.push(at as u32);
         }
         if tag.symbol <= POP { self.pair(at, tag.symbol, limits) } else { Ok(()) }
+    }
+
+    /// Begins modules in columns; their parameters are pushed after them. All have the birth and time of a tag, but for an
+    /// heir, whose birth is its own.
+    pub(crate) fn extend_plain(
+        &mut self,
+        plain: &Plain,
+        key: impl Fn(usize) -> u64,
+        new: Tag,
+        heir: Option<(usize, u32)>,
+        limits: &Limits,
+    ) -> Result<(), Stop> {
+        let (begin, count) = (self.symbols.len(), plain.symbols.len());
+        if begin + count > limits.modules {
+            return Err(Stop::Modules(limits.modules));
+        }
+        if self.parameters.len() + plain.parameters > limits.parameters {
+            return Err(Stop::Parameters(limits.parameters));
+        }
+        let from = self.parameters.len() as u32;
+        self.symbols.extend_from_slice(&plain.symbols);
+        self.first.extend(plain.first.iter().map(|first| from + first));
+        self.parameters.reserve(plain.parameters);
+        self.keys.extend((0..count).map(key));
+        self.born.resize(begin + count, new.born);
+        if let Some((number, born)) = heir {
+            self.born[begin + number] = born;
+        }
+        if self.columns.times {
+            self.times.resize(begin + count, new.time);
+        }
+        if self.columns.mates {
+            self.mates.extend(begin as u32..(begin + count) as u32);
+        }
+        for &number in &plain.brackets {
+            self.pair(begin + number as usize, plain.symbols[number as usize], limits)?;
+        }
+        Ok(())
     }
 
     /// How many modules from the first of some on are not among those that rules act on.

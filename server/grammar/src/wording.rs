@@ -212,6 +212,8 @@ wordings! {
     ENDS_NO_NUMBER: "ends.no-number", "line {line}, column {column}: a number is infinite or undefined (a division by 0, say)";
     ENDS_NO_PROBABILITY: "ends.no-probability", "line {line}, column {column}: the probabilities of the alternatives are not all 0 or more, or add up to 0";
     ENDS_ENDLESS: "ends.endless", "line {line}, column {column}: the rule goes on for more than {most} times within one step";
+    ENDS_SINGLE: "ends.single", "one module becomes more than {most} others at once";
+    ENDS_READ: "ends.read", "the word is read as more than {most} modules";
     ENDS_NODES: "ends.nodes", "the word draws more than {most} internodes";
     ENDS_EXTENT: "ends.extent", "the wood reaches farther than {most} internodes; a smaller scale: shrinks it";
     ENDS_FULL: "ends.full", "the document would hold more internodes than it may, with those of earlier depths";

@@ -39,6 +39,7 @@ use self::{
     bytes::Section,
     designing::Designs,
     futures::Futures,
+    grammars::Underway,
     growing::Pending,
     hints::Hints,
     history::{History, Kind, Setting},
@@ -76,6 +77,10 @@ pub struct Document {
     appearance: Arc<Appearance>,
     designs: Designs,
     pending: VecDeque<Pending>,
+    /// The step of a grammar that is on its way, for a command that may still be refused,
+    underway: Option<Box<Underway>>,
+    /// and what became of that.
+    outcome: Option<Result<(), Problem>>,
     hints: Hints,
     /// What came of the last deed that was taken back or brought back, until it is told.
     switched: Option<Switched>,
@@ -143,6 +148,8 @@ impl Document {
             appearance,
             designs: Designs::default(),
             pending: VecDeque::new(),
+            underway: None,
+            outcome: None,
             hints: Hints::default(),
             switched: None,
             steps_begun: 0,
@@ -151,12 +158,16 @@ impl Document {
         }
     }
 
-    /// Takes a command on; the steps it needs become pending. Nothing changes if it is refused.
+    /// Takes a command on; the steps it needs become pending. Nothing changes if it is refused, which may come only while
+    /// it [goes on](Document::take_outcome).
     pub fn begin(&mut self, author: &Principal, command: &Command) -> Result<(), Problem> {
         while self.advance() {}
+        self.outcome = None;
         let Command { action, gesture } = command;
         self.take_on(Cause { author, gesture: *gesture }, action)?;
-        self.forget_futures();
+        if !self.is_undecided() {
+            self.forget_futures();
+        }
         Ok(())
     }
 
@@ -236,7 +247,7 @@ impl Document {
     pub fn apply(&mut self, author: &Principal, command: &Command) -> Result<(), Problem> {
         self.begin(author, command)?;
         while self.advance() {}
-        Ok(())
+        self.take_outcome()
     }
 
     /// The strokes an author has begun and not ended.

@@ -14,11 +14,12 @@ use espalier_proto::{
 use crate::document::{bad_value, sliders_of};
 
 /// What looking at sizes may take.
-const LIMITS: Limits = Limits { modules: 400_000, parameters: 800_000, nesting: 512, work: 40_000_000 };
+const LIMITS: Limits = Limits { modules: 400_000, parameters: 800_000, nesting: 512, work: 8_000_000 };
 /// Internodes that are counted in one plant.
 const MOST_INTERNODES: usize = 400_000;
-/// Modules and internodes that are looked at in all.
-const MOST_IN_ALL: usize = 1_000_000;
+/// What looking may cost in all: modules taken, made and read, and steps of computing. It ends with the depth that goes
+/// beyond.
+const MOST_IN_ALL: u64 = 6_000_000;
 /// The deepest that is looked at.
 const DEEPEST: u32 = 64;
 
@@ -48,7 +49,7 @@ pub fn check_grammar(wanted: &CheckGrammar) -> Result<GrammarReport, Problem> {
     report.sliders = sliders_of(&grammar);
     if wanted.sizes {
         let seed = wanted.seed.or(program.seed()).unwrap_or(1);
-        let mut measured = Measured { sizes: Vec::new(), tiny: None };
+        let mut measured = Measured { sizes: Vec::new(), tiny: None, cost: 0 };
         let ends = measured.look(&grammar, program, seed).err();
         report.sizes = measured.sizes;
         report.diagnostics.extend(measured.tiny.as_ref().map(wire));
@@ -67,6 +68,8 @@ struct Measured {
     sizes: Vec<GrammarSize>,
     /// Whether it is drawn too small at the depth of its text.
     tiny: Option<Diagnostic>,
+    /// What looking has cost.
+    cost: u64,
 }
 
 impl Measured {
@@ -75,23 +78,35 @@ impl Measured {
         let (depth, deepest) = (program.depth(), program.depth().max(DEEPEST));
         let options = WoodOptions { nodes: MOST_INTERNODES, extent: WORLD_EXTENT as u32, twig_radius: 0.05 };
         let mut derivation = Derivation::new(Arc::new(program), seed, LIMITS)?;
-        let mut looked_at = 0;
+        let mut drawn_for = 0;
         loop {
-            let drawn = derivation.draw(&OpenSky, options)?;
+            let mut drawing = derivation.drawing(options);
+            let ended = loop {
+                match drawing.advance(&derivation, &OpenSky, usize::MAX) {
+                    Ok(true) => break Ok(()),
+                    Ok(false) => {}
+                    Err(stop) => break Err(stop),
+                }
+            };
+            drawn_for += drawing.work();
+            self.cost = derivation.work() + drawn_for;
+            ended?;
+            let drawn = drawing.finish()?;
             if derivation.depth() <= depth {
                 self.tiny = grammar.tiny_pieces(&derivation, &drawn);
             }
             let internodes = drawn.wood.nodes.iter().filter(|node| node.parent.is_some()).count();
             let modules = derivation.word().len();
             self.sizes.push(GrammarSize { modules: modules as u32, internodes: internodes as u32 });
-            looked_at += modules + internodes;
             if derivation.depth() >= deepest {
                 return Ok(());
             }
-            if looked_at > MOST_IN_ALL {
-                return Err(Stop::Modules(LIMITS.modules));
+            if self.cost > MOST_IN_ALL {
+                return Err(Stop::Counted);
             }
-            derivation.step(&OpenSky)?;
+            let derived = derivation.step(&OpenSky);
+            self.cost = derivation.work() + drawn_for;
+            derived?;
         }
     }
 }
@@ -207,6 +222,31 @@ mod tests {
         let values = List::try_from(values).unwrap_or_else(|_| panic!("not too many"));
         let wanted = CheckGrammar { text: "axiom: F\n".into(), values, seed: None, sizes: false };
         assert_eq!(check_grammar(&wanted).err().and_then(|problem| problem.field).as_deref(), Some("values"));
+    }
+
+    #[test]
+    fn gr6_looking_ends_before_it_costs() {
+        // Whatever grows, computes, looks for contexts in vain, or is read as very many: what it costs until it ends.
+        let (many, far) = ("A".repeat(5000), "F".repeat(9000));
+        let bombs = [
+            "axiom: F\nF --> FFFFFFFF".to_owned(),
+            format!("axiom: A\nignore: F\nA --> {far}\nB < F --> G"),
+            "axiom: A\nhomomorphism: maximum depth: 100\nA --> AA".to_owned(),
+            format!("axiom: {many}\nhomomorphism: maximum depth: 100\nA --> BB\nB --> CC\nC --> DD\nD --> {}", "+".repeat(2000)),
+            "axiom: A(90)\ndecomposition: maximum depth: 100\nA(n) : n > 0 --> A(n-1)A(n-1)\nA(n) --> *".to_owned(),
+            "axiom: A\nA --> B(40)\ndecomposition: maximum depth: 50\nB(n) : n > 0 --> B(n-1)B(n-1)\nB(n) --> *".to_owned(),
+            "axiom: A(2)\nA(x) --> A(x^x)".to_owned(),
+        ];
+        for text in bombs {
+            let grammar = Grammar::read(&text).expect("it is right");
+            let program = grammar.program(&[]).expect("no sliders");
+            let mut measured = Measured { sizes: Vec::new(), tiny: None, cost: 0 };
+            let ended = measured.look(&grammar, program, 1);
+            let begin: String = text.chars().take(60).collect();
+            assert!(ended.is_err(), "{begin}");
+            // The work of one step, which is bounded, may be on top.
+            assert!(measured.cost <= MOST_IN_ALL + LIMITS.work, "{begin}: {}", measured.cost);
+        }
     }
 
     #[test]

@@ -148,6 +148,8 @@ pub struct Work {
     doing: Option<(Principal, u32)>,
     /// Whether the tree grows by it alone, without a hand.
     doing_alone: bool,
+    /// Who waits for the outcome of that command, if it came from outside and is still open.
+    owed: Option<ActId>,
     /// The frame with all rows, kept while it is current: clients often join at the same time.
     complete: Option<(u32, Arc<[u8]>)>,
     /// The open bends as they were reported last.
@@ -190,6 +192,7 @@ impl Work {
             triangles: 0,
             doing: None,
             doing_alone: true,
+            owed: None,
             complete: None,
             bends: BTreeMap::new(),
             bend_sequence: 0,
@@ -275,6 +278,8 @@ impl Work {
     }
 
     fn simulate(&mut self, is_over: impl Fn() -> bool, has_room: HasRoom<'_>) {
+        // As many as a stop counts on: what is written as commands are taken on is among them (`ST1`).
+        let begun = self.document.steps_begun();
         let mut steps = 0;
         let mut commands = 0;
         let start = self.document.metamers();
@@ -286,13 +291,18 @@ impl Work {
             return;
         }
         loop {
+            let is_full = self.document.steps_begun().wrapping_sub(begun) >= SLICE_STEPS;
             if self.busy {
+                if is_full {
+                    return;
+                }
                 if !self.may_step(has_room) {
                     self.hold = Some(Pause::Memory);
                     return;
                 }
                 if self.document.advance() {
                     self.report_hints();
+                    self.report_outcome();
                     steps += 1;
                     if steps == SLICE_STEPS
                         || is_over()
@@ -305,7 +315,7 @@ impl Work {
                 self.busy = false;
             }
             self.hand_out(has_room);
-            if commands == SLICE_COMMANDS || commands > 0 && is_over() {
+            if is_full || commands == SLICE_COMMANDS || commands > 0 && is_over() {
                 return;
             }
             let Some(order) = self.orders.front() else { return };
@@ -339,9 +349,9 @@ impl Work {
         if room::changes_triangles(&order.command.action) {
             self.triangles = self.document.held_triangles() as u64;
         }
-        if let Some(act) = order.act {
-            let placed = begun.clone().map(|()| self.document.obstacles().pop());
-            self.report.acts.push((act, placed));
+        self.owed = order.act;
+        if !self.document.is_undecided() {
+            self.answer_act(begun.clone());
         }
         match begun {
             Ok(()) => {
@@ -355,6 +365,25 @@ impl Work {
                 self.answer(&order.author, order.id, ServerMessage::Refused { id: order.id, problem });
             }
         }
+    }
+
+    /// Tells whoever sent the command from outside what became of it.
+    fn answer_act(&mut self, outcome: Result<(), Problem>) {
+        if let Some(act) = self.owed.take() {
+            self.report.acts.push((act, outcome.map(|()| self.document.obstacles().pop())));
+        }
+    }
+
+    /// What was open as the command was taken on may be decided now.
+    fn report_outcome(&mut self) {
+        if self.document.is_undecided() {
+            return;
+        }
+        let outcome = self.document.take_outcome();
+        if let (Err(problem), Some((author, id))) = (outcome.clone(), self.doing.clone()) {
+            self.answer(&author, id, ServerMessage::Refused { id, problem });
+        }
+        self.answer_act(outcome);
     }
 
     /// Answers a command. The session's own have number 0, and nobody waits for their answer.
@@ -405,6 +434,9 @@ impl Work {
 
     /// Tells the bends that changed; what the table shows of bends is behind what the report holds already.
     fn report_bends(&mut self) {
+        if self.document.is_between() {
+            return;
+        }
         let bends = self.document.bend_motions();
         let over = self.bends.keys().filter(|bend| !bends.contains_key(bend));
         let mut changed: Vec<_> = over.map(|&bend| (bend, Vec::new())).collect();
@@ -420,6 +452,9 @@ impl Work {
     }
 
     fn sync(&mut self) {
+        if self.document.is_between() {
+            return;
+        }
         let options = to_proto::style_options(&self.document.parameters());
         if options != *self.style.options() {
             self.style = Style::new(options);

@@ -71,7 +71,7 @@ impl Bench {
             let advanced = self.document.advance_observed(&mut self.phases);
             self.phases.stop();
             if !advanced {
-                return Ok(());
+                return self.document.take_outcome();
             }
             if self.document.plant().step() != before {
                 self.follow();

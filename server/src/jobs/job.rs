@@ -399,7 +399,7 @@ impl Gardener for Plot<'_> {
             }
             self.take_room()?;
             if !self.pool.hold(Class::Upkeep, Person::default(), || self.document.advance()) {
-                return Ok(());
+                return Ok(self.document.take_outcome()?);
             }
             self.job.metamers.store(self.document.metamers(), Ordering::Relaxed);
         }

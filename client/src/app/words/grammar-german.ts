@@ -199,6 +199,8 @@ export const GERMAN = {
     "Zeile {line}, Spalte {column}: Eine Wahrscheinlichkeit der Alternativen ist kleiner als 0, oder alle zusammen sind 0",
   ],
   "ends.endless": ["Zeile {line}, Spalte {column}: Die Regel wirkt in einem Schritt mehr als {most} Mal weiter"],
+  "ends.single": ["aus einem Modul würden auf einmal mehr als {most} andere"],
+  "ends.read": ["das Wort wird als mehr als {most} Module gelesen"],
   "ends.nodes": ["das Wort zeichnet mehr als {most} Internodien"],
   "ends.extent": ["das Holz reicht weiter als {most} Internodien; ein kleineres scale: verkleinert es"],
   "ends.full": ["das Dokument hätte mehr Internodien, als es haben darf, die früherer Tiefen mitgezählt"],

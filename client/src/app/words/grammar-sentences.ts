@@ -177,6 +177,8 @@ export const SENTENCES = {
     null,
   ],
   "ends.endless": ["line {line}, column {column}: the rule goes on for more than {most} times within one step", null],
+  "ends.single": ["one module becomes more than {most} others at once", null],
+  "ends.read": ["the word is read as more than {most} modules", null],
   "ends.nodes": ["the word draws more than {most} internodes", null],
   "ends.extent": ["the wood reaches farther than {most} internodes; a smaller scale: shrinks it", null],
   "ends.full": ["the document would hold more internodes than it may, with those of earlier depths", null],

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use espalier_grammar::{Derivation, Grammar, Limits, OpenSky, Progress, Stop, WORDINGS, WoodOptions};
+use espalier_grammar::{
+    Derivation, Grammar, Limits, MOST_OF_ONE, OpenSky, Progress, Stop, WORDINGS, WoodOptions,
+};
 
 fn begun(text: &str, limits: Limits) -> Result<Derivation, Stop> {
     let grammar = Grammar::read(text).unwrap_or_else(|errors| panic!("{errors:#?}"));
@@ -53,12 +55,110 @@ fn rules_that_never_rest_are_told_by_their_line() {
     assert_eq!(end(text, Limits::default()), (Stop::Endless { line: 3, column: 1, most: 100 }, 0));
 }
 
+const WOOD: WoodOptions = WoodOptions { nodes: 1000, extent: 1000, twig_radius: 0.05 };
+
+/// Why a word is not drawn, and what finding that out has cost.
+fn undrawn(text: &str, limits: Limits) -> (Stop, u64) {
+    let derivation = begun(text, limits).expect("the axiom is small");
+    let mut drawing = derivation.drawing(WOOD);
+    loop {
+        if let Err(stop) = drawing.advance(&derivation, &OpenSky, 1000) {
+            return (stop, drawing.work());
+        }
+    }
+}
+
 #[test]
 fn homomorphisms_do_not_go_off_either() {
-    let text = "axiom: A\nhomomorphism: maximum depth: 100\nA --> AA";
-    let derivation = begun(text, Limits { work: 1_000_000, ..Limits::default() }).expect("one module");
-    let options = WoodOptions { nodes: 1000, extent: 1000, twig_radius: 0.05 };
-    assert_eq!(derivation.draw(&OpenSky, options), Err(Stop::Work(1_000_000)));
+    let single = Stop::Single(MOST_OF_ONE);
+    let most = MOST_OF_ONE as u64;
+    // Two to the power of a hundred; the same with parameters and conditions; with nothing left of it; with names.
+    let bombs = [
+        ("axiom: A\nhomomorphism: maximum depth: 100\nA --> AA", 2),
+        ("axiom: A(99)\nhomomorphism: maximum depth: 100\nA(n) : n > 0 --> A(n-1)A(n-1)", 8),
+        (
+            "axiom: A(50)\nhomomorphism: maximum depth: 100\nA(n) : n > 0 --> A(n-1)A(n-1)\nA(n) : n <= 0 --> *",
+            12,
+        ),
+        ("axiom: A(99)\nhomomorphism: maximum depth: 100\nA(n) : {m = n-1;} n > 0 --> A(m)A(m)", 12),
+        ("axiom: nF(1,1e-6)", 2),
+    ];
+    for (text, for_each) in bombs {
+        let (stop, work) = undrawn(text, Limits::default());
+        assert_eq!(stop, single, "{text}");
+        assert!(work <= for_each * most, "{text}: {work}");
+    }
+    // No module is read as very many, but there are many.
+    let text = format!(
+        "axiom: {}\nhomomorphism: maximum depth: 100\nA(n) : n > 0 --> A(n-1)A(n-1)",
+        "A(14)".repeat(9000)
+    );
+    let limits = Limits { modules: 50_000, ..Limits::default() };
+    let (stop, work) = undrawn(&text, limits);
+    assert_eq!(stop, Stop::Read(200_000));
+    assert!(work < 2_000_000, "{work}");
+}
+
+#[test]
+fn decompositions_that_leave_nothing_are_counted() {
+    let vanishes = |axiom: &str| {
+        format!(
+            "axiom: {axiom}\nB --> A(60)\nC --> A(12)\ndecomposition: maximum depth: 100\n\
+             A(n) : n > 0 --> A(n-1)A(n-1)\nA(n) : n <= 0 --> *"
+        )
+    };
+    assert_eq!(end(&vanishes("A(60)"), Limits::default()), (Stop::Single(MOST_OF_ONE), 0));
+    let mut one = begun(&vanishes("B"), Limits::default()).expect("it is small");
+    assert_eq!(one.step(&OpenSky), Err(Stop::Single(MOST_OF_ONE)));
+    assert!(one.work() <= 12 * MOST_OF_ONE as u64, "{}", one.work());
+    let limits = Limits { modules: 50_000, ..Limits::default() };
+    let mut many = begun(&vanishes(&"C".repeat(9000)), limits).expect("it is small");
+    assert_eq!(many.step(&OpenSky), Err(Stop::Modules(50_000)));
+    assert!(many.work() <= 12 * 100_000, "{}", many.work());
+    assert!(many.word().len() == 9000, "the word is that of before");
+}
+
+/// What the next slices of so many modules cost, one by one, until the step ends.
+fn slices(derivation: &mut Derivation, modules: usize) -> Vec<u64> {
+    let mut costs = Vec::new();
+    loop {
+        let before = derivation.work();
+        let came = derivation.advance(&OpenSky, modules).expect("it goes on");
+        costs.push(derivation.work() - before);
+        if came == Progress::Stepped {
+            return costs;
+        }
+    }
+}
+
+#[test]
+fn a_slice_ends_after_so_much_work_of_any_kind() {
+    // What a slice of 100 modules may cost: modules taken and made, and steps of computing, with those of the last one.
+    let most = 100 * (1 + 2 + 8);
+    let cases = [
+        // Copied, rewritten to much, computed long, looked for far away, decomposed to nothing.
+        (format!("axiom: {}\nB --> C", "F".repeat(5000)), 0),
+        (format!("axiom: {}\nA --> {}", "A".repeat(500), "F".repeat(300)), 300),
+        (format!("axiom: {}\nA(x) --> A(x{})", "A(1)".repeat(500), "+1-1".repeat(40)), 200),
+        (format!("axiom: C{}\nignore: F\nB < A --> C", "FFFFFFFFFA".repeat(300)), 3000),
+        (
+            format!(
+                "axiom: {}\nB --> A(5)\ndecomposition:\nA(n) : n > 0 --> A(n-1)A(n-1)\nA(n) : n <= 0 --> *",
+                "B".repeat(500)
+            ),
+            800,
+        ),
+    ];
+    for (text, of_the_last) in cases {
+        let mut derivation = begun(&text, Limits::default()).expect("it is small");
+        let costs = slices(&mut derivation, 100);
+        assert!(costs.len() > 4, "{}", &text[text.len() - 40..]);
+        let worst = costs.iter().max();
+        assert!(worst <= Some(&(most + of_the_last)), "{worst:?}: {}", &text[text.len() - 40..]);
+        let mut whole = begun(&text, Limits::default()).expect("it is small");
+        assert_eq!(whole.step(&OpenSky), Ok(()));
+        assert_eq!(whole.word(), derivation.word(), "slices do not show");
+    }
 }
 
 #[test]
@@ -116,6 +216,8 @@ fn each_end_has_a_sentence_of_its_own_with_its_values() {
         Stop::NoNumber { line: 11, column: 12 },
         Stop::NoProbability { line: 11, column: 12 },
         Stop::Endless { line: 11, column: 12, most: 13 },
+        Stop::Single(11),
+        Stop::Read(11),
         Stop::Nodes(11),
         Stop::Extent(11),
         Stop::Full,

@@ -7,6 +7,7 @@ mod documented;
 mod environment;
 mod hostile;
 mod library;
+mod limits;
 mod mistakes;
 mod textbook;
 mod timing;

@@ -176,7 +176,7 @@ fn steps_of_growth_are_steps_of_the_derivation() {
 fn drawing_in_slices_does_not_show() {
     let (_, derivation) = derivation("axiom: A\nA --> F(1.3)[&(50)A]/(90)A", 6);
     let mut drawing = derivation.drawing(OPTIONS);
-    while !drawing.advance(&OpenSky, 5).expect("it is small") {}
+    while !drawing.advance(&derivation, &OpenSky, 5).expect("it is small") {}
     assert_eq!(drawing.finish(), derivation.draw(&OpenSky, OPTIONS));
 }
 

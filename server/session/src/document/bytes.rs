@@ -205,6 +205,8 @@ impl Document {
             appearance: pool.look(look)?,
             designs: Designs::default(),
             pending: VecDeque::new(),
+            underway: None,
+            outcome: None,
             hints: Hints::default(),
             switched: None,
             steps_begun,

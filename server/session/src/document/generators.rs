@@ -7,7 +7,7 @@ use std::sync::Arc;
 use espalier_growth::{Change, Generator, Growth, Observer, Scene, StepInput, StepOutcome, StrokeId};
 use espalier_plant::MetamerId;
 
-use super::grammars::{Grammars, InForce, Write, WriteError};
+use super::grammars::{Grammars, InForce, Write, WriteError, Wrote};
 use crate::schedule::{GrowthSchedule, ScheduledAction};
 
 /// Steps in a row in which the brush of a programme finds nothing to do.
@@ -51,7 +51,7 @@ pub(crate) enum Step {
     Growth(StepInput),
     /// The plants grow older by the programme, or on their own where there is none, but not beyond an age.
     Age { chosen: Option<MetamerId>, until: u32 },
-    /// A grammar writes.
+    /// A grammar writes, for a slice of work.
     Write(Write),
     /// Every bud becomes a fork.
     #[cfg(test)]
@@ -88,7 +88,7 @@ impl Generator for Generators {
                 let before = scene.plant().metamer_count();
                 let written =
                     self.grammars.write(scene, self.growth.parameters(), &self.state.written, write);
-                let Some(written) = written else { return StepOutcome::default() };
+                let Wrote::Whole(written) = written else { return StepOutcome::default() };
                 self.state.written = written;
                 self.growth.follow(scene, &Change::Edited);
                 let metamers_grown = scene.plant().metamer_count().saturating_sub(before) as u32;
@@ -123,6 +123,16 @@ impl Generators {
     /// Why the grammar in force could not write the last step, if it could not.
     pub(super) fn refusal(&self) -> Option<&WriteError> {
         self.grammars.refusal.as_ref()
+    }
+
+    /// What grammars are at.
+    pub(super) fn grammars(&self) -> &Grammars {
+        &self.grammars
+    }
+
+    /// Lets go of a step of a grammar that is on its way.
+    pub(super) fn give_up_writing(&mut self) {
+        self.grammars.give_up();
     }
 
     /// Metamers that the last step of a grammar has moved.

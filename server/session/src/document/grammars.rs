@@ -9,27 +9,30 @@ mod depths;
 mod origins;
 mod surroundings;
 mod telling;
+mod underway;
+mod writing;
 
 use std::sync::Arc;
 
-use espalier_grammar::{BadValue, Derivation, Grammar, Limits, Place, Program, Slider, Stop, WoodOptions};
-use espalier_growth::{
-    Drawn, EditError, Envelope, Parameters, Plane, Rewriting, Rewritten, Scene, WORLD_EXTENT,
-};
+use espalier_grammar::{BadValue, Grammar, Limits, Place, Program, Slider, Stop, WoodOptions};
+use espalier_growth::{EditError, Envelope, Parameters, Plane, Scene, WORLD_EXTENT};
 use espalier_plant::hash::StableHash;
 use espalier_proto::{GrammarBody, GrammarSlider, Problem, Reason};
 use glam::{Vec2, Vec3};
 
-pub(super) use self::commands::Planting;
-use self::surroundings::{Asking, Told};
 pub(crate) use self::telling::GrammarMark;
+pub(super) use self::{
+    commands::Planting,
+    underway::Underway,
+    writing::{Grammars, Wrote},
+};
 
 /// Names with their rows, and answers, that all lines of time may keep.
 pub(super) const MAX_HELD: usize = 8_000_000;
 /// Bytes of texts that they may.
 pub(super) const MAX_HELD_TEXT: usize = 32 << 20;
 
-/// What one derivation may take: a step of it is made in one go.
+/// What one derivation may take.
 const LIMITS: Limits = Limits { modules: 2_000_000, parameters: 4_000_000, nesting: 512, work: 500_000_000 };
 
 /// A grammar with its values, and where it stands.
@@ -127,17 +130,6 @@ impl From<EditError> for WriteError {
     }
 }
 
-/// What grammars keep that follows from the rest.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Grammars {
-    /// The word of the grammar in force, so that it need not be derived again.
-    at_hand: Option<(Arc<Written>, Arc<Derivation>)>,
-    /// Why the last step could not be written.
-    pub(super) refusal: Option<WriteError>,
-    /// Metamers that the last step moved.
-    pub(super) moved: usize,
-}
-
 impl InForce {
     pub(super) fn hash(&self, hash: &mut StableHash) {
         let Some(written) = &self.0 else { return };
@@ -152,123 +144,6 @@ impl InForce {
             hash.word(key);
             hash.word(row.into());
         }
-    }
-}
-
-impl Grammars {
-    /// Writes a step; what is in force then, or nothing where it cannot.
-    pub(super) fn write(
-        &mut self,
-        scene: &mut Scene,
-        parameters: &Parameters,
-        now: &InForce,
-        write: &Write,
-    ) -> Option<InForce> {
-        match self.try_write(scene, parameters, now.0.as_ref(), write) {
-            Ok(written) => {
-                self.refusal = None;
-                Some(InForce(Some(written)))
-            }
-            Err(error) => {
-                (self.refusal, self.moved) = (Some(error), 0);
-                None
-            }
-        }
-    }
-
-    /// Bytes of the word at hand.
-    pub(super) fn bytes(&self) -> usize {
-        self.at_hand.as_ref().map_or(0, |(_, derivation)| derivation.bytes())
-    }
-
-    fn try_write(
-        &mut self,
-        scene: &mut Scene,
-        parameters: &Parameters,
-        now: Option<&Arc<Written>>,
-        write: &Write,
-    ) -> Result<Arc<Written>, WriteError> {
-        let options = options(scene, parameters);
-        let asking = |source: &Arc<Source>| Asking::new(scene, Arc::clone(source));
-        let (source, mut derivation, mut answers, former) = match write {
-            Write::Derive => {
-                let now = now.ok_or(WriteError::NoGrammar)?;
-                let derivation = self.derivation(now)?;
-                (&now.source, derivation, now.answers.clone(), Some(now))
-            }
-            Write::Set { source, is_new, .. } => {
-                let derivation = Derivation::new(Arc::clone(&source.program), source.seed, LIMITS)?;
-                (source, derivation, Vec::new(), now.filter(|_| !is_new))
-            }
-        };
-        let surroundings = asking(source);
-        // What was drawn last, where hands have moved it since.
-        let is_edited = former.is_some_and(|now| now.is_edited || now.step != scene.plant().step());
-        let before = match former.filter(|_| is_edited) {
-            Some(now) => {
-                let last =
-                    if matches!(write, Write::Derive) { derivation.clone() } else { self.derivation(now)? };
-                let keys = now.rows.iter().map(|&(key, _)| key).collect();
-                Some(last.draw_on(&asking(&now.source), options, keys)?)
-            }
-            None => None,
-        };
-        let depth = match write {
-            Write::Derive => derivation.depth() + 1,
-            Write::Set { depth, .. } => *depth,
-        };
-        while derivation.depth() < depth {
-            derivation.step(&surroundings)?;
-            if source.asks {
-                answers.push(surroundings.answers());
-            }
-        }
-        let keys = |now: &Arc<Written>| now.rows.iter().map(|&(key, _)| key).collect();
-        let drawn = match former {
-            Some(now) => derivation.draw_on(&surroundings, options, keys(now))?,
-            None => derivation.draw(&surroundings, options)?,
-        };
-        drop(surroundings);
-        let rewriting = Rewriting {
-            now: Drawn { wood: &drawn.wood, keys: &drawn.keys },
-            before: before.as_ref().map(|drawn| Drawn { wood: &drawn.wood, keys: &drawn.keys }),
-            rows: former.map_or(&[], |now| now.rows.as_slice()),
-            at: source.at,
-        };
-        rewriting.check(scene)?;
-        let step = scene.plant().step();
-        let Rewritten { rows, moved } = match write {
-            Write::Derive => scene.record_growth(|step| rewriting.write(step, parameters)),
-            Write::Set { is_new: false, .. } => scene.record_edit(|step| rewriting.write(step, parameters)),
-            Write::Set { .. } => scene.record_growth(|step| rewriting.write(step, parameters)),
-        }?;
-        let written = Arc::new(Written {
-            source: Arc::clone(source),
-            depth,
-            answers,
-            rows,
-            step: scene.plant().step(),
-            is_edited,
-            begun: former.map_or(step, |now| now.begun),
-        });
-        self.moved = moved;
-        self.at_hand = Some((Arc::clone(&written), Arc::new(derivation)));
-        Ok(written)
-    }
-
-    /// The word of what was written: the one at hand, or derived again.
-    fn derivation(&mut self, written: &Arc<Written>) -> Result<Derivation, Stop> {
-        let found = self.at_hand.take_if(|(of, _)| Arc::ptr_eq(of, written));
-        if let Some((_, derivation)) = found {
-            return Ok(Arc::unwrap_or_clone(derivation));
-        }
-        let source = &written.source;
-        let mut derivation = Derivation::new(Arc::clone(&source.program), source.seed, LIMITS)?;
-        for step in 0..written.depth as usize {
-            let answers = written.answers.get(step).cloned().unwrap_or_default();
-            derivation.step(&Told::new(answers))?;
-        }
-        Ok(derivation)
     }
 }
 

@@ -25,6 +25,8 @@ pub(super) enum Pending {
     Steps { left: u32, has_grown: bool, step: Step },
     /// At most so many steps, while the markers of a lasso make anything grow.
     Lasso { left: u32, chosen: Option<MetamerId>, lasso: OpenLasso },
+    /// The step of a grammar that is under way.
+    Write,
     /// At most so many steps for a lifted brush, while anything grows into what it left.
     Settle { stroke: OpenStroke, left: u32 },
 }
@@ -52,8 +54,11 @@ impl Document {
                 let (now, age) = (self.plant().step(), self.age());
                 // What was asked for is growth: only then does it end at an age.
                 let last = if has_grown { age.saturating_add(left) } else { u32::MAX };
-                if !self.is_stopped() && !step.is_over(age) {
-                    self.step(&step.up_to(last), observer);
+                if self.is_stopped() || step.is_over(age) {
+                    self.simulation.generator_mut().give_up_writing();
+                } else if self.step_in_part(&step.up_to(last), observer) {
+                    self.pending.push_front(Pending::Steps { left, has_grown, step });
+                } else {
                     if matches!(step, Step::Write(_)) {
                         self.keep_what_moved();
                     }
@@ -63,6 +68,12 @@ impl Document {
                     if left > 0 && goes_on && !self.simulation.is_out_of_budget() {
                         self.pending.push_front(Pending::Steps { left, has_grown, step });
                     }
+                }
+            }
+            // Where it does not stand nothing has happened.
+            Pending::Write => {
+                if !self.go_on_writing() {
+                    return true;
                 }
             }
             Pending::Lasso { left, chosen, lasso } => {
@@ -126,6 +137,7 @@ impl Document {
     pub fn pending_steps(&self) -> u32 {
         let steps = |pending: &Pending| match pending {
             Pending::Brush(_) | Pending::Lasso { .. } | Pending::Settle { .. } => 1,
+            Pending::Write => self.underway.as_ref().map_or(0, |underway| underway.steps()),
             Pending::Steps { left, .. } => *left,
         };
         self.pending.iter().map(steps).sum()
@@ -240,7 +252,18 @@ impl Document {
         self.steps_begun = self.steps_begun.wrapping_add(1);
         let kept = self.kept();
         self.simulation.generator_mut().keep_what_began_in(kept);
-        self.simulation.step(step, observer)
+        let outcome = self.simulation.step(step, observer);
+        // Whether something is derived again depends on what is at hand, and the count must not.
+        if matches!(step, Step::Write(_)) && self.simulation.generator().grammars().was_again {
+            self.steps_begun = self.steps_begun.wrapping_sub(1);
+        }
+        outcome
+    }
+
+    /// The same; whether the step is not at its end then.
+    fn step_in_part(&mut self, step: &Step, observer: &mut impl Observer) -> bool {
+        self.step(step, observer);
+        self.simulation.generator().grammars().is_writing()
     }
 
     /// The steps in which wood began that is not to be shed: what was drawn, unless somebody has set by hand what is shed.

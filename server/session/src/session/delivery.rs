@@ -48,9 +48,14 @@ impl Session {
             self.upkeep.snapshot_made(through, bytes);
         }
         self.queue.came_back(&work.orders);
-        self.take_figures(&mut work);
-        self.unsettle_pins();
-        self.find_branches(&mut work.document);
+        if work.document.is_between() {
+            // A stop counts on how far it is; what stands is still what was told last.
+            self.figures.steps_begun = work.document.steps_begun();
+        } else {
+            self.take_figures(&mut work);
+            self.unsettle_pins();
+            self.find_branches(&mut work.document);
+        }
         self.came_home(work.hold);
         self.home = Some(work);
         // Steps that were expected and not taken count as well: a refused command leaves no other trace.

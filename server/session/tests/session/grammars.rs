@@ -181,3 +181,20 @@ fn gr1_of_two_people_who_type_the_last_one_wins() {
     assert_eq!(told(&world, mara).flatten().map(|seen| seen.text), Some(text("[&A]")));
     assert_eq!(world.document().hash(), world.replayed_hash());
 }
+
+#[test]
+fn gr4_what_takes_long_is_refused_as_it_goes_on() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, json!({ "kind": "set_grammar", "text": TEXT, "depth": 3 }));
+    world.settle();
+    let (before, metamers) = (world.document().plant().hash(), world.document().metamers());
+    let text = "axiom: F(3)B\nB --> BB\n";
+    world.command(client, 2, json!({ "kind": "set_grammar", "text": text, "depth": 25 }));
+    world.settle();
+    let refused = world.peer(client).refused();
+    assert_eq!(refused.len(), 1);
+    assert_eq!(told(&world, client).flatten().map(|seen| seen.text), Some(TEXT.to_owned()));
+    assert_eq!((world.document().plant().hash(), world.document().metamers()), (before, metamers));
+    assert_eq!(world.document().hash(), world.replayed_hash());
+}

@@ -104,3 +104,29 @@ fn st1_a_stop_lost_in_a_crash_stops_nothing() {
     assert_eq!(world.document().figures().step, 30);
     check_replays(&mut world);
 }
+
+#[test]
+fn st1_a_long_step_of_a_grammar_can_be_stopped() {
+    let large = "slider: a 1 9\na = 1\naxiom: F(a)B\nB --> BB\n";
+    let set = |text: &str, depth: u32| json!({ "kind": "set_grammar", "text": text, "depth": depth });
+    for passes in [1, 2, 3, 5, 8] {
+        let mut world = World::new();
+        let client = world.join("birch-01");
+        world.command(client, 1, set("axiom: F(2)A\nA --> F\n", 1));
+        world.settle();
+        let before = world.document().plant().hash();
+        world.work_ms = 40;
+        world.command(client, 2, set(large, 20));
+        world.pass(passes * 30);
+        world.command(client, 3, stop());
+        world.settle();
+        assert_eq!(world.peer(client).acknowledged().last(), Some(&3));
+        assert_eq!(world.peer(client).last_state().map(|state| state.pending_steps), Some(0));
+        let stands = world.document().plant().hash();
+        let depth = world.document().grammar_depth().map(|(depth, _)| depth);
+        assert!(stands == before && depth == Some(1) || depth == Some(20), "all of it or nothing: {depth:?}");
+        world.command(client, 4, json!({ "kind": "derive", "steps": 1 }));
+        world.settle();
+        check_replays(&mut world);
+    }
+}

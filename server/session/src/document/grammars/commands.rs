@@ -2,25 +2,25 @@
 
 use std::sync::Arc;
 
-use espalier_growth::NoObserver;
 use espalier_plant::Future;
 use espalier_proto::{GrammarBody, GrammarValue, Position, Problem, Reason};
 
-use super::{MAX_HELD, MAX_HELD_TEXT, Source, Write, Written};
+use super::{
+    MAX_HELD, MAX_HELD_TEXT, Source, Write, Written,
+    underway::{After, Former, Underway},
+};
 use crate::{
     cause::Cause,
     document::{
         Document,
         futures::all_states,
-        generators::Step,
-        growing::Pending,
         history::{Kind, Latest, Operation},
     },
     form,
 };
 
 /// In place of a row, where a whole grammar is meant.
-const WHOLE: u32 = u32::MAX;
+pub(super) const WHOLE: u32 = u32::MAX;
 
 /// What `set_grammar` says.
 pub(in crate::document) struct Planting<'a> {
@@ -99,18 +99,12 @@ impl Document {
         self.require_room()?;
         self.require_grammar_room(source.text.len())?;
         let now = self.plant().step();
-        let former = again_from.map(|first| self.set_aside_from(first));
+        let former =
+            again_from.map(|first| Former { future: self.set_aside_from(first), step: now, latest: None });
         let write = Write::Set { source, depth: 0, is_new: true };
-        if let Err(problem) = self.write_at_once(cause, again_from.is_some(), &write) {
-            former.into_iter().for_each(|former| self.take_up(former, now));
-            return Err(problem);
-        }
-        self.keep_what_moved();
-        if depth > 0 {
-            let step = Step::Write(Write::Derive);
-            self.pending.push_back(Pending::Steps { left: depth, has_grown: false, step });
-        }
-        Ok(())
+        let recorded = former.is_none().then(|| self.record(Kind::Grammar, cause));
+        let after = After { keeps_places: true, derives: depth, notes_latest: false };
+        self.begin_writing(Underway::new(write, recorded, former, after, self.plant().step()))
     }
 
     /// Lets the plant of the grammar in force follow another text or other values, in one step; in place of the step in
@@ -120,21 +114,15 @@ impl Document {
         self.require_places(0)?;
         let now = self.plant().step();
         let continues = self.history.continues(&[Kind::Grammar], cause, now);
-        let former = (continues && self.replaces(WHOLE)).then(|| self.set_aside_from(now - 1));
-        let base = self.plant().step();
-        if let Err(problem) = self.write_at_once(cause, continues, &write) {
-            if let Some(former) = former {
-                self.take_up(former, now);
-                self.history.latest = Some(Latest { step: now, row: WHOLE, rotation: None });
-            }
-            return Err(problem);
-        }
-        if former.is_none() {
-            self.keep_what_moved();
-        }
-        let step = self.plant().step();
-        self.history.latest = (step > base).then_some(Latest { step, row: WHOLE, rotation: None });
-        Ok(())
+        let latest = Some(Latest { step: now, row: WHOLE, rotation: None });
+        let former = (continues && self.replaces(WHOLE)).then(|| Former {
+            future: self.set_aside_from(now - 1),
+            step: now,
+            latest,
+        });
+        let recorded = (!continues).then(|| self.record(Kind::Grammar, cause));
+        let after = After { keeps_places: former.is_none(), derives: 0, notes_latest: true };
+        self.begin_writing(Underway::new(write, recorded, former, after, self.plant().step()))
     }
 
     /// Goes back to a step; what was after it.
@@ -146,7 +134,7 @@ impl Document {
     }
 
     /// Goes on to a step of what was set aside right here.
-    fn take_up(&mut self, former: Future, step: u32) {
+    pub(super) fn take_up(&mut self, former: Future, step: u32) {
         let _fits = self.simulation.take_future(former);
         self.simulation.go_to(step);
         self.keep_state();
@@ -158,13 +146,9 @@ impl Document {
         self.require_grammar_room(0)?;
         self.require_places(0)?;
         let continues = self.history.continues(&[Kind::Grammar], cause, self.plant().step());
-        self.write_at_once(cause, continues, &Write::Derive)?;
-        self.keep_what_moved();
-        if steps > 1 {
-            let step = Step::Write(Write::Derive);
-            self.pending.push_back(Pending::Steps { left: steps - 1, has_grown: false, step });
-        }
-        Ok(())
+        let recorded = (!continues).then(|| self.record(Kind::Grammar, cause));
+        let after = After { keeps_places: true, derives: steps - 1, notes_latest: false };
+        self.begin_writing(Underway::new(Write::Derive, recorded, None, after, self.plant().step()))
     }
 
     pub(in crate::document) fn set_grammar_values(
@@ -197,24 +181,6 @@ impl Document {
             let written = self.history.state_after(deed + usize::from(!away)).written;
             self.simulation.generator_mut().put_in_force(written);
         }
-    }
-
-    /// Writes one step now, so that a grammar which cannot is refused.
-    fn write_at_once(&mut self, cause: Cause<'_>, continues: bool, write: &Write) -> Result<(), Problem> {
-        let recorded = (!continues).then(|| self.record(Kind::Grammar, cause));
-        self.step(&Step::Write(write.clone()), &mut NoObserver);
-        let Some(refusal) = self.simulation.generator().refusal().map(ToString::to_string) else {
-            self.reach();
-            return Ok(());
-        };
-        self.steps_begun = self.steps_begun.wrapping_sub(1);
-        if let Some(recorded) = recorded {
-            self.refuse(recorded);
-        }
-        let message = format!("the grammar cannot be derived so far: {refusal}");
-        let problem = Problem::new(Reason::GrammarEnds, message)
-            .at("kind", "a grammar within the limits of the document");
-        Err(Problem { cause: Some(refusal), ..problem })
     }
 
     fn require_grammar(&self) -> Result<Arc<Written>, Problem> {

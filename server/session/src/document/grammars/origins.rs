@@ -27,12 +27,12 @@ impl Document {
         let mut derivation = Derivation::traced(Arc::clone(&source.program), source.seed, LIMITS)?;
         for step in 0..written.depth as usize {
             let answers = written.answers.get(step).cloned().unwrap_or_default();
-            derivation.step(&Told::new(answers))?;
+            derivation.step(&Told::new(answers, 0))?;
         }
         let scene = self.simulation.scene();
-        let keys = written.rows.iter().map(|&(key, _)| key).collect();
+        let keys: Vec<u64> = written.rows.iter().map(|&(key, _)| key).collect();
         let options = options(scene, self.simulation.parameters());
-        let drawn = derivation.draw_on(&Asking::new(scene, Arc::clone(source)), options, keys)?;
+        let drawn = derivation.draw_on(&Asking::new(scene, Arc::clone(source)), options, &keys)?;
         let traced = derivation.origins();
         let plant = self.plant();
         let rule_of = |module: u64| {

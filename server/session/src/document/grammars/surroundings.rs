@@ -76,8 +76,14 @@ pub(super) struct Told {
 }
 
 impl Told {
-    pub(super) fn new(answers: Arc<[f64]>) -> Self {
-        Self { answers, told: Cell::new(0) }
+    /// So many of them have been told already.
+    pub(super) fn new(answers: Arc<[f64]>, told: usize) -> Self {
+        Self { answers, told: Cell::new(told) }
+    }
+
+    /// How many have been told.
+    pub(super) fn told(&self) -> usize {
+        self.told.get()
     }
 
     fn next(&self) -> f64 {
