@@ -192,7 +192,7 @@ pub struct TreePage {
 pub struct ImportNote {
     /// Which it is, for programs that have words of their own for it.
     pub note: ImportNoteKind,
-    /// What the file has there: the name of a species.
+    /// What the file has there: the name of a species, a share in percent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub found: Option<String>,
@@ -208,6 +208,8 @@ pub enum ImportNoteKind {
     MayBeCutOff,
     /// It names a species that nobody knows.
     UnknownSpecies,
+    /// Its trunk is too thick for its height to be likely, so its diameters may be in another unit.
+    ThickTrunk,
 }
 
 /// One tree of the library.

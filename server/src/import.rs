@@ -10,7 +10,7 @@ use espalier_growth::{
     WORLD_EXTENT,
     species::{self, Species, Stage},
 };
-use espalier_import::{Fault, FaultKind, WoodFormat, WoodNote, WoodOptions, read_wood};
+use espalier_import::{Fault, FaultKind, Units, WoodFormat, WoodNote, WoodOptions, read_wood};
 use espalier_proto::{
     NotAllowed, Problem, ProblemCode, Reason,
     library::{self, ImportNoteKind},
@@ -53,8 +53,8 @@ const BODY: &str = "body";
 pub struct Import {
     /// What it is.
     pub format: Format,
-    /// Metres in one unit of the file, where it does not know.
-    pub unit: f64,
+    /// The units of the file, where it does not know.
+    pub units: Units,
     /// The seed of all randomness, where the file has none.
     pub seed: u32,
     /// Parameters that are set whatever the file says, in turn.
@@ -88,6 +88,9 @@ impl ImportNote {
     pub fn to_proto(&self) -> library::ImportNote {
         let (note, found) = match self {
             Self::File(WoodNote::NoLineEnd) => (ImportNoteKind::MayBeCutOff, None),
+            Self::File(WoodNote::Thick { percent }) => {
+                (ImportNoteKind::ThickTrunk, Some(percent.to_string()))
+            }
             Self::Species(name) => (ImportNoteKind::UnknownSpecies, Some(name.clone())),
         };
         library::ImportNote { note, found, message: self.to_string() }
@@ -191,7 +194,7 @@ pub fn document(bytes: &[u8], import: &Import) -> Result<Imported, ImportError> 
     wanted.check().map_err(TransplantError::from)?;
     let options = WoodOptions {
         internode_length: set.internode_length,
-        unit: import.unit,
+        units: import.units,
         shoot: wanted.max_shoot_length,
         nodes: import.metamers as usize,
         extent: WORLD_EXTENT,
@@ -275,7 +278,7 @@ mod tests {
     const SCAN: &str = include_str!("../../tests/fuzz/seeds/rtwig.csv");
 
     fn import(format: Format, parameters: &[ParametersPatch]) -> Import {
-        Import { format, unit: 1.0, seed: 1, parameters: parameters.to_vec(), metamers: 1000 }
+        Import { format, units: Units::of(1.0), seed: 1, parameters: parameters.to_vec(), metamers: 1000 }
     }
 
     fn of_wood(format: WoodFormat, bytes: &[u8]) -> Document {

@@ -3,6 +3,7 @@
 use std::{borrow::Cow, str::FromStr};
 
 use clap::Args;
+use espalier_import::Units;
 use espalier_reading::{Between, Bounded};
 use espalier_settings::{Kind, ParameterValues, ParametersPatch, Setting};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -18,6 +19,9 @@ pub struct ImportOptions {
     /// Metres in one unit of the file, for .csv and .mtg: 0.001 for millimetres; 1 if not given.
     #[arg(long, value_name = "METRES")]
     pub unit: Option<Unit>,
+    /// Metres in one unit of the file's diameters and radii, for .csv and .mtg, where they are not in that of its lengths.
+    #[arg(long, value_name = "METRES")]
+    pub diameter_unit: Option<Unit>,
     /// Metres in one internode, which a .espalier file knows itself; what a skeleton or graph says, or the median of a
     /// file's pieces, if not given.
     #[arg(long, value_name = "METRES")]
@@ -25,9 +29,10 @@ pub struct ImportOptions {
 }
 
 impl ImportOptions {
-    /// Metres in one unit of the file, where it does not know.
-    pub fn metres(&self) -> f64 {
-        self.unit.map_or(1.0, |Unit(metres)| metres)
+    /// The units of the file, where it does not know.
+    pub fn units(&self) -> Units {
+        let length = self.unit.map_or(1.0, |Unit(metres)| metres);
+        Units { length, diameter: self.diameter_unit.map_or(length, |Unit(metres)| metres) }
     }
 
     /// The parameters that are set.

@@ -318,7 +318,7 @@ async fn put(options: &Put) -> Result<(), LibraryError> {
     let note = text::note(&options.note)?;
     let import = import::Import {
         format: options.file.format,
-        unit: options.options.metres(),
+        units: options.options.units(),
         seed: 1,
         parameters: vec![options.options.parameters()],
         metamers: DEFAULT_METAMER_BUDGET,

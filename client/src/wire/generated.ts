@@ -2597,7 +2597,7 @@ sessions: Array<ListedSession>,
  */
 next?: string, };
 
-export type ImportNoteKind = "may-be-cut-off" | "unknown-species";
+export type ImportNoteKind = "may-be-cut-off" | "unknown-species" | "thick-trunk";
 
 export type ImportNote = { 
 /**
@@ -2605,7 +2605,7 @@ export type ImportNote = {
  */
 note: ImportNoteKind, 
 /**
- * What the file has there: the name of a species.
+ * What the file has there: the name of a species, a share in percent.
  */
 found?: string, 
 /**

@@ -9,5 +9,5 @@ mod wood;
 
 pub use self::{
     model::{ImportError, Limits, Model, Size, Triangles, read_model},
-    wood::{Fault, FaultKind, Place, WoodFile, WoodFormat, WoodNote, WoodOptions, read_wood},
+    wood::{Fault, FaultKind, Place, Units, WoodFile, WoodFormat, WoodNote, WoodOptions, read_wood},
 };

@@ -29,13 +29,30 @@ pub enum WoodFormat {
     Skeleton,
 }
 
+/// What the numbers of a file count, in metres: those who measure trees write lengths in centimetres and diameters in
+/// millimetres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Units {
+    /// Of places and lengths.
+    pub length: f64,
+    /// Of diameters and radii.
+    pub diameter: f64,
+}
+
+impl Units {
+    /// Both alike.
+    pub const fn of(metres: f64) -> Self {
+        Self { length: metres, diameter: metres }
+    }
+}
+
 /// What turns metres into internodes, and what bounds the work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WoodOptions {
     /// Length of one internode in metres; if it is not given, what the file says, or how long its pieces are.
     pub internode_length: Option<f32>,
-    /// Metres in one unit of the file; skeletons know their own.
-    pub unit: f64,
+    /// The units of the file; skeletons know their own.
+    pub units: Units,
     /// Internodes that an axis is given in one step, where the file does not say when it grew.
     pub shoot: u32,
     /// The most nodes.
@@ -65,6 +82,15 @@ pub enum WoodNote {
     /// Nobody can say whether the last number is whole.
     #[error("The last line has no line end; the file may have been cut off there.")]
     NoLineEnd,
+    /// As where diameters are in another unit than lengths, which most files of measured trees do not say.
+    #[error(
+        "Its trunk is as thick as {percent} % of its height; if that cannot be, its diameters are in another unit \
+         (`diameter_unit`)."
+    )]
+    Thick {
+        /// Its diameter at the foot, of its height.
+        percent: u32,
+    },
 }
 
 /// What kind of fault it is; programs branch on it.
@@ -129,7 +155,8 @@ pub fn read_wood(format: WoodFormat, bytes: &[u8], options: &WoodOptions) -> Res
     };
     let (wood, length) = pieces::join(&pieces, about.internode_length, options)?;
     let parameters = ParametersPatch { internode_length: Some(length), ..ParametersPatch::default() };
-    let notes = if bytes.ends_with(b"\n") { Vec::new() } else { vec![WoodNote::NoLineEnd] };
+    let cut_off = (!bytes.ends_with(b"\n")).then_some(WoodNote::NoLineEnd);
+    let notes = cut_off.into_iter().chain(pieces::too_thick(&pieces)).collect();
     Ok(WoodFile { wood, parameters, species: about.species, seed: about.seed, notes })
 }
 

@@ -5,7 +5,7 @@ mod saplings;
 
 use espalier_export::{ExportError, Origin, in_memory, mtg, qsm_csv, skeleton_json};
 use espalier_growth::{Parameters, transplant};
-use espalier_import::{WoodFile, WoodFormat, WoodOptions, read_wood};
+use espalier_import::{Units, WoodFile, WoodFormat, WoodOptions, read_wood};
 use espalier_mesh::{Style, StyleOptions};
 use espalier_plant::{MetamerId, Plant, Widths, checks};
 use espalier_settings::{Appearance, ParameterValues};
@@ -20,7 +20,7 @@ fn style() -> Style {
 }
 
 fn options() -> WoodOptions {
-    WoodOptions { internode_length: None, unit: 1.0, shoot: 4, nodes: 100_000, extent: 1000.0 }
+    WoodOptions { internode_length: None, units: Units::of(1.0), shoot: 4, nodes: 100_000, extent: 1000.0 }
 }
 
 /// Internodes as long as they were, where the file itself does not say it.

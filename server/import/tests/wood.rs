@@ -1,13 +1,19 @@
 //! Files of other programs, and files that are none.
 
 use espalier_growth::{Parameters, transplant};
-use espalier_import::{Fault, FaultKind, Place, WoodFormat, WoodNote, WoodOptions, read_wood};
+use espalier_import::{Fault, FaultKind, Place, Units, WoodFormat, WoodNote, WoodOptions, read_wood};
 use espalier_plant::{MetamerId, Plant, Wood, checks};
 use glam::Vec3;
 use serde_json::{Value, json};
 
 fn options() -> WoodOptions {
-    WoodOptions { internode_length: Some(0.1), unit: 1.0, shoot: 4, nodes: 10_000, extent: 1000.0 }
+    WoodOptions {
+        internode_length: Some(0.1),
+        units: Units::of(1.0),
+        shoot: 4,
+        nodes: 10_000,
+        extent: 1000.0,
+    }
 }
 
 fn wood(format: WoodFormat, text: &str) -> Wood {
@@ -64,12 +70,14 @@ fn internodes_are_as_long_as_the_pieces_of_the_file() {
     let unsaid = WoodOptions { internode_length: None, ..options() };
     // 1 m, 0.5 m and 0.304 m.
     assert_eq!(length(RTWIG, unsaid), (Some(0.5), 4));
-    assert_eq!(length(RTWIG, WoodOptions { unit: 0.01, ..unsaid }), (Some(0.005), 4));
+    assert_eq!(length(RTWIG, WoodOptions { units: Units::of(0.01), ..unsaid }), (Some(0.005), 4));
     // No longer than the parameter may be, and then cylinders are cut.
-    assert_eq!(length(RTWIG, WoodOptions { unit: 4.0, ..unsaid }), (Some(1.0), 4 + 2 + 1));
+    assert_eq!(length(RTWIG, WoodOptions { units: Units::of(4.0), ..unsaid }), (Some(1.0), 4 + 2 + 1));
     // As long as it takes for all of it to lie within reach, and to be no more nodes than may be.
     let near = WoodOptions { extent: 1.0, ..unsaid };
-    assert!(length(RTWIG, WoodOptions { unit: 0.5, ..near }).0.is_some_and(|length| length > 0.65));
+    assert!(
+        length(RTWIG, WoodOptions { units: Units::of(0.5), ..near }).0.is_some_and(|length| length > 0.65)
+    );
     let fine = RTWIG.replace("20.6", "20.11").replace("20,30.04,6.3", "20,30,6.01");
     assert_eq!(length(&fine, WoodOptions { nodes: 20, ..unsaid }), (Some(0.08), 13 + 2 + 1));
     assert_eq!(length(RTWIG, options()), (Some(0.1), 19));
@@ -201,7 +209,7 @@ ENTITY-CODE\t\t\tXX\tYY\tZZ\tTopDia
 
 #[test]
 fn a_graph_of_growth_units_becomes_a_tree() {
-    let options = WoodOptions { unit: 0.001, ..options() };
+    let options = WoodOptions { units: Units::of(0.001), ..options() };
     let file = read_wood(WoodFormat::Mtg, OPENALEA.as_bytes(), &options).expect("it is a graph");
     let plant = planted(&file.wood);
     // 3, 2 and 2 internodes of the trunk, and a branch of 1 and 2.
@@ -214,6 +222,25 @@ fn a_graph_of_growth_units_becomes_a_tree() {
             "{wanted:?} in {ends:?}"
         );
     }
+}
+
+/// Lengths in centimetres, diameters in tenths of millimetres: as walnuts were measured.
+#[test]
+fn diameters_may_be_in_a_unit_of_their_own() {
+    let read = |units| {
+        let file = read_wood(WoodFormat::Mtg, OPENALEA.as_bytes(), &WoodOptions { units, ..options() });
+        let file = file.expect("it is a graph");
+        let thickest = file.wood.nodes.iter().filter_map(|node| node.radius).fold(0.0_f32, f32::max);
+        (thickest, file.notes)
+    };
+    let (thick, notes) = read(Units::of(0.001));
+    assert_eq!(notes, []);
+    let (thin, notes) = read(Units { length: 0.001, diameter: 0.0001 });
+    assert!((thick / thin - 10.0).abs() < 1e-3, "{thick} and {thin}");
+    assert_eq!(notes, []);
+    // At its first top it is 30 across, of 700 in height.
+    let (_, notes) = read(Units { length: 0.001, diameter: 0.01 });
+    assert_eq!(notes, [WoodNote::Thick { percent: 43 }]);
 }
 
 #[test]
@@ -249,7 +276,8 @@ fn bad_graphs_are_named_by_line_and_column() {
         assert!(found.to_string().contains(what), "{found}");
     }
     let thick = OPENALEA.replacen("400\t8", "400\t1e30", 1);
-    let found = read_wood(WoodFormat::Mtg, thick.as_bytes(), &WoodOptions { unit: 0.001, ..options() });
+    let found =
+        read_wood(WoodFormat::Mtg, thick.as_bytes(), &WoodOptions { units: Units::of(0.001), ..options() });
     let found = found.expect_err("it is thicker than the world");
     assert_eq!((found.kind, &found.place), (FaultKind::OutOfRange, &Some(Place::Cell(30, 7))), "{found}");
     for (text, what) in [
@@ -313,7 +341,7 @@ fn a_graph_says_what_it_grew_by() {
                 "TopDia\n/P1/U90",
                 &format!("TopDia\tInternodeLength\tSpecies\tSeed\n/P1\t\t\t\t\t\t\t{line}\n/P1/U90"),
             );
-        let options = WoodOptions { internode_length: None, unit: 0.001, ..options() };
+        let options = WoodOptions { internode_length: None, units: Units::of(0.001), ..options() };
         read_wood(WoodFormat::Mtg, text.as_bytes(), &options)
     };
     let file = about("250\toak\t4294967295").expect("a graph");

@@ -190,7 +190,7 @@ pub fn import(options: &cli::Import) -> Result<(), HeadlessError> {
     let budget = options.start.budget.unwrap_or(DEFAULT_METAMER_BUDGET);
     let import = imports::Import {
         format: options.file.format,
-        unit: options.options.metres(),
+        units: options.options.units(),
         seed: options.seed,
         parameters: [&[options.options.parameters()], &*options.start.parameters].concat(),
         metamers: budget,

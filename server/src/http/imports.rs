@@ -38,17 +38,19 @@ macro_rules! of_a_file {
             format: import::Format,
             /// Metres in one unit of the file.
             unit: Option<Unit>,
+            /// Metres in one unit of its diameters and radii, where that is another.
+            diameter_unit: Option<Unit>,
             /// Metres in one internode.
             internode_length: Option<InternodeLength>,
         }
 
         impl $name {
             fn import(&self, metamers: u32) -> Import {
-                let &Self { format, unit, internode_length, .. } = self;
-                let options = ImportOptions { unit, internode_length };
+                let &Self { format, unit, diameter_unit, internode_length, .. } = self;
+                let options = ImportOptions { unit, diameter_unit, internode_length };
                 Import {
                     format,
-                    unit: options.metres(),
+                    units: options.units(),
                     seed: rand::random(),
                     parameters: vec![options.parameters()],
                     metamers,

@@ -1,6 +1,6 @@
 //! Wood from files of structure, which becomes a document.
 
-use espalier_import::{WoodFormat, WoodOptions, read_wood};
+use espalier_import::{Units, WoodFormat, WoodOptions, read_wood};
 use espalier_session::Document;
 use espalier_settings::{Appearance, ParameterValues};
 
@@ -11,7 +11,8 @@ const NODES: usize = 1000;
 /// Reads a file; what it gives is within the limits, and if it fits together it is a document that can be written,
 /// read again and taken back to its seeds.
 pub(crate) fn read(format: WoodFormat, bytes: &[u8]) -> bool {
-    let options = WoodOptions { internode_length: None, unit: 1.0, shoot: 4, nodes: NODES, extent: 1000.0 };
+    let options =
+        WoodOptions { internode_length: None, units: Units::of(1.0), shoot: 4, nodes: NODES, extent: 1000.0 };
     let file = match read_wood(format, bytes, &options) {
         Ok(file) => file,
         Err(fault) => {

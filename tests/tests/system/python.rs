@@ -61,7 +61,7 @@ fn exports_open_in_other_programs() {
         .into();
     files.push(grown("cherry", &["--by-limb"], "limbs.glb"));
     let printed = run(Command::new(&python).arg(home.join("wood.py")).args(&files));
-    assert!(printed.lines().count() > 3 * 5 + 5, "{printed}");
+    assert!(printed.lines().count() > 4 * 5 + 5, "{printed}");
 
     // A scene with materials, says usd-core.
     let scenes = [("usda", None), ("usdz", None), ("usda", Some("--instanced"))].map(|(ending, option)| {
@@ -71,4 +71,31 @@ fn exports_open_in_other_programs() {
     let printed = run(Command::new(&python).arg(home.join("usd.py")).args(scenes));
     assert_eq!(printed.lines().count(), 3, "{printed}");
     assert!(!printed.lines().last().is_some_and(|last| last.contains(" 0 leaves as instances")), "{printed}");
+
+    // As many triangles, of the same size, as in glTF, whatever the leaves.
+    for species in ["scots-pine", "weeping-willow", "cherry", "maple"] {
+        let file =
+            |ending: &str| grown(species, &[], &format!("whole-{species}.{ending}"));
+        let gltf = run(Command::new(&python).arg(home.join("wood.py")).arg(file("glb")));
+        let usd = run(Command::new(&python).arg(home.join("usd.py")).arg(file("usdz")));
+        let counts =
+            [(&gltf, " triangles in all"), (&usd, " triangles")].map(|(said, what)| before(said, what));
+        assert!(counts[0] > 1000 && counts[0] == counts[1], "{gltf}{usd}");
+        let sizes = [&gltf, &usd].map(|said| said[said.rfind('[').expect("a size")..].split(']').next());
+        assert_eq!(sizes[0], sizes[1], "{gltf}{usd}");
+    }
+
+    // Files of structure hold each metamer once.
+    let files =
+        ["ply", "csv", "mtg"].map(|ending| grown("oak", &[], &format!("oak.{ending}")));
+    let printed = run(Command::new(&python).arg(home.join("structure.py")).args(files));
+    let counts = [" metamers", " cylinders", " components"].map(|what| before(&printed, what));
+    assert!(counts[0] > 2000 && counts.iter().all(|&count| count == counts[0]), "{printed}");
+}
+
+/// The number before the first of some words.
+fn before(printed: &str, words: &str) -> u32 {
+    let (head, _) = printed.split_once(words).unwrap_or_else(|| panic!("no{words}: {printed}"));
+    let number = head.rsplit(' ').next().and_then(|number| number.parse().ok());
+    number.unwrap_or_else(|| panic!("no number before{words}: {printed}"))
 }

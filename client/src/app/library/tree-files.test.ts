@@ -58,6 +58,25 @@ describe("files", () => {
     ]);
   });
 
+  it("IM3: of scans are taken in the units chosen, and can be taken again in others", async () => {
+    const { files, take, sent } = library();
+    expect(files.scan.value).toBeNull();
+    await take(file("oak.espalier"));
+    expect(files.scan.value, "a document knows its units").toBeNull();
+    await take(file("walnut.mtg"));
+    expect(files.scan.value?.name).toBe("walnut.mtg");
+    files.units.value = { length: "cm", diameter: "mm/10" };
+    await take(file("walnut.mtg"), file("oak.json"));
+    files.units.value = { length: "in", diameter: "same" };
+    await take(file("ash.csv"));
+    expect(sent.slice(1)).toEqual([
+      "/api/v1/trees/import?name=walnut&format=mtg",
+      "/api/v1/trees/import?name=walnut&format=mtg&unit=0.01&diameter_unit=0.0001",
+      "/api/v1/trees/import?name=oak&format=json",
+      "/api/v1/trees/import?name=ash&format=csv&unit=0.0254",
+    ]);
+  });
+
   it("that are refused are named with the reason, and the others go on", async () => {
     const { take, sent, said } = library();
     await take(file("bad.csv"), file("picture.png"), file("huge.json", MAX_WOOD_BYTES + 1), file("good.json"));

@@ -5,6 +5,7 @@ import { sentence } from "../problems/plain-words";
 import { send } from "../requests/send";
 import { type Progress, Transfer } from "../requests/transfer";
 import { say } from "../words/say";
+import { fieldsOf, isScan, METRES, type ScanUnits } from "./scan-units";
 
 const MEGABYTE = 1024 * 1024;
 
@@ -24,6 +25,10 @@ export class TreeFiles {
   readonly transfer = new Transfer();
   /** The last tree that came of one. */
   readonly added = signal<SavedTree | null>(null);
+  /** The units in which scans are taken. */
+  readonly units = signal<ScanUnits>(METRES);
+  /** The last file that was taken in these units, which can be taken again in others. */
+  readonly scan = signal<TreeFile | null>(null);
   #post: Post;
 
   constructor(post: Post = send) {
@@ -63,7 +68,12 @@ export class TreeFiles {
     if (file.size > MAX_WOOD_BYTES) {
       throw new Error(say("library.file.too-large", { limit: MAX_WOOD_BYTES / MEGABYTE }));
     }
-    const path = `/api/v1/trees/import?${new URLSearchParams({ name: nameOf(file.name), format })}`;
+    let units: Readonly<Record<string, string>> = {};
+    if (isScan(format)) {
+      this.scan.value = file;
+      units = fieldsOf(this.units.peek());
+    }
+    const path = `/api/v1/trees/import?${new URLSearchParams({ name: nameOf(file.name), format, ...units })}`;
     const body = new Uint8Array(await file.arrayBuffer());
     return (await this.#post(path, { type: "application/octet-stream", body }, stop, tell)) as SavedTree;
   }

@@ -77,6 +77,17 @@ export const LIBRARY = {
     "No species here is called “{found}”; what the file does not say itself is as usual",
     "Keine Art heißt hier „{found}“; was die Datei nicht selbst sagt, ist wie üblich",
   ],
+  "library.note.thick-trunk": [
+    "Its trunk is as thick as {found} % of its height; if that cannot be, say in the library in which unit its diameters are, and take it again",
+    "Sein Stamm ist so dick wie {found} % seiner Höhe; wenn das nicht sein kann, sage in der Bibliothek, in welcher Einheit die Durchmesser stehen, und nimm die Datei noch einmal",
+  ],
+  "library.scan": ["Units of {file}", "Einheiten von {file}"],
+  "library.scan.lengths": ["Unit of lengths", "Einheit der Längen"],
+  "library.scan.lengths-in": ["Lengths in {unit}", "Längen in {unit}"],
+  "library.scan.diameters": ["Unit of diameters", "Einheit der Durchmesser"],
+  "library.scan.diameters-same": ["Diameters too", "Durchmesser auch"],
+  "library.scan.diameters-in": ["Diameters in {unit}", "Durchmesser in {unit}"],
+  "library.scan.again": ["Take {file} again", "{file} noch einmal nehmen"],
   "library.not-added": ["{file}: {reason}", "{file}: {reason}"],
   "library.file.kind": [
     "Only files of these kinds become trees: {endings}.",

@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use self::graph::{Component, Graph, Relation};
 use super::{
-    About, Fault, MAX_SHED, Place, WoodOptions, excerpt, internode, malformed, number, out_of_range,
+    About, Fault, MAX_SHED, Place, Units, WoodOptions, excerpt, internode, malformed, number, out_of_range,
     pieces::{Piece, y_up},
 };
 
@@ -114,14 +114,14 @@ pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<(Vec<Piece>, A
         if let Some((_, count)) = last.replace((line, cells.len())) {
             fewest = fewest.min(count);
         }
-        let read = features.read(line, &cells, options.unit)?;
+        let read = features.read(line, &cells, options.units)?;
         let code = &cells[..codes.min(cells.len())];
         let same_for_all = graph.follow(line, code)?;
         values.resize_with(graph.components.len(), Values::default);
         for at in same_for_all {
             let Component { parent, complex, .. } = graph.components[at];
             if parent.is_none() && complex.is_none() {
-                features.read_about(line, &cells, options.unit, &mut about)?;
+                features.read_about(line, &cells, options.units.length, &mut about)?;
             }
             values[at] = read;
         }
@@ -191,7 +191,7 @@ impl Features {
         Ok(())
     }
 
-    fn read(&self, line: u64, cells: &[&str], unit: f64) -> Result<Values, Fault> {
+    fn read(&self, line: u64, cells: &[&str], units: Units) -> Result<Values, Fault> {
         let place = |column: usize| Place::Cell(line, column as u64 + 1);
         let float = |column: usize, name: &str| match cells.get(column).copied().unwrap_or_default() {
             "" | "NA" => Ok(None),
@@ -213,7 +213,7 @@ impl Features {
         let mut at = None;
         if let Some([x, y, z]) = self.place {
             let [x, y, z] = [float(x, "XX")?, float(y, "YY")?, float(z, "ZZ")?];
-            at = x.zip(y).zip(z).map(|((x, y), z)| y_up([x, y, z]) * unit);
+            at = x.zip(y).zip(z).map(|((x, y), z)| y_up([x, y, z]) * units.length);
         }
         let mut radius = None;
         if let Some((column, factor)) = self.radius {
@@ -230,7 +230,7 @@ impl Features {
         }
         Ok(Values {
             place: at,
-            radius: radius.map(|radius| radius * unit),
+            radius: radius.map(|radius| radius * units.diameter),
             birth: count(self.birth, "Birth")?,
             id: count(self.id, "Id")?,
             shed,

@@ -6,7 +6,9 @@ use espalier_plant::{
 };
 use glam::{DVec3, Vec3};
 
-use super::{Fault, MAX_SHED, MAX_STEP, Place, WoodOptions, internode, malformed, out_of_range, too_many};
+use super::{
+    Fault, MAX_SHED, MAX_STEP, Place, WoodNote, WoodOptions, internode, malformed, out_of_range, too_many,
+};
 
 /// A piece that begins farther than this from the wood that bears it, in internodes, is joined to it by a node where
 /// it begins.
@@ -86,6 +88,20 @@ pub(super) fn join(pieces: &[Piece], said: Option<f32>, options: &WoodOptions) -
         return Err(malformed(None, what));
     }
     Ok((joinery.finish(), length))
+}
+
+/// A trunk that is thicker than this share of its tree's height is one of few, or in another unit.
+const THICK: f64 = 0.25;
+
+/// Says so where the first trunk is too thick for the tree to be likely.
+pub(super) fn too_thick(pieces: &[Piece]) -> Option<WoodNote> {
+    let foot = pieces.iter().find(|piece| piece.parent.is_none())?;
+    let ground = foot.start.unwrap_or(foot.end).y;
+    // A seed has no girth of its own.
+    let first = pieces.iter().find(|piece| piece.radius.is_some())?;
+    let tall = pieces.iter().fold(0.0_f64, |tall, piece| tall.max(piece.end.y - ground));
+    let share = 2.0 * first.radius? / tall;
+    (tall > 0.0 && share > THICK).then(|| WoodNote::Thick { percent: (100.0 * share).round() as u32 })
 }
 
 /// The pieces, parents before children, in the order of the file but for that.

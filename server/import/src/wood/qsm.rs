@@ -6,7 +6,7 @@ use csv::{ErrorKind, ReaderBuilder, StringRecord};
 use glam::DVec3;
 
 use super::{
-    Fault, Place, WoodOptions, excerpt, malformed, number, out_of_range,
+    Fault, Place, Units, WoodOptions, excerpt, malformed, number, out_of_range,
     pieces::{Piece, y_up},
     too_many,
 };
@@ -106,7 +106,7 @@ pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<Vec<Piece>, Fa
             let line = record.position().map(|position| Place::Line(position.line()));
             return Err(too_many(line, options));
         }
-        rows.push(table.row(&record, options.unit, rows.len())?);
+        rows.push(table.row(&record, options.units, rows.len())?);
     }
     pieces(&rows)
 }
@@ -188,7 +188,7 @@ impl Table {
         })
     }
 
-    fn row(&self, record: &StringRecord, unit: f64, above: usize) -> Result<Row, Fault> {
+    fn row(&self, record: &StringRecord, units: Units, above: usize) -> Result<Row, Fault> {
         let line = record.position().map_or(0, csv::Position::line);
         let place = |column: usize| Place::Cell(line, column as u64 + 1);
         let cell = |column: usize| record.get(column).unwrap_or_default();
@@ -240,9 +240,9 @@ impl Table {
             line,
             id: own.unwrap_or(above as i64 + 1),
             parent: whole(self.parent, parent)?,
-            start: from * unit,
-            end: to * unit,
-            radius: thick * unit,
+            start: from * units.length,
+            end: to * units.length,
+            radius: thick * units.diameter,
             thickness: self.radius as u64 + 1,
             branch: known(self.branch, branch)?,
             order: known(self.order, order)?,

@@ -213,6 +213,11 @@ async fn im3_what_is_taken_with_a_doubt_is_said_once() {
     }]);
     let cut = send(import, SCAN.trim_end().to_owned()).await;
     assert_eq!(cut["import_notes"], said);
+    // Diameters in centimetres, taken for metres.
+    let thick = send(&format!("{import}&diameter_unit=0.01"), SCAN.to_owned()).await;
+    assert_eq!(thick.get("import_notes"), None);
+    let thick = send(&format!("{import}&diameter_unit=100"), SCAN.to_owned()).await;
+    assert_eq!(thick["import_notes"][0]["note"], "thick-trunk");
     let version = send("/api/v1/trees/ash/versions/import?format=csv", SCAN.trim_end().to_owned()).await;
     assert_eq!(version["import_notes"], said);
     let path = format!("/api/v1/trees/{}", cut["id"].as_str().unwrap());

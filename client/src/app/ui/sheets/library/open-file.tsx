@@ -1,9 +1,10 @@
 import { useEffect, useRef } from "preact/hooks";
-import { accepted, treeFiles } from "../../../library/tree-files";
+import { accepted, type TreeFile, treeFiles } from "../../../library/tree-files";
 import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
 import { TransferChip } from "../../notices/transfer-chip";
 import type { LibraryDesk } from "./library-desk";
+import { ScanUnits } from "./scan-units";
 
 /** Lets files be chosen that become trees, and says how far they are. */
 export function OpenFile({ desk: { studio, section } }: { readonly desk: LibraryDesk }) {
@@ -40,6 +41,7 @@ export function OpenFile({ desk: { studio, section } }: { readonly desk: Library
           });
         }}
       />
+      <ScanUnits onAgain={() => void takeAgain(studio)} />
       <TransferChip transfer={treeFiles.transfer} name="tree" />
     </>
   );
@@ -47,7 +49,17 @@ export function OpenFile({ desk: { studio, section } }: { readonly desk: Library
 
 /** Puts files into the library. */
 export function takeFiles(studio: Studio, files: FileList | null): Promise<void> {
-  return treeFiles.take([...(files ?? [])], {
+  return take(studio, [...(files ?? [])]);
+}
+
+/** Puts the last scan into the library once more, in the units that are chosen now. */
+function takeAgain(studio: Studio): Promise<void> {
+  const scan = treeFiles.scan.peek();
+  return take(studio, scan === null ? [] : [scan]);
+}
+
+function take(studio: Studio, files: readonly TreeFile[]): Promise<void> {
+  return treeFiles.take(files, {
     show: (text, action) => studio.toasts.show(text, action),
     open: (tree) => void studio.trees.leave({ tree }),
   });
