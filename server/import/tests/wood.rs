@@ -238,9 +238,9 @@ fn diameters_may_be_in_a_unit_of_their_own() {
     let (thin, notes) = read(Units { length: 0.001, diameter: 0.0001 });
     assert!((thick / thin - 10.0).abs() < 1e-3, "{thick} and {thin}");
     assert_eq!(notes, []);
-    // At its first top it is 30 across, of 700 in height.
+    // At its foot it is 40 across, of 700 in height.
     let (_, notes) = read(Units { length: 0.001, diameter: 0.01 });
-    assert_eq!(notes, [WoodNote::Thick { percent: 43 }]);
+    assert_eq!(notes, [WoodNote::Thick { percent: 57 }]);
 }
 
 #[test]
