@@ -74,8 +74,7 @@ fn exports_open_in_other_programs() {
 
     // As many triangles, of the same size, as in glTF, whatever the leaves.
     for species in ["scots-pine", "weeping-willow", "cherry", "maple"] {
-        let file =
-            |ending: &str| grown(species, &[], &format!("whole-{species}.{ending}"));
+        let file = |ending: &str| grown(species, &[], &format!("whole-{species}.{ending}"));
         let gltf = run(Command::new(&python).arg(home.join("wood.py")).arg(file("glb")));
         let usd = run(Command::new(&python).arg(home.join("usd.py")).arg(file("usdz")));
         let counts =
@@ -86,8 +85,7 @@ fn exports_open_in_other_programs() {
     }
 
     // Files of structure hold each metamer once.
-    let files =
-        ["ply", "csv", "mtg"].map(|ending| grown("oak", &[], &format!("oak.{ending}")));
+    let files = ["ply", "csv", "mtg"].map(|ending| grown("oak", &[], &format!("oak.{ending}")));
     let printed = run(Command::new(&python).arg(home.join("structure.py")).args(files));
     let counts = [" metamers", " cylinders", " components"].map(|what| before(&printed, what));
     assert!(counts[0] > 2000 && counts.iter().all(|&count| count == counts[0]), "{printed}");
