@@ -12,12 +12,12 @@ import { BRANCH_FRAGMENT, BRANCH_VERTEX } from "./glsl/branch";
 import {
   BRUSH_FRAGMENT,
   BRUSH_VERTEX,
-  GROUND_FRAGMENT,
   GROUND_VERTEX,
-  SKY_FRAGMENT,
+  groundFragment,
   SKY_VERTEX,
+  skyFragment,
 } from "./glsl/environment";
-import { LEAF_DEPTH_FRAGMENT, LEAF_FRAGMENT, LEAF_VERTEX } from "./glsl/leaf";
+import { LEAF_DEPTH_FRAGMENT, leafFragment, leafVertex } from "./glsl/leaf";
 import { OBSTACLE_FRAGMENT, OBSTACLE_VERTEX, PLANE_SHOWN } from "./glsl/obstacle";
 import { ornamentDepthFragment, ornamentFragment, ornamentVertex } from "./glsl/ornament";
 import { DEPTH_FRAGMENT } from "./glsl/shadow";
@@ -60,16 +60,16 @@ export function makeMaterials(uniforms: Uniforms) {
     bark: shader(BRANCH_VERTEX, BRANCH_FRAGMENT, { side: FrontSide }),
     twig: shader(BRANCH_VERTEX, BRANCH_FRAGMENT, { defines: { RIBBON: "" }, side: DoubleSide, ...COVERAGE }),
     branchDepth: shader(BRANCH_VERTEX, DEPTH_FRAGMENT, { defines: { RIBBON: "", CASTER: "" }, side: DoubleSide }),
-    leaf: shader(LEAF_VERTEX, LEAF_FRAGMENT, cutOut),
-    leafDepth: shader(LEAF_VERTEX, LEAF_DEPTH_FRAGMENT, caster),
-    sprig: shader(LEAF_VERTEX, LEAF_FRAGMENT, { ...cutOut, defines: { SPRIG: "" } }),
-    sprigDepth: shader(LEAF_VERTEX, LEAF_DEPTH_FRAGMENT, { ...caster, defines: { CASTER: "", SPRIG: "" } }),
+    leaf: shader(leafVertex(), leafFragment(), cutOut),
+    leafDepth: shader(leafVertex(), LEAF_DEPTH_FRAGMENT, caster),
+    sprig: shader(leafVertex(), leafFragment(), { ...cutOut, defines: { SPRIG: "" } }),
+    sprigDepth: shader(leafVertex(), LEAF_DEPTH_FRAGMENT, { ...caster, defines: { CASTER: "", SPRIG: "" } }),
     flower: shader(ornamentVertex("Flower"), ornamentFragment("Flower"), cutOut),
     flowerDepth: shader(ornamentVertex("Flower"), ornamentDepthFragment("Flower"), caster),
     fruit: shader(ornamentVertex("Fruit"), ornamentFragment("Fruit"), cutOut),
     fruitDepth: shader(ornamentVertex("Fruit"), ornamentDepthFragment("Fruit"), caster),
-    sky: shader(SKY_VERTEX, SKY_FRAGMENT, { depthWrite: false }),
-    ground: shader(GROUND_VERTEX, GROUND_FRAGMENT),
+    sky: shader(SKY_VERTEX, skyFragment(), { depthWrite: false }),
+    ground: shader(GROUND_VERTEX, groundFragment()),
     clay: clay({}),
     clayChosen: clay({ CHOSEN: "" }),
     // Faces that look away would shine through where they end at an outline.

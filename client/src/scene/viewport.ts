@@ -1,4 +1,4 @@
-import { type Scene, Vector4, WebGLRenderer } from "three";
+import { type Object3D, type Scene, Vector4, WebGLRenderer } from "three";
 import type { Appearance, DrawingPlane } from "../wire/generated";
 import { type Pick, pickBranch } from "./camera/picking";
 import { type PictureSize, pixelsPerInternode } from "./camera/sight";
@@ -62,6 +62,9 @@ export class Viewport {
   private drawn: Quality;
   /** Whether details are still to be chosen. */
   private unsettled = false;
+  /** Whether what the first picture does without is being loaded; null while that is not wanted. */
+  private loading: boolean | null = null;
+  private gone = false;
   /** What moves the tree; null as long as no wind has blown. */
   private air: Air | null = null;
   /** Whether the graphics card has taken its context away, and all that was drawn with it. */
@@ -113,7 +116,7 @@ export class Viewport {
     });
     this.loop = new RenderLoop(
       this.draw,
-      () => this.loop.control.quality !== QUALITIES[0] || this.world.shadow.isDue || this.world.tree.ripe,
+      () => this.loop.control.quality !== QUALITIES[0] || this.world.shadow.isDue || this.world.ripe,
       // Tests and scripts that take pictures of the page can read when this one is finished.
       (still) => canvas.toggleAttribute("data-still", still && this.complete),
       new FrameFence(gl),
@@ -346,6 +349,7 @@ export class Viewport {
 
   /** Lets go of the GPU and the canvas. */
   dispose(): void {
+    this.gone = true;
     this.loop.dispose();
     this.air?.dispose();
     this.resizing.disconnect();
@@ -360,7 +364,7 @@ export class Viewport {
 
   /** Whether the picture has everything in it; while drawing pauses its textures are not waited for. */
   private get complete(): boolean {
-    return !this.lost && this.rehearsal.prepared && (this.pause.on || !this.world.tree.unfinished);
+    return !this.lost && this.rehearsal.prepared && (this.pause.on || !(this.loading || this.world.unfinished));
   }
 
   /** Draws the whole picture after a pause, at once in the quality that is due. */
@@ -408,13 +412,19 @@ export class Viewport {
       this.shown();
     }
     if (this.pause.on) return growing || moving;
+    if (!this.empty) void this.loadFiner();
     const { quality } = control;
     const { camera } = this.camera.aimed();
     // Finer textures wait for the picture at rest, which comes over that before it: nobody sees one put for another.
-    const finer = control.resting && this.world.tree.ripe;
+    const finer = control.resting && this.world.ripe;
     const better = finer || (control.resting && quality !== this.drawn);
     const over = better && !sways && this.screen.remember(camera);
-    if (finer) this.world.tree.ripen();
+    if (finer && this.world.ripen()) {
+      this.air?.redress();
+      control.forget();
+      // How long such a picture takes, the next one tells.
+      if (control.rising) this.loop.invalidate();
+    }
     this.world.shadow.stale ||= finer;
     this.screen.fit(quality.scale, quality.smooth);
     this.unsettled = this.refine(this.screen.size.y, this.screen.samples, quality);
@@ -431,6 +441,22 @@ export class Viewport {
     this.drawn = quality;
     return growing || moving || over || this.unsettled || sways === true;
   };
+
+  /** Loads what the first picture does without; where that cannot be had, the picture stays as it is. */
+  private async loadFiner(): Promise<void> {
+    if (this.loading !== null) return;
+    this.loading = true;
+    const { renderer, table, world } = this;
+    const { materials, uniforms, appearance } = world;
+    const obstacles = world.obstacles.bodies;
+    const told = () => this.loop.invalidate();
+    const add = (mesh: Object3D) => world.scene.add(mesh);
+    const made = await import("./finer/finer").catch(() => null);
+    if (made && !this.gone)
+      world.finer = new made.Finer({ renderer, table, materials, uniforms, appearance, obstacles, add, told });
+    this.loading = false;
+    if (!this.gone) told();
+  }
 
   /** Loads what draws a large tree as lines. */
   private async prepareSketch(): Promise<void> {
@@ -464,7 +490,9 @@ export class Viewport {
     this.world.uniforms.uSamples!.value = samples;
     this.world.uniforms.uShadowTaps!.value = quality.detailed ? 3 : 1;
     this.world.environment.reach(distance);
-    return this.world.tree.detail(fineness, this.loop.control.resting);
+    const { resting } = this.loop.control;
+    this.world.finer?.detail(fineness, this.camera.sight.camera, resting);
+    return this.world.tree.detail(fineness, resting);
   }
 
   private fineness(height: number, { detailed, merging, leaves, sprigs, twigs }: Quality): Fineness {
@@ -477,8 +505,7 @@ export class Viewport {
   private sync(): void {
     this.camera.aimed();
     if (!this.world.tree.sync(this.fineness(this.screen.size.y, QUALITIES[0]))) return;
-    this.world.shadow.stale = true;
-    this.world.environment.update(this.table);
+    this.world.changed();
     this.camera.rig.keep(this.world.reach());
   }
 

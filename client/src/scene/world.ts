@@ -1,9 +1,10 @@
 import { type Mesh, Scene, type WebGLRenderer } from "three";
-import type { Appearance } from "../wire/generated";
+import { type Appearance, DEFAULT_APPEARANCE } from "../wire/generated";
 import { BrushShell } from "./brush-shell";
 import { union } from "./camera/camera-rig";
 import type { Box } from "./camera/camera-view";
 import { extent } from "./camera/extent";
+import type { Finer } from "./finer/finer";
 import { Environment } from "./light/environment";
 import { ShadowDue } from "./light/shadow-due";
 import { Sun } from "./light/sun";
@@ -30,8 +31,11 @@ export class World {
   readonly ghost: Ghost;
   readonly shadow = new ShadowDue();
   mode: DrawMode = "lit";
+  /** What the first picture does without; null until it is loaded. */
+  finer: Finer | null = null;
+  appearance: Appearance = DEFAULT_APPEARANCE;
+  readonly materials: Materials;
   private readonly noise = new NoiseTextures();
-  private readonly materials: Materials;
 
   /** `seen` are the uniforms of how it is looked at; `painted` is called when a texture has been painted, with what had been ordered. */
   constructor(
@@ -64,10 +68,35 @@ export class World {
     return [...this.environment.meshes, ...this.tree.essential, ...this.sun.essential];
   }
 
+  /** Whether something finer is there than what is shown. */
+  get ripe(): boolean {
+    return this.tree.ripe || this.finer?.ripe === true;
+  }
+
+  /** Whether something finer is still being made, or not yet shown. */
+  get unfinished(): boolean {
+    return this.tree.unfinished || this.finer?.unfinished === true;
+  }
+
+  /** Shows what is finer in place of what is coarse; says whether shaders are others from now on. */
+  ripen(): boolean {
+    this.tree.ripen();
+    return this.finer?.ripen() === true;
+  }
+
+  /** The tree's rows have changed. */
+  changed(): void {
+    this.shadow.stale = true;
+    this.environment.update(this.table);
+    this.finer?.changed();
+  }
+
   /** How the tree and its surroundings look. */
   setAppearance(appearance: Appearance): void {
+    this.appearance = appearance;
     this.environment.setBackground(appearance.background);
     this.tree.setAppearance(appearance);
+    this.finer?.setAppearance(appearance);
     this.shadow.stale = true;
   }
 
@@ -84,12 +113,14 @@ export class World {
     if (this.uniforms.uLeafSize!.value === size) return false;
     this.uniforms.uLeafSize!.value = size;
     this.shadow.stale = true;
+    this.finer?.changed();
     return true;
   }
 
   /** Shows these obstacles and no others; one may be marked. */
   showObstacles(obstacles: readonly DrawnObstacle[], chosen: number | null): void {
     this.obstacles.show(obstacles, chosen);
+    this.finer?.cover();
     this.shadow.stale = true;
   }
 
@@ -118,12 +149,14 @@ export class World {
   restored(): void {
     this.tree.restored();
     this.ghost.restored();
+    this.finer?.restored();
     this.shadow.stale = true;
   }
 
   dispose(): void {
     const { tree, environment, obstacles, brush, ghost, noise, sun, painter } = this;
     for (const part of [tree, environment, obstacles, brush, ghost, noise, sun, painter]) part.dispose();
+    this.finer?.dispose();
     for (const material of Object.values(this.materials)) material.dispose();
   }
 }

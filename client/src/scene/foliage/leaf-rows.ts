@@ -4,7 +4,7 @@ import type { Uniforms } from "../materials";
 import type { Fineness } from "../rendering/fineness";
 import type { TreeTable } from "../table/tree-table";
 import { BLADE_CARDS, levelFor, SPRAY_CARDS } from "./leaf-cards";
-import { leafAzimuth, leafRandom } from "./leaves";
+import { leafAzimuth, leafRandom, SHOOT, shootOf } from "./leaves";
 import { reachFrom } from "./nearness";
 import { RowInstances } from "./row-instances";
 
@@ -60,9 +60,10 @@ export class LeafRows {
     const foliage = table.foliage[row]!;
     const count = table.radiusCode[row] !== 0 && parent >= 0 ? foliage & 15 : 0;
     const first = this.instances.place(row, count);
+    const shoot = count > 0 ? leafRandom(shootOf(table, row), SHOOT) : 0;
     for (let k = 0; k < count; k += 1) {
       const azimuth = leafAzimuth(row, k, count);
-      this.instances.write(first + k, row, parent, azimuth, (k + 1) / count, foliage >> 4, leafRandom(row, k));
+      this.instances.write(first + k, row, parent, azimuth, (k + 1) / count, foliage >> 4, leafRandom(row, k), shoot);
     }
   }
 

@@ -3,7 +3,7 @@ import { expect, it } from "vitest";
 import { shaderFunctions } from "../../../test/shader-functions";
 import { LEAF_PLACE } from "../glsl/leaf";
 import { leafHash } from "../leaf-hash";
-import { leafAzimuth, leafRandom } from "./leaves";
+import { leafAzimuth, leafRandom, shootOf } from "./leaves";
 
 /** A leaf as the server places it. */
 interface Placed {
@@ -43,4 +43,13 @@ it("LF1, LF2, LF4: leaves are where the server has them", () => {
       for (let i = 0; i < 3; i += 1) expect(Math.abs(found[name][i]! - wanted[name][i]!)).toBeLessThan(1e-4);
     }
   }
+});
+
+it("what grew of an axis in one step is a shoot", () => {
+  const table = {
+    parent: new Int32Array([-1, 0, 1, 2, 3, 2]),
+    startsAxis: new Uint8Array([1, 0, 0, 0, 0, 1]),
+    born: new Uint32Array([0, 1, 1, 2, 2, 2]),
+  };
+  expect([1, 2, 3, 4, 5].map((row) => shootOf(table, row))).toEqual([1, 1, 3, 3, 5]);
 });

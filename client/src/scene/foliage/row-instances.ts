@@ -64,7 +64,7 @@ export class RowInstances {
     return first;
   }
 
-  /** Writes what a row bears in a slot: its azimuth, its share of the way along, the row's vigor and a random number. */
+  /** Writes what a row bears in a slot: its azimuth, its share of the way along, the row's vigor, a random number and one of the shoot's. */
   write(
     slot: number,
     row: number,
@@ -73,6 +73,7 @@ export class RowInstances {
     along: number,
     vigor: number,
     random: number,
+    shoot = random,
   ): void {
     const { numbers } = this.items;
     const to = slot * STRIDE;
@@ -81,6 +82,7 @@ export class RowInstances {
     numbers[to + 2] = azimuth;
     numbers[to + 3] = along;
     numbers[to + TINT] = vigor + Math.min(random, 0.999);
+    numbers[to + TINT + 1] = shoot;
   }
 
   /** Uploads what was written since the last call. */

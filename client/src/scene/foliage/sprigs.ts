@@ -8,7 +8,7 @@ import { grown } from "../table/column";
 import type { TreeTable } from "../table/tree-table";
 import { SPRIG_CARD } from "./leaf-cards";
 import type { LeafRows } from "./leaf-rows";
-import { leafAzimuth, leafRandom } from "./leaves";
+import { leafAzimuth, leafRandom, SHOOT, shootOf } from "./leaves";
 import { reachFrom } from "./nearness";
 import { RowInstances } from "./row-instances";
 
@@ -82,10 +82,11 @@ export class Sprigs {
     const count = sprigsOf(place, leaves);
     if (count === 0 && this.instances.countOf(row) === 0) return;
     const first = this.instances.place(row, count);
+    const shoot = count > 0 ? leafRandom(shootOf(table, row), SHOOT) : 0;
     for (let i = 0; i < count; i += 1) {
       const k = (leafHash(16 * row + CHOICE) + i) % leaves;
       const azimuth = leafAzimuth(row, k, leaves);
-      this.instances.write(first + i, row, parent, azimuth, (k + 1) / leaves, foliage >> 4, leafRandom(row, k));
+      this.instances.write(first + i, row, parent, azimuth, (k + 1) / leaves, foliage >> 4, leafRandom(row, k), shoot);
     }
   }
 

@@ -105,14 +105,14 @@ uniform float uShadowBias;
 uniform int uShadowTaps; // 1, or 3 along each side of a square that softens edges
 uniform vec3 uSunColour;
 uniform vec3 uSkyColour;
-uniform vec3 uBounceColour;
 uniform vec3 uHorizonColour;
+uniform vec3 uAirColour; // of air that is far away
 uniform float uExposure;
 uniform float uVivid; // how much of colours is seen
 #define SUN_COLOUR uSunColour
 #define SKY_COLOUR uSkyColour
-#define BOUNCE_COLOUR uBounceColour
 #define HORIZON_COLOUR uHorizonColour
+#define AIR_COLOUR uAirColour
 
 /** How much of the sun comes to a place, which lies a little before what it lights. */
 float sunAt(vec3 place, float softness) {
@@ -147,17 +147,20 @@ float sunlit(vec3 world, vec3 normal, float softness) {
   float slant = sqrt(max(0.0, 1.0 - facing * facing));
   return sunAt(world + normal * (0.03 + uShadowSize * taps * slant), softness);
 }
-vec3 ambient(vec3 normal) {
-  return mix(BOUNCE_COLOUR * 0.55, SKY_COLOUR, normal.y * 0.5 + 0.5) * 0.8;
+uniform vec3 uAmbient[9]; // \`sky-harmonics.ts\`
+/** What comes from the sky and the ground to a surface that looks that way. */
+vec3 ambient(vec3 n) {
+  return max(uAmbient[0] + uAmbient[1] * n.y + uAmbient[2] * n.z + uAmbient[3] * n.x + uAmbient[4] * (n.x * n.y) + uAmbient[5] * (n.y * n.z)
+    + uAmbient[6] * (3.0 * n.y * n.y - 1.0) + uAmbient[7] * (n.x * n.z) + uAmbient[8] * (n.x * n.x - n.z * n.z), vec3(0.0));
 }
 /** What is about to be cut glows red, as far as it is lit. */
 vec3 condemned(vec3 albedo) {
   return mix(vec3(0.62, 0.05, 0.03), albedo, 0.15);
 }
 uniform vec2 uAir; // distance up to which it is clear, and how much it takes of a colour beyond
-/** Air between the eye and what it sees: what is far behind the trees fades into the horizon. */
+/** Air between the eye and what it sees: what is far behind the trees pales as the land does. */
 vec3 hazed(vec3 colour, float distance) {
-  return mix(HORIZON_COLOUR, colour, exp(-max(0.0, distance - uAir.x) * uAir.y));
+  return mix(AIR_COLOUR, colour, exp(-max(0.0, distance - uAir.x) * uAir.y));
 }
 /** Light as a film takes it, after AgX (T. Sobotka) in the polynomial form of B. Wrensch: bright greens stay green, and nothing burns out. */
 vec3 finished(vec3 colour) {

@@ -126,17 +126,29 @@ export const BORNE = /* glsl */ `${itemsOf("sampler2D", LEAF_TEXELS)}
 struct Borne {
   vec4 at; // row, parent's row, azimuth, share of the way along the metamer
   float tint; // a random number with the vigor above the point; below 0 where there is none
+  float shoot; // a random number of the shoot's
 };
 Borne borne() {
   int number = itemNumber();
-  if (number >= uItemsDrawn[0]) return Borne(vec4(0.0), -1.0);
+  if (number >= uItemsDrawn[0]) return Borne(vec4(0.0), -1.0, 0.0);
   ivec2 place = itemPlace(number);
-  return Borne(texelFetch(uItems, place, 0), texelFetch(uItems, place + ivec2(1, 0), 0).x);
+  vec2 more = texelFetch(uItems, place + ivec2(1, 0), 0).xy;
+  return Borne(texelFetch(uItems, place, 0), more.x, more.y);
 }
 `;
 
+/** What is known of the crown around a leaf, for its light; it is read where the leaf is placed. */
+export interface Crown {
+  readonly declared: string;
+  readonly read: string;
+}
+export const NO_CROWN: Crown = { declared: "", read: "" };
+
 /** Puts one leaf, or one spray of small ones, in its place. */
-export const LEAF_VERTEX = /* glsl */ `${HEAD}${BORNE}${NODES}${TRAITS}${GHOST_PLACE}${LEAF_PLACE}
+export const leafVertex = ({
+  declared,
+  read,
+} = NO_CROWN) => /* glsl */ `${HEAD}${BORNE}${NODES}${TRAITS}${GHOST_PLACE}${LEAF_PLACE}
 uniform vec3 uSun;
 uniform float uLeafSize;
 uniform vec2 uLeafLevel; // 0 near to 2 far, share of the leaves that are drawn
@@ -154,7 +166,7 @@ out vec3 vMargin;
 out vec2 vLight; // below 0 for what is marked; how open to the sky it is
 out float vTrait;
 const float SECONDS = 0.35;
-${CARD}${LEAF_SHAPE}${LEAF_COLOUR}
+${CARD}${LEAF_SHAPE}${LEAF_COLOUR}${declared}
 void main() {
   Borne own = borne();
   vec4 leaf = own.at;
@@ -242,7 +254,9 @@ void main() {
   vNormal = n;
   vSide = vec4(side, mirror);
   vPicture = tileAt(card.xy, more.x * 2.0 - step(0.5, more.x), mirror);
-  Hues hues = leafHues(vigor, node.light, vec3(random, more.y, more.w));
+  // Leaves of one shoot are more alike than those of others.
+  vec3 own_ = vec3(random, more.y, more.w);
+  Hues hues = leafHues(vigor, node.light, mix(own_, ownNumbers(own.shoot).xyz, 0.6));
   vMiddle = hues.middle;
   vMargin = hues.margin;
   // The outer half of a leaf sees more of the sky than where it is hidden by its twig.
@@ -251,6 +265,7 @@ void main() {
   vLight.y = 0.86;
 #endif
   vTrait = traitOf(int(leaf.x + 0.5));
+${read}
 #ifdef GHOST
   vWorld = world = ghostPlace(world);
   vNormal = turned(uGhostTurn, vNormal);
@@ -316,7 +331,7 @@ vec3 thinLit(vec3 albedo, vec3 normal, vec3 sight, vec3 world, float sheer, floa
 `;
 
 /** A leaf as its picture shows it. */
-export const LEAF_FRAGMENT = /* glsl */ `${HEAD}${LIGHT}${MODES}${GHOST_COLOUR}${CUT}${THIN_LIGHT}
+export const leafFragment = (light = THIN_LIGHT) => /* glsl */ `${HEAD}${LIGHT}${MODES}${GHOST_COLOUR}${CUT}${light}
 ${LEAF_SAMPLERS}
 uniform vec4 uLeafForm;
 in vec3 vWorld;

@@ -1,6 +1,6 @@
 import { HEAD, LIGHT, NODES } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
-import { BORNE, CARD, CUT, LEAF_PLACE, THIN_LIGHT } from "./leaf";
+import { BORNE, CARD, CUT, LEAF_PLACE, NO_CROWN, THIN_LIGHT } from "./leaf";
 import { DEPTH_COLOUR } from "./shadow";
 
 /** What makes a flower or fruit differ from others of its kind; the server's exports compute the same. */
@@ -17,7 +17,10 @@ vec3 ornamentHue(vec3 tint, vec3 more) {
 `;
 
 /** Puts one flower or fruit at the surface of the wood that bears it. */
-export const ornamentVertex = (name: "Flower" | "Fruit") => /* glsl */ `${HEAD}${BORNE}${NODES}${TRAITS}${LEAF_PLACE}
+export const ornamentVertex = (
+  name: "Flower" | "Fruit",
+  { declared, read } = NO_CROWN,
+) => /* glsl */ `${HEAD}${BORNE}${NODES}${TRAITS}${LEAF_PLACE}
 uniform vec3 uSun;
 uniform vec4 u${name}Form; // half width, hanging to upright, turned to the eye or a disc, stalk
 uniform vec4 u${name}Finish; // size, gloss
@@ -31,7 +34,7 @@ out vec3 vMiddle;
 out float vLight; // below 0 for what is marked
 out float vTrait;
 const float SECONDS = 0.5;
-${CARD}${ORNAMENT_SHAPE}
+${CARD}${ORNAMENT_SHAPE}${declared}
 void main() {
   Borne own = borne();
   vec4 leaf = own.at;
@@ -87,6 +90,7 @@ void main() {
   vMiddle = ornamentHue(u${name}Tint, more);
   vLight = node.look == MARKED ? -1.0 : node.light;
   vTrait = traitOf(int(leaf.x + 0.5));
+${read}
   gl_Position = projectionMatrix * viewMatrix * vec4(world, 1.0);
 }
 `;
@@ -103,7 +107,10 @@ void main() {
 `;
 
 /** A flower or fruit as its picture shows it. */
-export const ornamentFragment = (name: "Flower" | "Fruit") => /* glsl */ `${HEAD}${LIGHT}${MODES}${CUT}${THIN_LIGHT}
+export const ornamentFragment = (
+  name: "Flower" | "Fruit",
+  light = THIN_LIGHT,
+) => /* glsl */ `${HEAD}${LIGHT}${MODES}${CUT}${light}
 uniform sampler2D u${name}Colour; // half the brightness, second colour, sheerness, coverage
 uniform sampler2D u${name}Relief; // normal across and along, stalk
 uniform vec4 u${name}Finish;

@@ -1,14 +1,15 @@
 import { BufferAttribute, BufferGeometry, CircleGeometry, Mesh, Vector2, Vector3, Vector4 } from "three";
 import { type Background, DEFAULT_APPEARANCE, type Ground } from "../../wire/generated";
+import { MOST_FEET } from "../glsl/environment";
 import type { Materials, Uniforms } from "../materials";
 import { radiusOf, type TreeTable } from "../table/tree-table";
+import { harmonicsOf, hemisphereOf } from "./sky-harmonics";
 import { skyLight } from "./sky-light";
 
 /** The ground goes on to this far, and further for a tree that is seen from further off. */
 const GROUND_RADIUS = 600;
 const GROUND_REACH = 7;
 const EXPOSURE = 0.85;
-const MAX_FEET = 8;
 
 const GROUNDS: readonly Ground[] = ["grass", "earth", "sand", "snow", "plain"];
 /** The background of false colours: a light grey that is close to none of them. */
@@ -17,14 +18,15 @@ const NEUTRAL = { sky: "studio", ground: "plain", backdrop: [232, 232, 230] } as
 /** Sky and ground, and the colours of their light. */
 export class Environment {
   readonly meshes: Mesh[];
-  private readonly feet = Array.from({ length: MAX_FEET }, () => new Vector4());
+  private readonly feet = Array.from({ length: MOST_FEET }, () => new Vector4());
   private readonly crown = new Vector4(0, 0, 1, 0);
   private readonly colours = {
     uSun: { value: new Vector3(0, 1, 0) },
     uSunColour: { value: new Vector3() },
     uSkyColour: { value: new Vector3() },
-    uBounceColour: { value: new Vector3() },
+    uAmbient: { value: Array.from({ length: 9 }, () => new Vector3()) },
     uHorizonColour: { value: new Vector3() },
+    uAirColour: { value: new Vector3() },
     uZenithColour: { value: new Vector3() },
     uMiddleColour: { value: new Vector3() },
     uGlowColour: { value: new Vector3() },
@@ -76,7 +78,7 @@ export class Environment {
   update(table: TreeTable): void {
     let found = 0;
     for (const foot of this.feet) foot.w = 0;
-    for (let row = 0; row < table.rows && found < MAX_FEET; row += 1) {
+    for (let row = 0; row < table.rows && found < MOST_FEET; row += 1) {
       if (table.parent[row]! >= 0) continue;
       const first = table.successor[row]!;
       const radius = first < 0 ? 0 : radiusOf(table.radiusCode[first]!);
@@ -105,8 +107,10 @@ export class Environment {
     colours.uSun.value.set(...light.towards).normalize();
     colours.uSunColour.value.set(...light.sun);
     colours.uSkyColour.value.set(...light.above);
-    colours.uBounceColour.value.set(...light.below);
+    const around = background.sky === "studio" ? hemisphereOf(light) : harmonicsOf(light);
+    for (const [i, colour] of colours.uAmbient.value.entries()) colour.set(...around[i]!);
     colours.uHorizonColour.value.set(...light.horizon);
+    colours.uAirColour.value.set(...light.air);
     colours.uZenithColour.value.set(...light.zenith);
     colours.uMiddleColour.value.set(...light.middle);
     colours.uGlowColour.value.set(...light.glow);

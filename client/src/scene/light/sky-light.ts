@@ -12,6 +12,8 @@ export interface SkyLight {
   readonly zenith: Vec3;
   readonly middle: Vec3;
   readonly horizon: Vec3;
+  /** What far land pales to. */
+  readonly air: Vec3;
   /** Around the sun. */
   readonly glow: Vec3;
   /** Share of the sky under clouds, and how bright they are. */
@@ -44,8 +46,8 @@ interface Hour {
 const HOURS: readonly Hour[] = [
   {
     elevation: -10,
-    sun: [0.44, 0.58, 0.86],
-    above: [0.15, 0.2, 0.34],
+    sun: [0.3, 0.47, 0.92],
+    above: [0.095, 0.15, 0.36],
     zenith: [0.007, 0.016, 0.055],
     middle: [0.016, 0.036, 0.105],
     horizon: [0.045, 0.08, 0.165],
@@ -116,9 +118,9 @@ const MOON_ASIDE = 130;
 const LOWEST_LIGHT = 4;
 /** How much brighter the sky is to look at than what it gives to see by, as eyes and films have it. */
 const SKY_GAIN = 1.7;
-/** Tone mapping flattens colours; a little more saturation restores them. By moonlight less is right. */
+/** Tone mapping flattens colours; a little more saturation restores them. By moonlight eyes see hardly any. */
 const DAY_VIVID = 1.3;
-const NIGHT_VIVID = 1.2;
+const NIGHT_VIVID = 0.8;
 /** How green or bright the ground sends light back. */
 const BOUNCE: Record<Background["ground"], Vec3> = {
   grass: [0.3, 0.31, 0.17],
@@ -157,6 +159,7 @@ export function skyLight({ sky, ground, backdrop, sun_azimuth, sun_elevation }: 
         zenith: zenith!,
         middle: middle!,
         horizon: horizon!,
+        air: airOf(middle!, horizon!),
         below,
         cloud,
         stars: sky === "clear" ? stars : 0.5 * stars,
@@ -176,6 +179,7 @@ export function skyLight({ sky, ground, backdrop, sun_azimuth, sun_elevation }: 
         zenith: scale(grey, 0.85),
         middle: scale(grey, 1.15),
         horizon: scale(grey, 1.5),
+        air: airOf(scale(grey, 1.15), scale(grey, 1.5)),
         glow: scale(faint, 0.12),
         cloud: scale(grey, 1.6),
         stars: 0,
@@ -198,6 +202,7 @@ export function skyLight({ sky, ground, backdrop, sun_azimuth, sun_elevation }: 
         zenith: scale(paper, 0.9),
         middle: paper,
         horizon: scale(paper, 1.06),
+        air: scale(paper, 1.06),
         glow: [0, 0, 0],
         cloud: paper,
         stars: 0,
@@ -228,6 +233,11 @@ function hourAt(elevation: number): Omit<Hour, "elevation"> {
     horizon: between("horizon"),
     glow: between("glow"),
   };
+}
+
+/** The air before far land is a little darker than the sky above it. */
+function airOf(middle: Vec3, horizon: Vec3): Vec3 {
+  return scale(mix(middle, horizon, 0.35), 0.72);
 }
 
 /** The light that the ground reflects. */

@@ -170,6 +170,11 @@ export class Air {
     return pick && { row: pick.row, point: restingPlace(table, pick, seen, drawn) };
   }
 
+  /** What draws rows does so otherwise from now on. */
+  redress(): void {
+    this.materials.renew();
+  }
+
   /** A restored context has lost every texture. */
   restored(): void {
     this.rows.restored();

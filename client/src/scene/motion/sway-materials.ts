@@ -15,7 +15,8 @@ export class SwayMaterials {
   ready = false;
   /** Whether rows are drawn as they sway. */
   swaying = false;
-  private readonly pairs: Pair[];
+  private pairs: Pair[] = [];
+  private readonly materials = new Set<RawShaderMaterial>();
   private readonly copies: Material[] = [];
   private preparing: Promise<void> | null = null;
 
@@ -25,17 +26,32 @@ export class SwayMaterials {
     drawn: readonly Object3D[],
     private readonly pass: Mesh,
   ) {
-    const materials = new Set<RawShaderMaterial>();
     for (const group of drawn) {
       group.traverse((part) => {
-        if (part instanceof Mesh && part.material instanceof RawShaderMaterial) materials.add(part.material);
+        if (part instanceof Mesh && part.material instanceof RawShaderMaterial) this.materials.add(part.material);
       });
     }
-    this.pairs = [...materials].map((material) => {
+    this.renew();
+  }
+
+  /** The materials have other shaders from now on. */
+  renew(): void {
+    const renewed: Pair[] = [];
+    for (const material of this.materials) {
       const { vertexShader, fragmentShader } = material;
+      const before = this.pairs.find((pair) => pair.material === material);
+      // One that is as it was stays what it is, also while it sways.
+      if (before && [before.plain, before.swaying].some((shaders) => same(shaders, material))) {
+        renewed.push(before);
+        continue;
+      }
       const other = { vertexShader: swaying(vertexShader), fragmentShader: weathering(fragmentShader) };
-      return { material, plain: { vertexShader, fragmentShader }, swaying: other };
-    });
+      renewed.push({ material, plain: { vertexShader, fragmentShader }, swaying: other });
+    }
+    this.pairs = renewed;
+    this.ready = false;
+    this.preparing = null;
+    this.sway(false);
   }
 
   /** Has the programs made, once, while the picture goes on as it is. */
@@ -75,4 +91,8 @@ export class SwayMaterials {
     await Promise.all([...cast, this.pass].map((mesh) => this.renderer.compileAsync(mesh, camera)));
     this.ready = true;
   }
+}
+
+function same(a: Shaders, b: Shaders): boolean {
+  return a.vertexShader === b.vertexShader && a.fragmentShader === b.fragmentShader;
 }

@@ -1,14 +1,14 @@
 import { describe, expect, it } from "vitest";
 import { leanShader } from "../../../shader-plugin";
 import { BRANCH_FRAGMENT, BRANCH_VERTEX } from "../glsl/branch";
-import { LEAF_DEPTH_FRAGMENT, LEAF_FRAGMENT, LEAF_VERTEX } from "../glsl/leaf";
+import { LEAF_DEPTH_FRAGMENT, leafFragment, leafVertex } from "../glsl/leaf";
 import { ornamentFragment, ornamentVertex } from "../glsl/ornament";
 import { SKELETON_VERTEX } from "../glsl/skeleton";
 import { swaying, weathering } from "./sway-shaders";
 
 const SHADERS: readonly (readonly [name: string, shader: string, has: readonly string[]])[] = [
   ["branches", BRANCH_VERTEX, ["end.arc - (1.0 - u) * distance("]],
-  ["leaves", LEAF_VERTEX, ["place = Leaf(mix(", "flutter(sway.air", "void flutter("]],
+  ["leaves", leafVertex(), ["place = Leaf(mix(", "flutter(sway.air", "void flutter("]],
   ["flowers", ornamentVertex("Flower"), ["place = Leaf(mix("]],
   ["lines", SKELETON_VERTEX, []],
 ];
@@ -36,7 +36,7 @@ it("a shader that draws no rows is no shader that sways", () => {
 
 describe.each([
   ["bark", BRANCH_FRAGMENT],
-  ["leaves", LEAF_FRAGMENT],
+  ["leaves", leafFragment()],
   ["flowers", ornamentFragment("Flower")],
 ])("the colour of %s", (_, shader) => {
   it.each([

@@ -2,7 +2,7 @@ import { FrontSide, GLSL3, Group, Quaternion, RawShaderMaterial, Vector2, Vector
 import type { Box } from "../camera/camera-view";
 import { LeafRows } from "../foliage/leaf-rows";
 import { BRANCH_FRAGMENT, BRANCH_VERTEX } from "../glsl/branch";
-import { LEAF_DEPTH_FRAGMENT, LEAF_FRAGMENT, LEAF_VERTEX } from "../glsl/leaf";
+import { LEAF_DEPTH_FRAGMENT, leafFragment, leafVertex } from "../glsl/leaf";
 import { DEPTH_FRAGMENT } from "../glsl/shadow";
 import type { Uniforms } from "../materials";
 import { NodeTexture } from "../table/node-texture";
@@ -65,8 +65,8 @@ export class Ghost {
     const both = { side: 2 } as const;
     const bark = shader(BRANCH_VERTEX, BRANCH_FRAGMENT, colour);
     const branchDepth = shader(BRANCH_VERTEX, DEPTH_FRAGMENT, depth);
-    const leaf = shader(LEAF_VERTEX, LEAF_FRAGMENT, { ...colour, ...both });
-    const leafDepth = shader(LEAF_VERTEX, LEAF_DEPTH_FRAGMENT, { ...depth, ...both });
+    const leaf = shader(leafVertex(), leafFragment(), { ...colour, ...both });
+    const leafDepth = shader(leafVertex(), LEAF_DEPTH_FRAGMENT, { ...depth, ...both });
     this.materials = [bark, branchDepth, leaf, leafDepth];
     this.branches = new Branches({ bark, twig: bark, branchDepth }, { strips: false });
     this.leaves = new LeafRows({ leaf, leafDepth }, uniforms);

@@ -75,6 +75,8 @@ export class QualityControl {
   private quickInRow = 0;
   /** Nothing has been learnt from frames in which everything is used for the first time. */
   private opening = false;
+  /** Whether the next duration is that of a frame like others. */
+  private telling = true;
   /** The best level this movement may use; a failed try is not repeated before the next rest. */
   private best = 0;
   /** The level of the picture at rest: on a slow device one that it draws in time. */
@@ -124,8 +126,17 @@ export class QualityControl {
     return !this.moving && this.shown > 0;
   }
 
+  /** The frame that is being drawn has things in it that are used for the first time: how long it takes tells nothing. */
+  forget(): void {
+    this.telling = false;
+  }
+
   /** A frame of the movement, or one at rest, took this many milliseconds. */
   measured(duration: number): void {
+    if (!this.telling) {
+      this.telling = true;
+      return;
+    }
     if (this.rising) this.whole ??= duration / QUALITIES[this.shown]!.cost;
     if (!this.moving || this.opening) return;
     this.recent.push(duration);

@@ -1,0 +1,129 @@
+import { Data3DTexture, LinearFilter, RGBAFormat, Vector3 } from "three";
+import type { Uniforms } from "../materials";
+import type { TreeTable } from "../table/tree-table";
+import { CROWN_SIDE, crownField } from "./crown-field";
+import { type CrownBox, crownOf } from "./crown-of";
+
+/** Milliseconds without a change of the tree after which its crown is looked at anew; while it grows the old one will do. */
+const SETTLED = 150;
+
+/** The part of a worker that is used; tests bring their own. */
+export interface CrownWorker {
+  onmessage: ((event: { readonly data: Uint8Array<ArrayBuffer> }) => void) | null;
+  onerror: (() => void) | null;
+  postMessage(order: CrownBox["order"]): void;
+  terminate(): void;
+}
+
+/** The crown's field for shaders: made beside the page, and shown in place of the one before when the picture is at rest. */
+export class Crown {
+  private readonly texture = new Data3DTexture(empty(), CROWN_SIDE, CROWN_SIDE, CROWN_SIDE);
+  private readonly from = { value: new Vector3() };
+  private readonly size = { value: new Vector3(1, 1, 1) };
+  private worker: CrownWorker | null = null;
+  private broken = false;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  /** What is being made, and what has been made and is not shown yet. */
+  private making: CrownBox | null = null;
+  private made: { readonly box: CrownBox; readonly field: Uint8Array<ArrayBuffer> } | null = null;
+  private stale = false;
+
+  /** `told` is called when a field has been made. */
+  constructor(
+    private readonly table: TreeTable,
+    private readonly uniforms: Uniforms,
+    private readonly told: () => void,
+    private readonly start: () => CrownWorker = startWorker,
+  ) {
+    const { texture } = this;
+    texture.format = RGBAFormat;
+    texture.minFilter = LinearFilter;
+    texture.magFilter = LinearFilter;
+    texture.needsUpdate = true;
+    Object.assign(uniforms, { uCrownField: { value: texture }, uCrownFrom: this.from, uCrownSize: this.size });
+  }
+
+  /** Whether a field has been made and is not shown. */
+  get ripe(): boolean {
+    return this.made !== null;
+  }
+
+  /** Whether one is being made, or has to be. */
+  get unfinished(): boolean {
+    return this.stale || this.making !== null || this.ripe;
+  }
+
+  /** The tree or its leaves have changed. */
+  changed(): void {
+    this.stale = true;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(this.begin, SETTLED);
+  }
+
+  /** Shows what has been made. */
+  ripen(): void {
+    const { made, texture } = this;
+    if (!made) return;
+    this.made = null;
+    this.from.value.set(...made.box.from);
+    this.size.value.set(...made.box.size);
+    texture.image.data = made.field;
+    texture.needsUpdate = true;
+  }
+
+  /** A restored context has lost it. */
+  restored(): void {
+    this.texture.needsUpdate = true;
+  }
+
+  dispose(): void {
+    clearTimeout(this.timer);
+    this.worker?.terminate();
+    this.texture.dispose();
+  }
+
+  private readonly begin = (): void => {
+    if (this.making) return;
+    this.stale = false;
+    this.making = crownOf(this.table, this.uniforms.uLeafSize!.value as number);
+    if (!this.broken && !this.worker) this.worker = this.started();
+    if (this.worker) this.worker.postMessage(this.making.order);
+    else this.finish(crownField(this.making.order));
+  };
+
+  private finish(field: Uint8Array<ArrayBuffer>): void {
+    this.made = { box: this.making!, field };
+    this.making = null;
+    if (this.stale) this.changed();
+    this.told();
+  }
+
+  private started(): CrownWorker | null {
+    try {
+      const worker = this.start();
+      worker.onmessage = ({ data }) => this.finish(data);
+      worker.onerror = () => {
+        // Whatever has become of it, the page can do the same.
+        this.broken = true;
+        worker.terminate();
+        this.worker = null;
+        if (this.making) this.finish(crownField(this.making.order));
+      };
+      return worker;
+    } catch {
+      this.broken = true;
+      return null;
+    }
+  }
+}
+
+/** Nothing stands anywhere: no way out, and all of the sky. */
+function empty(): Uint8Array<ArrayBuffer> {
+  const texels = new Uint8Array(4 * CROWN_SIDE ** 3).fill(128);
+  for (let at = 3; at < texels.length; at += 4) texels[at] = 255;
+  return texels;
+}
+
+function startWorker(): CrownWorker {
+  return new Worker(new URL("./crown-worker.ts", import.meta.url), { type: "module" }) as unknown as CrownWorker;
+}

@@ -1,0 +1,136 @@
+import { CROWN_FIELD } from "./crown";
+import { FIELDS } from "./landscape";
+
+/** The colour of grass where it grows. */
+export const GRASS_COLOUR = /* glsl */ `
+vec3 grassAt(vec2 at) {
+  float broad = noise(at * 0.021, 11.0) * 0.6 + noise(at * 0.057, 0.5) * 0.4;
+  float patches = noise(at * 0.09, 2.0) * 0.45 + noise(at.yx * 0.21 + 3.7, 3.0) * 0.3 + noise(at * 0.47, 13.0) * 0.25;
+  vec3 albedo = mix(vec3(0.062, 0.086, 0.032), vec3(0.104, 0.120, 0.048), smoothstep(0.2, 0.8, broad));
+  // Here and there it is dry.
+  return mix(albedo, vec3(0.150, 0.138, 0.072), 0.5 * smoothstep(0.35, 0.95, patches));
+}
+`;
+
+/** What the ground is made of and what lies on it, as finely as it is seen. */
+export const GROUND_SURFACE = /* glsl */ `${CROWN_FIELD}${FIELDS}${GRASS_COLOUR}
+uniform vec4 uLeafSeason; // size, presence, fresh, turned
+uniform vec4 uLeafTraits; // shift by vigor, orientation, withered
+uniform vec4 uLeafForm; // half width, whether it is a spray, how far that lies along its twig, how much it bends
+uniform float uLeafSize;
+uniform vec3 uLeafFirst;
+uniform vec3 uLeafLast;
+uniform vec3 uLeafDead;
+/** How high grass stands, about one half; what is smaller than the picture can show is left out. */
+float sward(vec2 at, float blurred) {
+  vec4 wave = vec4(0.55, 1.3, 2.9, 6.1);
+  vec4 shown = 1.0 - smoothstep(vec4(0.25), vec4(0.75), wave * blurred);
+  vec4 parts = vec4(noise(at * wave.x, 8.0), noise(at.yx * wave.y, 5.0), noise(at * wave.z, 15.0), noise(at.yx * wave.w, 6.0));
+  return 0.5 + dot(vec4(0.22, 0.34, 0.34, 0.30) * shown, parts - 0.5);
+}
+vec3 hashed(vec2 cell) {
+  vec3 p = fract(vec3(cell.xyx) * vec3(0.1031, 0.1030, 0.0973));
+  p += dot(p, p.yxz + 33.33);
+  return fract((p.xxy + p.yzz) * p.zyx);
+}
+/** Leaves that have fallen, so many of them: their colour, and how much of the ground they cover here. */
+vec4 litterAt(vec2 at, float many, float pixel) {
+  float side = 0.9 * max(uLeafSize, 0.12);
+  vec3 mean = mix(uLeafLast, uLeafDead, 0.62) * 0.8;
+  float apart = 1.0 - smoothstep(0.25, 0.9, pixel / side);
+  vec4 lies = vec4(mean, 0.75 * many * (1.0 - apart));
+  if (apart <= 0.0) return lies;
+  vec4 nearest = vec4(0.0);
+  vec2 place = at / side;
+  vec2 cell = floor(place);
+  for (int i = 0; i < 9; i++) {
+    vec2 other = cell + vec2(float(i % 3) - 1.0, float(i / 3) - 1.0);
+    vec3 own = hashed(other);
+    if (own.z > many) continue;
+    vec3 more = hashed(other + 71.3);
+    vec2 from = place - other - own.xy;
+    float turn = 6.2832 * more.x;
+    from = vec2(from.x * cos(turn) + from.y * sin(turn), from.y * cos(turn) - from.x * sin(turn));
+    float wide = 0.32 * clamp(uLeafForm.x * 1.6, 0.12, 1.0);
+    float along = clamp(from.x / 0.5, -1.0, 1.0);
+    float rim = wide * sqrt(max(0.0, 1.0 - along * along)) * (1.0 - 0.25 * along);
+    float inside = smoothstep(0.03, -0.03, abs(from.y) - rim) * step(abs(from.x), 0.5);
+    // The midrib, and a blade that is bowed.
+    vec3 hue = mix(mix(uLeafFirst, uLeafLast, more.y), uLeafDead, 0.35 + 0.6 * fract(own.z * 57.0 + more.z)) * (0.42 + 0.55 * more.z);
+    hue *= 1.0 + 0.35 * from.y / max(wide, 0.05) - 0.3 * smoothstep(0.03, 0.0, abs(from.y));
+    if (inside > 0.0 && more.z >= nearest.a) nearest = vec4(hue, max(more.z, 0.01));
+  }
+  return mix(lies, vec4(nearest.rgb, nearest.a > 0.0 ? 1.0 : 0.0), apart);
+}
+Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
+  vec2 at = world.xz;
+  float away = length(eye);
+  float near = exp(-away * 0.010);
+  // How wide a pixel is on the ground, and how deep: waves that are shorter than it is deep would run together across the view.
+  vec2 wide = vec2(length(dFdx(at)), length(dFdy(at)));
+  float shorter = min(wide.x, wide.y);
+  float blurred = 0.4 * shorter + 0.34 * max(wide.x, wide.y);
+  vec4 crown = crownAt(vec3(world.x, max(0.4, uCrownFrom.y + 2.6), world.z));
+  // The box must not show where it ends.
+  vec2 within = abs(2.0 * (at - uCrownFrom.xz) / uCrownSize.xz - 1.0);
+  float shelter = (1.0 - crown.w) * smoothstep(1.0, 0.45, max(max(within.x, within.y), 0.8 * length(within)));
+  open *= 1.0 - 0.62 * shelter;
+  float broad = noise(at * 0.021, 11.0) * 0.6 + noise(at * 0.057, 0.5) * 0.4;
+  float patches = noise(at * 0.09, 2.0) * 0.45 + noise(at.yx * 0.21 + 3.7, 3.0) * 0.3 + noise(at * 0.47, 13.0) * 0.25;
+  float fine = noise(at * vec2(4.1, 2.6), 8.0) * 0.5 + noise(at.yx * vec2(7.0, 11.0), 5.0) * 0.5;
+  vec3 soil = vec3(0.128, 0.094, 0.066) * (0.72 + 0.56 * fine);
+  vec3 fields = mix(vec3(1.0), fieldsAt(at, away), smoothstep(60.0, 260.0, away));
+  Surface surface = Surface(vec3(0.0), UP);
+  if (uGround == EARTH) {
+    float clods = noise(at * 1.3, 6.0) * 0.6 + noise(at * 2.9, 7.0) * 0.4;
+    surface.albedo = mix(vec3(0.150, 0.108, 0.076), vec3(0.235, 0.178, 0.130), broad * 0.6 + patches * 0.4) * fields;
+    surface.albedo *= 1.0 + near * ((clods - 0.5) * 0.35 + (fine - 0.5) * 0.4);
+    surface.normal = normalize(vec3((clods - 0.5) * 0.5 * near, 1.0, (fine - 0.5) * 0.4 * near));
+  } else if (uGround == SAND) {
+    float bend = noise(at * 0.07, 4.0) * 9.0;
+    float shown = near * (1.0 - smoothstep(0.3, 1.2, blurred));
+    float ripple = sin(at.x * 1.9 + at.y * 0.8 + bend + 1.5 * noise(at * 0.45, 9.0));
+    surface.albedo = mix(vec3(0.430, 0.330, 0.225), vec3(0.530, 0.430, 0.310), broad * 0.5 + patches * 0.5);
+    surface.albedo *= 1.0 + near * (fine - 0.5) * 0.14 + shown * ripple * 0.035;
+    surface.normal = normalize(vec3(ripple * 0.10 * shown, 1.0, (broad - 0.5) * 0.25));
+  } else if (uGround == SNOW) {
+    // Drifts, hollows that are blue with sky, a crust that sparkles near by, and wells around stems.
+    float step_ = 0.35;
+    vec3 drift = vec3(0.0);
+    for (int i = 0; i < 3; i++) {
+      vec2 p = at + step_ * vec2(i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0);
+      p += 1.5 * noise(p * 0.05, 3.0);
+      drift[i] = noise(p * vec2(0.050, 0.085), 4.0) * 1.9 + noise(p * 0.21, 9.0) * 0.30 * near + noise(p * 0.9, 2.0) * 0.05 * near;
+    }
+    vec2 slope = (drift.yz - drift.x) / step_;
+    surface.normal = normalize(vec3(-0.42 * slope.x, 1.0, -0.42 * slope.y));
+    float hollow = clamp(1.2 - 0.7 * drift.x, 0.0, 1.0);
+    surface.albedo = mix(vec3(0.88, 0.90, 0.93), vec3(0.74, 0.80, 0.90), 0.30 * hollow + 0.25 * foot);
+    surface.albedo *= 0.965 + 0.05 * fine * near;
+    vec3 grain = hashed(floor(at / 0.05));
+    vec3 towards = normalize(eye / away + uSun);
+    float glint = pow(max(dot(normalize(surface.normal + 0.8 * (grain - 0.5)), towards), 0.0), 220.0);
+    surface.albedo += 2.2 * step(0.75, glint) * (1.0 - smoothstep(8.0, 26.0, away));
+  } else {
+    surface.albedo = grassAt(at) * fields;
+    float height = sward(at, blurred);
+    // A tuft is bright where it looks to the sun, and stands in the shade of the next.
+    vec2 towards = uSun.xz / max(length(uSun.xz), 1e-3);
+    float shaded = sward(at + 0.28 * towards, blurred) - height;
+    float grazed = 1.0 - 0.6 * uSun.y;
+    surface.albedo *= max(0.25, 1.0 + 2.0 * (height - 0.5) - 1.6 * grazed * shaded);
+    surface.albedo = mix(surface.albedo, vec3(0.128, 0.132, 0.052), 0.35 * smoothstep(0.55, 0.8, height));
+    surface.albedo = mix(surface.albedo, soil, 0.8 * foot * (1.0 - 0.55 * smoothstep(0.4, 0.62, height)));
+  }
+  if (uGround != SNOW && uLeafForm.y < 0.5) {
+    // Under the crown and a little beyond it, thinning out; some of last year's are always left.
+    float many = smoothstep(0.05, 0.75, shelter + 0.35 * (patches - 0.5) * smoothstep(0.02, 0.2, shelter));
+    many *= clamp((uGround == SAND ? 0.0 : 0.03) + 1.0 * uLeafSeason.w + 0.5 * uLeafTraits.z, 0.0, 0.9);
+    if (many > 0.004) {
+      vec4 litter = litterAt(at, many, blurred);
+      surface.albedo = mix(surface.albedo, litter.rgb, litter.a);
+    }
+  }
+  return surface;
+}
+`;

@@ -1,0 +1,104 @@
+/** Fields and meadows of far land: how much lighter or darker, where they can still be told apart. */
+export const FIELDS = /* glsl */ `
+vec3 fieldsAt(vec2 at, float distance) {
+  vec2 shown = 1.0 - smoothstep(vec2(260.0, 900.0), vec2(1100.0, 3600.0), vec2(distance));
+  float near = noise(at * 0.021, 11.0) - 0.5;
+  float far = noise(at * 0.0058, 4.0) - 0.5;
+  float much = uGround == GRASS ? 1.0 : 0.4;
+  return vec3(1.0) + much * (near * shown.x * vec3(0.34, 0.22, 0.30) + far * shown.y * vec3(0.46, 0.26, 0.34));
+}
+`;
+
+/** Clouds, stars, hills and far trees: what a sky has before it. */
+export const LANDSCAPE = /* glsl */ `${FIELDS}
+/** Mist at the feet of what is far off, and how it is lit from one side. */
+vec3 range(vec3 behind, vec3 sight, float seed, float low, float high, float rough, vec3 hue, vec3 mist, float lifted) {
+  vec2 towards = normalize(sight.xz);
+  float crest = noise(towards * 2.3, seed) * 0.58 + noise(towards * 6.0, seed + 5.0) * 0.27
+    + noise(towards * 17.0, seed + 9.0) * 0.10 + noise(towards * 61.0, seed + 2.0) * 0.04 * rough + noise(towards * 190.0, seed + 3.0) * 0.025 * rough;
+  float top = mix(low, high, crest);
+  float inside = smoothstep(top + 0.0009, top - 0.0009, sight.y);
+  if (inside <= 0.0) return behind;
+  float height = clamp((sight.y - low * 0.3) / max(top, 1e-3), 0.0, 1.0);
+  // Woods and clearings, drawn out along the slopes; flanks that look to the sun are lighter.
+  float woods = noise(vec2(towards.x * 34.0 + towards.y * 21.0, sight.y * 420.0), seed + 1.0) - 0.5;
+  float ahead = noise((towards + 0.02 * uSun.zx * vec2(1.0, -1.0)) * 6.0, seed + 5.0);
+  float flank = ahead - noise(towards * 6.0, seed + 5.0);
+  vec3 land = hue * (1.0 + rough * (0.30 * woods + 2.2 * flank));
+  return mix(behind, mix(mist, land, mix(lifted, 1.0, smoothstep(0.0, 0.9, height))), inside);
+}
+/** A line of trees along the edge of a field. */
+vec3 farTrees(vec3 behind, vec3 sight, vec3 hue) {
+  vec2 towards = normalize(sight.xz);
+  float base = mix(-0.0015, 0.0050, noise(towards * 2.9, 21.0));
+  float stands = smoothstep(0.30, 0.55, noise(towards * 5.3, 17.0)) * 0.7 + 0.3 * smoothstep(0.4, 0.55, noise(towards * 13.0, 18.0));
+  float crowns = 0.45 + 0.55 * noise(towards * 95.0, 27.0) + 0.28 * noise(towards * 290.0, 28.0);
+  float top = base + 0.0088 * stands * crowns;
+  float inside = smoothstep(0.0006, -0.0006, sight.y - top) * step(0.02, stands);
+  float lit = 0.75 + 0.5 * smoothstep(base, top, sight.y) * (0.6 + 0.4 * noise(towards * 290.0, 28.0));
+  return mix(behind, hue * lit, inside);
+}
+float star(vec3 sight, float fine, float rare) {
+  vec3 cell = floor(sight * fine);
+  vec3 chance = fract(sin(vec3(dot(cell, vec3(12.9898, 78.233, 37.719)), dot(cell, vec3(39.3, 11.13, 83.1)), dot(cell, vec3(73.2, 52.2, 9.15)))) * 43758.5453);
+  if (chance.x < rare) return 0.0;
+  vec3 within = fract(sight * fine) - 0.5 - 0.5 * (chance - 0.5);
+  return smoothstep(0.20, 0.02, length(within)) * (0.25 + 0.75 * chance.y * chance.y * chance.y);
+}
+/** How thick clouds are in a plane above: heaped by a noise that warps another. */
+float cloudAt(vec2 at) {
+  vec2 bent = at + 0.55 * vec2(noise(at * 1.7, 3.0), noise(at * 1.7, 6.0));
+  return noise(bent * 1.05, 1.0) * 0.50 + noise(bent * 2.3, 4.0) * 0.26 + noise(bent * 5.1, 9.0) * 0.14
+    + noise(bent * 11.3, 2.0) * 0.07 + noise(bent * 23.0, 5.0) * 0.03;
+}
+vec3 before(vec3 sky, vec3 sight) {
+  float up = max(sight.y, 0.0);
+  float towards = max(dot(sight, uSun), 0.0);
+  if (uSkyParts.y > 0.0) {
+    float dark = smoothstep(0.0, 0.5, uSkyParts.y);
+    vec3 band = normalize(vec3(0.35, 0.55, -0.76));
+    float milky = exp(-18.0 * pow(dot(sight, band), 2.0)) * (0.35 + 0.65 * noise(sight * 6.0) * noise(sight * 15.0 + 3.0) * 2.0);
+    float seen = exp(-0.2 / max(up, 0.02));
+    sky += (vec3(0.9, 0.95, 1.0) * (1.3 * star(sight, 70.0, 0.988) + 0.55 * star(sight.zxy, 130.0, 0.972)) + vec3(0.020, 0.024, 0.034) * milky) * dark * seen;
+  }
+  if (uSkyParts.x > 0.0) {
+    vec2 plane = 2.7 * sight.xz / (up + 0.24);
+    float shown = smoothstep(0.015, 0.16, up);
+    // High and thin ones, combed by the wind.
+    float thin = noise(plane * vec2(0.35, 1.9) + 0.6 * noise(plane * 0.8, 7.0), 12.0) * 0.6 + noise(plane * vec2(0.9, 5.2), 14.0) * 0.4;
+    sky = mix(sky, uCloudColour * 0.95, 0.30 * smoothstep(0.48, 0.9, thin) * shown * smoothstep(0.0, 0.3, uSkyParts.x));
+    float thick = cloudAt(plane * 0.8);
+    // Towards the horizon heaps stand behind each other, and one sees less of what is between them.
+    float least = 0.66 - 0.34 * uSkyParts.x + 0.05 * smoothstep(0.25, 0.0, up);
+    float cover = smoothstep(least, least + mix(0.11, 0.40, smoothstep(0.5, 1.0, uSkyParts.x)), thick);
+    // Towards the sun a cloud thins or thickens: its rim is bright, its heart and its base are not.
+    vec2 toSun = normalize(uSun.xz - sight.xz * 0.999 + 1e-4) * 0.10;
+    float shade = clamp(1.6 * (cloudAt(plane * 0.8 + toSun) - thick) + 0.9 * (thick - least), 0.0, 0.6);
+    vec3 lit = uCloudColour * mix(1.10 - 0.85 * shade, 0.62 + 0.75 * thick, smoothstep(0.6, 1.0, uSkyParts.x));
+    vec3 rim = uGlowColour * (0.6 * pow(towards, 8.0) + 1.6 * pow(towards, 24.0) * (1.0 - cover));
+    sky = mix(sky, lit + rim, cover * shown * mix(0.82, 0.70, smoothstep(0.6, 1.0, uSkyParts.x)));
+  }
+  if (uGround == PLAIN) return sky;
+  vec3 lit = farGround();
+  float snowy = uGround == SNOW ? 1.0 : 0.0;
+  float bare = uGround == SAND ? 1.0 : 0.0;
+  vec3 air = AIR_COLOUR + uGlowColour * 0.30 * pow(towards, 4.0);
+  vec3 leafy = mix(mix(vec3(0.034, 0.048, 0.022), lit, bare), vec3(0.16, 0.17, 0.19), snowy);
+  if (bare < 0.5) leafy *= ambient(UP) * 1.1 + SUN_COLOUR * 0.45 * max(uSun.y, 0.15);
+  if (uSkyParts.z > 0.0) {
+    vec3 far = mix(mix(leafy, lit, 0.25), air, 0.80);
+    vec3 near = mix(mix(leafy, lit, 0.35), air, 0.52);
+    sky = mix(sky, range(sky, sight, 3.0, 0.024, 0.088, 0.5, far, mix(air, HORIZON_COLOUR, 0.18), 0.55), uSkyParts.z);
+    sky = mix(sky, range(sky, sight, 8.0, 0.006, 0.052, 1.0, near, air, 0.5), uSkyParts.z);
+  }
+  // No land is level to the end: swells in the distance break its edge.
+  vec3 swell = mix(lit, air, 0.40);
+  sky = range(sky, sight, 13.0, -0.002, 0.0135, 0.7, swell, mix(lit, air, 0.46), 0.3);
+  if (bare < 0.5) sky = farTrees(sky, sight, mix(leafy, air, 0.26));
+  return range(sky, sight, 31.0, -0.006, 0.0055, 0.5, mix(lit, air, 0.30), mix(lit, air, 0.34), 0.3);
+}
+vec3 landAt(float distance, vec3 sight) {
+  if (uGround == PLAIN) return farGround();
+  return farGround() * fieldsAt(cameraPosition.xz + sight.xz * distance, distance);
+}
+`;
