@@ -79,6 +79,11 @@ export class TreeView {
     return this.textures.some(({ unfinished }) => unfinished);
   }
 
+  /** Whether textures are still being painted. */
+  get awaited(): boolean {
+    return this.textures.some(({ awaited }) => awaited);
+  }
+
   /** Shows whole textures in place of coarse ones. */
   ripen(): void {
     for (const textures of this.textures) textures.ripen();

@@ -30,6 +30,8 @@ const MAX_CARDLESS_RATIO = 1;
 const LARGE = 10_000;
 /** What draws such a tree as lines is waited for so long at most, in milliseconds: it may never come. */
 const SKETCHED_BY = 10_000;
+/** A picture for others waits at most so many milliseconds for what is finer, and looks whether it is there as often. */
+const [WHOLE_BY, WHOLE_EVERY] = [10_000, 50] as const;
 /** Frames in which nothing else is asked for after it: what is asked for next may keep it from the screen for seconds. */
 const SKETCH_FRAMES = 4;
 /** Leaves and tips go on easing for this long after the last metamer has grown. */
@@ -332,8 +334,11 @@ export class Viewport {
   async picture(size: PictureSize, stop: AbortSignal, tell: (share: number) => void): Promise<Blob> {
     const { picture } = await import("./rendering/still-pictures");
     if (this.lost) throw new Error("There is no picture.");
+    await this.untilWhole(stop);
     this.posing = true;
     try {
+      if (this.world.ripen()) this.air?.redress();
+      this.world.shadow.stale = true;
       return await picture(this.sitting, size, stop, tell);
     } finally {
       this.posing = false;
@@ -342,9 +347,20 @@ export class Viewport {
     }
   }
 
+  /** Waits for what the picture on the canvas will have in the end, though not for a tree that goes on growing. */
+  private async untilWhole(stop: AbortSignal): Promise<void> {
+    if (!this.empty) void this.loadFiner();
+    for (let waited = 0; waited < WHOLE_BY && (this.loading || this.world.awaited); waited += WHOLE_EVERY) {
+      stop.throwIfAborted();
+      await after(WHOLE_EVERY);
+    }
+    stop.throwIfAborted();
+  }
+
   private get sitting(): Sitting {
     const { renderer, world, camera, screen } = this;
-    return { renderer, world, camera, screen, sync: () => this.sync(), refine: this.refine.bind(this) };
+    const refine: Sitting["refine"] = (...picture) => void this.refine(...picture, true);
+    return { renderer, world, camera, screen, sync: () => this.sync(), refine };
   }
 
   /** Lets go of the GPU and the canvas. */
@@ -484,13 +500,18 @@ export class Viewport {
   }
 
   /** Chooses details for a picture of so many pixels in height from where the sight is aimed; says whether some are left. */
-  private refine(height: number, samples: number, quality: Quality, distance = this.camera.rig.view.distance): boolean {
+  private refine(
+    height: number,
+    samples: number,
+    quality: Quality,
+    distance = this.camera.rig.view.distance,
+    resting = this.loop.control.resting,
+  ): boolean {
     const fineness = this.fineness(height, quality);
     this.eye.set(...fineness.eye, fineness.pixels);
     this.world.uniforms.uSamples!.value = samples;
     this.world.uniforms.uShadowTaps!.value = quality.detailed ? 3 : 1;
     this.world.environment.reach(distance);
-    const { resting } = this.loop.control;
     this.world.finer?.detail(fineness, this.camera.sight.camera, resting);
     return this.world.tree.detail(fineness, resting);
   }

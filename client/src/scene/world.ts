@@ -78,6 +78,11 @@ export class World {
     return this.tree.unfinished || this.finer?.unfinished === true;
   }
 
+  /** Whether something finer is being made that a picture for others waits for. */
+  get awaited(): boolean {
+    return this.tree.awaited || this.finer?.awaited === true;
+  }
+
   /** Shows what is finer in place of what is coarse; says whether shaders are others from now on. */
   ripen(): boolean {
     this.tree.ripen();

@@ -107,6 +107,11 @@ export class Finer {
     return !this.shown || this.crown.unfinished;
   }
 
+  /** Whether it is not ready to be shown for the first time. */
+  get awaited(): boolean {
+    return !this.shown && !this.ripe;
+  }
+
   /** Shows what is ready; says whether shaders are others from now on. */
   ripen(): boolean {
     if (!this.ripe) return false;

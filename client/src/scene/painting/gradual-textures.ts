@@ -80,6 +80,11 @@ export class GradualTextures<S extends Sort> {
     return this.finer !== null;
   }
 
+  /** Whether a picture of them is still being painted. */
+  get awaited(): boolean {
+    return this.callOff !== null;
+  }
+
   /** Whether they are still to come. */
   get unfinished(): boolean {
     return this.callOff !== null || this.finer !== null;
