@@ -333,8 +333,8 @@ export class Viewport {
   /** The view as PNG, of so many pixels; what is on the canvas stands still meanwhile. */
   async picture(size: PictureSize, stop: AbortSignal, tell: (share: number) => void): Promise<Blob> {
     const { picture } = await import("./rendering/still-pictures");
-    if (this.lost) throw new Error("There is no picture.");
     await this.untilWhole(stop);
+    if (this.lost) throw new Error("There is no picture.");
     this.posing = true;
     try {
       if (this.world.ripen()) this.air?.redress();
