@@ -105,7 +105,10 @@ export const SHIPPED_GRAMMARS: Readonly<Record<string, readonly [title: string, 
     "Busch aus Klammern",
     "Jede Linie trägt auf jeder Seite einen Zweig; was Zweig war, ist ein paar Schritte später ein Ast.",
   ],
-  "bush-3d": ["Busch im Raum", "Drei Zweige an jeder Spitze, und Internodien, die sich weiter teilen."],
+  "bush-3d": [
+    "Busch im Raum",
+    "Drei Zweige an jeder Spitze, und Internodien, die sich weiter teilen und einen beblätterten Zweig behalten.",
+  ],
   "stochastic-twins": [
     "Kraut nach Zufall",
     "Der Zufall entscheidet, nach welcher Seite sich eine Linie verzweigt: Jeder Startwert gibt eine andere Pflanze derselben Art.",
@@ -155,5 +158,8 @@ export const SHIPPED_GRAMMARS: Readonly<Record<string, readonly [title: string, 
     "Formschnitt im Kasten",
     "Ein Busch, der sich verzweigt, solange er in einem Kasten steht; was herauskommt, wird geschnitten, und Knospen darunter wachsen weiter.",
   ],
-  "light-seeker": ["Lichtsucher", "Triebe im Schatten halten an und fallen; die im Licht verzweigen sich."],
+  "light-seeker": [
+    "Lichtsucher",
+    "Triebe wenden sich nach oben; die im Schatten halten an und fallen, die im Licht verzweigen sich.",
+  ],
 };
