@@ -8,7 +8,7 @@ import {
   RawShaderMaterial,
   ZeroFactor,
 } from "three";
-import { BRANCH_FRAGMENT, BRANCH_VERTEX } from "./glsl/branch";
+import { BRANCH_VERTEX, branchFragment } from "./glsl/branch";
 import {
   BRUSH_FRAGMENT,
   BRUSH_VERTEX,
@@ -57,8 +57,8 @@ export function makeMaterials(uniforms: Uniforms) {
   const caster = { side: DoubleSide, defines: { CASTER: "" } };
   const plane = { PLANE: PLANE_SHOWN.toFixed(1) };
   return {
-    bark: shader(BRANCH_VERTEX, BRANCH_FRAGMENT, { side: FrontSide }),
-    twig: shader(BRANCH_VERTEX, BRANCH_FRAGMENT, { defines: { RIBBON: "" }, side: DoubleSide, ...COVERAGE }),
+    bark: shader(BRANCH_VERTEX, branchFragment(), { side: FrontSide }),
+    twig: shader(BRANCH_VERTEX, branchFragment(), { defines: { RIBBON: "" }, side: DoubleSide, ...COVERAGE }),
     branchDepth: shader(BRANCH_VERTEX, DEPTH_FRAGMENT, { defines: { RIBBON: "", CASTER: "" }, side: DoubleSide }),
     leaf: shader(leafVertex(), leafFragment(), cutOut),
     leafDepth: shader(leafVertex(), LEAF_DEPTH_FRAGMENT, caster),

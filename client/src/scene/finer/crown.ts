@@ -1,4 +1,4 @@
-import { Data3DTexture, LinearFilter, RGBAFormat, Vector3 } from "three";
+import { Data3DTexture, LinearFilter, RGBAFormat, Vector3, type Vector4 } from "three";
 import type { Uniforms } from "../materials";
 import type { TreeTable } from "../table/tree-table";
 import { CROWN_SIDE, crownField } from "./crown-field";
@@ -85,11 +85,18 @@ export class Crown {
   private readonly begin = (): void => {
     if (this.making) return;
     this.stale = false;
-    this.making = crownOf(this.table, this.uniforms.uLeafSize!.value as number);
+    this.making = crownOf(this.table, this.leaf);
     if (!this.broken && !this.worker) this.worker = this.started();
     if (this.worker) this.worker.postMessage(this.making.order);
     else this.finish(crownField(this.making.order));
   };
+
+  /** How long leaves are, as if all of them were there. */
+  private get leaf(): number {
+    const { uLeafSize, uLeafSeason } = this.uniforms;
+    const season = uLeafSeason?.value as Vector4 | undefined;
+    return (uLeafSize!.value as number) * (season ? season.x * Math.sqrt(season.y) : 1);
+  }
 
   private finish(field: Uint8Array<ArrayBuffer>): void {
     this.made = { box: this.making!, field };

@@ -10,12 +10,14 @@ import {
 } from "three";
 import type { Appearance, LeafKind } from "../../wire/generated";
 import { BLADE_FRAGMENT, BLADE_VERTEX } from "../glsl/blades";
+import { branchFragment } from "../glsl/branch";
 import { CROWN_LIGHT, IN_CROWN } from "../glsl/crown";
 import { groundFragment, skyFragment } from "../glsl/environment";
 import { GROUND_SURFACE } from "../glsl/ground";
 import { LANDSCAPE } from "../glsl/landscape";
 import { leafFragment, leafVertex } from "../glsl/leaf";
 import { ornamentFragment, ornamentVertex } from "../glsl/ornament";
+import { OLD_WOOD } from "../glsl/wood";
 import type { Materials, Uniforms } from "../materials";
 import type { Fineness } from "../rendering/fineness";
 import type { TreeTable } from "../table/tree-table";
@@ -65,6 +67,7 @@ export class Finer {
   private linked = false;
   private shown = false;
   private grassy = false;
+  private season = "";
 
   constructor(private readonly stage: FinerStage) {
     const { materials, uniforms, table } = stage;
@@ -79,6 +82,7 @@ export class Finer {
     });
     this.tufts = new Tufts(blade);
     const leaf = { vertexShader: leafVertex(IN_CROWN), fragmentShader: leafFragment(CROWN_LIGHT) };
+    const wood = { fragmentShader: branchFragment(OLD_WOOD) };
     const ornament = (name: "Flower" | "Fruit") => ({
       vertexShader: ornamentVertex(name, IN_CROWN),
       fragmentShader: ornamentFragment(name, CROWN_LIGHT),
@@ -86,6 +90,8 @@ export class Finer {
     this.changes = [
       [materials.sky, { fragmentShader: skyFragment(LANDSCAPE) }],
       [materials.ground, { fragmentShader: groundFragment(GROUND_SURFACE) }],
+      [materials.bark, wood],
+      [materials.twig, wood],
       [materials.leaf, leaf],
       [materials.sprig, leaf],
       [materials.flower, ornament("Flower")],
@@ -138,6 +144,9 @@ export class Finer {
 
   /** How the tree and its surroundings look. */
   setAppearance(appearance: Appearance): void {
+    const season = `${appearance.leaves.shape} ${appearance.leaves.season}`;
+    if (season !== this.season) this.crown.changed();
+    this.season = season;
     this.rough.value = ROUGHNESS[appearance.leaves.shape];
     this.grassy = appearance.background.ground === "grass" && appearance.background.sky !== "studio";
   }

@@ -11,6 +11,7 @@ struct Bark {
   vec3 albedo;
   vec2 slope; // how the surface rises around and along
   float cavity; // how much of the sky it sees
+  float height; // 0 in the deepest furrow to 1 on the highest ridge
 };
 const float THINNEST = ${THINNEST_BARK}; // radius of the first octave, in internodes
 /** Squares around a limb: bark coarsens as a limb thickens, and then there is more of it. */
@@ -64,7 +65,7 @@ Bark aged(vec4 shares, vec4 relief, float radius) {
   vec3 young = uBarkPalette[3] * (0.75 + 0.4 * shares.r);
   float rough = smoothstep(0.05, 0.3, radius);
   vec2 slope = (relief.rg * 2.0 - 1.0) * ${MOST_SLOPE.toFixed(1)} * rough * uBarkShape.x;
-  return Bark(mix(young, own, bark), slope, mix(1.0, relief.b, rough * min(uBarkShape.x, 1.3)));
+  return Bark(mix(young, own, bark), slope, mix(1.0, relief.b, rough * min(uBarkShape.x, 1.3)), relief.a);
 }
 Bark distantBark(float radius) {
   return aged(textureLod(uBarkColours, vec2(0.5), 20.0), textureLod(uBarkRelief, vec2(0.5), 20.0), radius);
@@ -90,8 +91,9 @@ Bark barkAt(vec4 place, vec4 bearing) {
     bark.albedo = mix(bark.albedo, below.albedo, bearing.w);
     bark.slope = mix(bark.slope, below.slope, bearing.w);
     bark.cavity = mix(bark.cavity, below.cavity, bearing.w);
+    bark.height = mix(bark.height, below.height, bearing.w);
   }
-  if (place.w >= 0.0) bark = Bark(cutWood(place.w, place.x), vec2(0.0), 1.0);
+  if (place.w >= 0.0) bark = Bark(cutWood(place.w, place.x), vec2(0.0), 1.0, 0.5);
   return bark;
 }
 `;

@@ -44,12 +44,12 @@ void main() {
   float shelter = (1.0 - crown.w) * smoothstep(1.0, 0.45, max(max(within.x, within.y), 0.8 * length(within)));
   float open = feet.x * (1.0 - 0.62 * shelter);
   float sun = groundSun(vec3(at.x, 0.0, at.y));
-  vec3 albedo = grassAt(at) * (0.84 + 0.32 * own.y) * mix(0.62, 1.85, t);
+  vec3 albedo = grassAt(at) * (0.84 + 0.32 * own.y) * mix(0.85, 1.75, t);
   albedo = mix(albedo, vec3(0.19, 0.165, 0.085), 0.30 * t * smoothstep(0.55, 0.95, own.w * 0.5 + clump.y * 0.6));
   // What shines through a blade that stands against the sun is yellower than what it reflects.
   float against = pow(max(0.0, -dot(eye, uSun)), 3.0);
-  vec3 lit = albedo * (ambient(normal) * open * mix(0.8, 1.1, t) + SUN_COLOUR * facingSun(normal) * sun * mix(0.7, 1.0, open));
-  lit += albedo * vec3(1.5, 1.4, 0.5) * SUN_COLOUR * (0.05 + 0.55 * against) * t * sun * smoothstep(0.02, 0.3, uSun.y + 0.15);
+  vec3 lit = albedo * (ambient(normal) * open * mix(0.8, 1.1, t) + SUN_COLOUR * mix(facingSun(UP), facingSun(normal), 0.45) * sun * mix(0.7, 1.0, open));
+  lit += albedo * vec3(1.5, 1.4, 0.5) * SUN_COLOUR * (0.10 + 0.6 * against) * t * sun * smoothstep(0.02, 0.3, uSun.y + 0.15);
   float far = length(cameraPosition - world);
   vColour = finished(inAir(lit, far));
   gl_Position = projectionMatrix * viewMatrix * vec4(world, 1.0);

@@ -259,8 +259,26 @@ void main() {
 }
 `;
 
+/** What covers wood, and the light on it: of the first picture, or finer. */
+export interface WoodLook {
+  readonly declared: string;
+  /** Changes `albedo` of wood that looks to `smoothed`. */
+  readonly covered: string;
+  /** Says what is `lit`. */
+  readonly lit: string;
+}
+const PLAIN_WOOD: WoodLook = {
+  declared: "",
+  covered: "",
+  lit: /* glsl */ `
+  float open = mix(1.0, bark.cavity, 0.55);
+  vec3 lit = albedo * (ambient(normal) * exposure * bark.cavity * grounded + SUN_COLOUR * max(facing, 0.0) * sun * open);
+  lit += SKY_COLOUR * 0.04 * pow(1.0 - max(dot(sight, smoothed), 0.0), 4.0) * exposure * bark.cavity;
+`,
+};
+
 /** Bark in the light of sun and sky. */
-export const BRANCH_FRAGMENT = /* glsl */ `${HEAD}${COVER}${NOISE}${LIGHT}${MODES}${GHOST_COLOUR}
+export const branchFragment = (wood = PLAIN_WOOD) => /* glsl */ `${HEAD}${COVER}${NOISE}${LIGHT}${MODES}${GHOST_COLOUR}
 in vec3 vWorld;
 in vec3 vNormal;
 in vec3 vTangent;
@@ -273,21 +291,7 @@ uniform int uGround;
 /** Moss of grass, soil, sand and snow, and how much of it; nothing comes from bare paper. */
 const vec4 AT_FOOT[5] = vec4[5](vec4(0.062, 0.066, 0.026, 0.7), vec4(0.105, 0.078, 0.055, 0.65), vec4(0.400, 0.310, 0.210, 0.6), vec4(0.800, 0.825, 0.860, 0.75), vec4(0));
 ${BARK}
-/** What settles on old wood: moss where it is damp and dark, lichen in patches where it is light. None on bare paper. */
-vec3 overgrown(vec3 albedo, vec3 smoothed, float radius, float light, float cavity) {
-  float age = smoothstep(0.2, 1.1, radius);
-  if (age <= 0.0 || uGround == 4) return albedo;
-  vec3 away = vec3(-uSun.x, 0.0, -uSun.z);
-  float side = 0.5 + 0.5 * dot(smoothed, away / max(length(away), 1e-3));
-  float patches = noise(vWorld * 3.0 / (0.6 + radius) + 11.0);
-  float foot = exp(-max(vWorld.y, 0.0) / (1.5 * radius));
-  float damp = 0.5 * (1.0 - light) + 0.35 * side + 0.5 * max(0.0, smoothed.y) + 0.3 * (1.0 - cavity) + 0.4 * foot;
-  float moss = 0.55 * age * smoothstep(0.62, 1.0, damp + 0.7 * (patches - 0.5));
-  float grown = 0.6 * noise(vWorld * 1.1 + 3.0) + 0.4 * patches;
-  float lichen = 0.45 * age * (1.0 - moss) * smoothstep(0.6, 0.68, grown) * (0.4 + 0.6 * light) * cavity;
-  albedo = mix(albedo, vec3(0.062, 0.078, 0.024), moss);
-  return mix(albedo, mix(vec3(0.34, 0.36, 0.28), vec3(0.33, 0.25, 0.10), step(0.62, noise(vWorld * 0.35))), lichen);
-}
+${wood.declared}
 void main() {
   vec3 eye = cameraPosition - vWorld;
   float away = length(eye);
@@ -311,9 +315,7 @@ void main() {
   vec3 normal = normalize(smoothed - crosswise * bark.slope.x - cross(crosswise, smoothed) * bark.slope.y);
 #endif
   vec3 albedo = bark.albedo;
-#ifndef RIBBON
-  if (vBark.w < 0.0) albedo = overgrown(albedo, smoothed, vBark.z, abs(vLight), bark.cavity);
-#endif
+${wood.covered}
   if (vLight < 0.0) albedo = condemned(albedo);
   float exposure = mix(0.85, 1.35, abs(vLight));
   float facing = dot(normal, uSun);
@@ -324,12 +326,7 @@ void main() {
     albedo = mix(albedo, AT_FOOT[uGround].rgb, rim * AT_FOOT[uGround].a);
   }
   float grounded = mix(0.45, 1.0, smoothstep(0.0, 1.4, vWorld.y));
-  float open = mix(1.0, bark.cavity, 0.55);
-  // Light that has come into a furrow goes from side to side in it: its ground is dark, and never black.
-  float within = mix(0.3, 1.0, bark.cavity);
-  vec3 around = ambient(normalize(mix(smoothed, normal, 0.7)));
-  vec3 lit = albedo * (around * exposure * within * grounded + SUN_COLOUR * max(facing, 0.0) * sun * open);
-  lit += SKY_COLOUR * 0.04 * pow(1.0 - max(dot(sight, smoothed), 0.0), 4.0) * exposure * bark.cavity;
+${wood.lit}
   colour = vec4(shownAs(finished(hazed(lit, away)), albedo, vTrait, dot(normal, sight)), cover);
 #ifdef GHOST
   colour = ghostly(colour);

@@ -33,7 +33,7 @@ const int SAND = 2;
 const int SNOW = 3;
 const int PLAIN = 4;
 const vec3 UP = vec3(0, 1, 0);
-const vec3 MEAN[4] = vec3[4](vec3(0.092, 0.108, 0.045), vec3(0.190, 0.143, 0.103), vec3(0.480, 0.380, 0.270), vec3(0.860, 0.880, 0.910));
+const vec3 MEAN[4] = vec3[4](vec3(0.116, 0.130, 0.050), vec3(0.190, 0.143, 0.103), vec3(0.480, 0.380, 0.270), vec3(0.860, 0.880, 0.910));
 /** Blades stand up and catch a sun that grazes the ground. */
 float facingSun(vec3 normal) {
   float upright = uGround == GRASS ? 0.22 : 0.06;

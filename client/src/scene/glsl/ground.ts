@@ -6,9 +6,9 @@ export const GRASS_COLOUR = /* glsl */ `
 vec3 grassAt(vec2 at) {
   float broad = noise(at * 0.021, 11.0) * 0.6 + noise(at * 0.057, 0.5) * 0.4;
   float patches = noise(at * 0.09, 2.0) * 0.45 + noise(at.yx * 0.21 + 3.7, 3.0) * 0.3 + noise(at * 0.47, 13.0) * 0.25;
-  vec3 albedo = mix(vec3(0.062, 0.086, 0.032), vec3(0.104, 0.120, 0.048), smoothstep(0.2, 0.8, broad));
+  vec3 albedo = mix(vec3(0.080, 0.104, 0.036), vec3(0.132, 0.146, 0.054), smoothstep(0.2, 0.8, broad));
   // Here and there it is dry.
-  return mix(albedo, vec3(0.150, 0.138, 0.072), 0.5 * smoothstep(0.35, 0.95, patches));
+  return mix(albedo, vec3(0.185, 0.166, 0.080), 0.5 * smoothstep(0.35, 0.95, patches));
 }
 `;
 
@@ -118,7 +118,7 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
     vec2 towards = uSun.xz / max(length(uSun.xz), 1e-3);
     float shaded = sward(at + 0.28 * towards, blurred) - height;
     float grazed = 1.0 - 0.6 * uSun.y;
-    surface.albedo *= max(0.25, 1.0 + 2.0 * (height - 0.5) - 1.6 * grazed * shaded);
+    surface.albedo *= max(0.35, 1.0 + 1.6 * (height - 0.5) - 1.0 * grazed * shaded);
     surface.albedo = mix(surface.albedo, vec3(0.128, 0.132, 0.052), 0.35 * smoothstep(0.55, 0.8, height));
     surface.albedo = mix(surface.albedo, soil, 0.8 * foot * (1.0 - 0.55 * smoothstep(0.4, 0.62, height)));
   }

@@ -51,6 +51,39 @@ float cloudAt(vec2 at) {
   return noise(bent * 1.05, 1.0) * 0.50 + noise(bent * 2.3, 4.0) * 0.26 + noise(bent * 5.1, 9.0) * 0.14
     + noise(bent * 11.3, 2.0) * 0.07 + noise(bent * 23.0, 5.0) * 0.03;
 }
+/** How thick a heap is at a place in a picture of it, whose unit is how high heaps are; lumps are round from outside. */
+float heapAt(vec2 around, float up, float tall, float seed) {
+  vec3 at = vec3(around, up);
+  float lumps = 0.50 * noise(at * 1.4 + seed) + 0.24 * (1.0 - abs(2.0 * noise(at * 2.9 + seed) - 1.0))
+    + 0.14 * (1.0 - abs(2.0 * noise(at * 6.1 - seed) - 1.0)) + 0.08 * (1.0 - abs(2.0 * noise(at * 13.0 + seed) - 1.0)) + 0.05 * noise(at * 29.0);
+  return lumps + 0.62 * tall - 0.70 - 0.46 * max(up, 0.0);
+}
+/** Heaps of clouds that stand side by side on one level base, seen from the side. */
+vec3 heaps(vec3 sky, vec3 sight, float base, float size, float seed, float share, float haze) {
+  float up = (sight.y - base) / size;
+  if (up < -0.3 || up > 1.6) return sky;
+  vec2 towards = normalize(sight.xz);
+  vec2 around = towards / size;
+  float stands = 0.7 * noise(around * 0.42, seed) + 0.3 * noise(around * 1.1, seed + 1.0);
+  float tall = smoothstep(0.62 - 0.55 * share, 0.90 - 0.55 * share, stands);
+  if (tall <= 0.0) return sky;
+  float thick = heapAt(around, up, tall, seed);
+  float wisps = noise(vec3(around * 5.0, up * 9.0)) - 0.5;
+  float cover = smoothstep(0.0, 0.07, thick) * smoothstep(-0.10, 0.10, up + 0.16 * wisps);
+  if (cover <= 0.0) return sky;
+  // Light comes from the sun's side and from above; what lies behind more of a cloud is darker, and its base is darkest.
+  vec2 along = vec2(-towards.y, towards.x);
+  vec2 toSun = normalize(vec2(dot(uSun.xz, along), 0.35 + uSun.y)) * 0.17;
+  float behind = max(heapAt(around + along * toSun.x, up + toSun.y, tall, seed), 0.0);
+  float light = exp(-5.0 * behind) * mix(0.45, 1.0, smoothstep(-0.1, 0.55, up));
+  float facing = 0.5 + 0.5 * dot(normalize(uSun.xz), -towards);
+  vec3 dark = mix(uCloudColour * 0.46, uMiddleColour * 0.72, 0.6);
+  vec3 bright = uCloudColour * mix(1.05, 1.22, facing);
+  vec3 cloud = mix(dark, bright, light);
+  float near = max(dot(sight, uSun), 0.0);
+  cloud += uGlowColour * (0.5 * pow(near, 6.0) + 2.0 * pow(near, 24.0) * (1.0 - smoothstep(0.0, 0.35, thick)));
+  return mix(sky, mix(cloud, sky, haze), cover * 0.96);
+}
 vec3 before(vec3 sky, vec3 sight) {
   float up = max(sight.y, 0.0);
   float towards = max(dot(sight, uSun), 0.0);
@@ -67,7 +100,16 @@ vec3 before(vec3 sky, vec3 sight) {
     // High and thin ones, combed by the wind.
     float thin = noise(plane * vec2(0.35, 1.9) + 0.6 * noise(plane * 0.8, 7.0), 12.0) * 0.6 + noise(plane * vec2(0.9, 5.2), 14.0) * 0.4;
     sky = mix(sky, uCloudColour * 0.95, 0.30 * smoothstep(0.48, 0.9, thin) * shown * smoothstep(0.0, 0.3, uSkyParts.x));
+    float heaped = 1.0 - smoothstep(0.55, 0.8, uSkyParts.x);
+    if (heaped > 0.0) {
+      vec3 far = heaps(sky, sight, 0.050, 0.036, 43.0, uSkyParts.x * 1.25, 0.55);
+      far = heaps(far, sight, 0.098, 0.075, 47.0, uSkyParts.x * 1.2, 0.28);
+      far = heaps(far, sight, 0.200, 0.150, 53.0, uSkyParts.x * 1.1, 0.08);
+      sky = mix(sky, far, heaped);
+    }
     float thick = cloudAt(plane * 0.8);
+    // Heaps that are seen from below are told from those that are seen from the side.
+    shown *= mix(1.0, smoothstep(0.38, 0.62, up), heaped);
     // Towards the horizon heaps stand behind each other, and one sees less of what is between them.
     float least = 0.66 - 0.34 * uSkyParts.x + 0.05 * smoothstep(0.25, 0.0, up);
     float cover = smoothstep(least, least + mix(0.11, 0.40, smoothstep(0.5, 1.0, uSkyParts.x)), thick);

@@ -80,7 +80,7 @@ void main() {
   float facing = dot(normal, uSun);
   // What the sun only grazes is as good as in the shade, and its shadows would be all edge.
   float sun = facing > 0.0 ? sunlit(vPlace, face, 1.4) * smoothstep(0.0, 0.1, dot(face, uSun)) : 0.0;
-  vec3 lit = albedo * (ambient(normal) * open + SUN_COLOUR * max(facing, 0.0) * sun);
+  vec3 lit = albedo * ((0.72 * ambient(normal) + 0.28 * ambient(vec3(0.0, 1.0, 0.0))) * open + SUN_COLOUR * max(facing, 0.0) * sun);
   lit += edge * vec3(0.9, 0.3, 0.16);
   colour = vec4(finished(hazed(lit, away)), opacity);
 }

@@ -9,7 +9,7 @@ import { skyLight } from "./sky-light";
 /** The ground goes on to this far, and further for a tree that is seen from further off. */
 const GROUND_RADIUS = 600;
 const GROUND_REACH = 7;
-const EXPOSURE = 0.85;
+const EXPOSURE = 0.98;
 
 const GROUNDS: readonly Ground[] = ["grass", "earth", "sand", "snow", "plain"];
 /** The background of false colours: a light grey that is close to none of them. */

@@ -119,7 +119,7 @@ const LOWEST_LIGHT = 4;
 /** How much brighter the sky is to look at than what it gives to see by, as eyes and films have it. */
 const SKY_GAIN = 1.7;
 /** Tone mapping flattens colours; a little more saturation restores them. By moonlight eyes see hardly any. */
-const DAY_VIVID = 1.3;
+const DAY_VIVID = 1.42;
 const NIGHT_VIVID = 0.8;
 /** How green or bright the ground sends light back. */
 const BOUNCE: Record<Background["ground"], Vec3> = {
@@ -130,10 +130,10 @@ const BOUNCE: Record<Background["ground"], Vec3> = {
   plain: [0.5, 0.5, 0.5],
 };
 const HAZE: Record<Sky, { clouds: number; hills: number; spread: number }> = {
-  meadow: { clouds: 0.36, hills: 1, spread: 0.02 },
-  clear: { clouds: 0, hills: 0, spread: 0.012 },
+  meadow: { clouds: 0.36, hills: 1, spread: 0.009 },
+  clear: { clouds: 0, hills: 0, spread: 0.007 },
   overcast: { clouds: 1, hills: 0.75, spread: 0.35 },
-  studio: { clouds: 0, hills: 0, spread: 0.09 },
+  studio: { clouds: 0, hills: 0, spread: 0.06 },
 };
 
 /** The light of a background. */
@@ -169,11 +169,11 @@ export function skyLight({ sky, ground, backdrop, sun_azimuth, sun_elevation }: 
       // Clouds hide where the sun is and let through what it and the sky give together.
       const day = scale(add(scale(hour.above, 1.05), scale(hour.sun, 0.16 * Math.max(0.3, towards[1]))), 0.92);
       const grey = mix(day, gray(day), 0.72);
-      const faint = scale(mix(hour.sun, gray(hour.sun), 0.7), 0.15);
+      const faint = scale(mix(hour.sun, gray(hour.sun), 0.7), 0.11);
       return {
         ...common,
         sun: faint,
-        opened: opened * 1.2,
+        opened: opened * 1.06,
         above: scale(grey, 1.95),
         below: scale(times(grey, BOUNCE[ground]), 1.25),
         zenith: scale(grey, 0.85),

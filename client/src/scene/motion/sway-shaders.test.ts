@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { leanShader } from "../../../shader-plugin";
-import { BRANCH_FRAGMENT, BRANCH_VERTEX } from "../glsl/branch";
+import { BRANCH_VERTEX, branchFragment } from "../glsl/branch";
 import { LEAF_DEPTH_FRAGMENT, leafFragment, leafVertex } from "../glsl/leaf";
 import { ornamentFragment, ornamentVertex } from "../glsl/ornament";
 import { SKELETON_VERTEX } from "../glsl/skeleton";
@@ -35,7 +35,7 @@ it("a shader that draws no rows is no shader that sways", () => {
 });
 
 describe.each([
-  ["bark", BRANCH_FRAGMENT],
+  ["bark", branchFragment()],
   ["leaves", leafFragment()],
   ["flowers", ornamentFragment("Flower")],
 ])("the colour of %s", (_, shader) => {

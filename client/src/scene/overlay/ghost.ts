@@ -1,7 +1,7 @@
 import { FrontSide, GLSL3, Group, Quaternion, RawShaderMaterial, Vector2, Vector3, Vector4 } from "three";
 import type { Box } from "../camera/camera-view";
 import { LeafRows } from "../foliage/leaf-rows";
-import { BRANCH_FRAGMENT, BRANCH_VERTEX } from "../glsl/branch";
+import { BRANCH_VERTEX, branchFragment } from "../glsl/branch";
 import { LEAF_DEPTH_FRAGMENT, leafFragment, leafVertex } from "../glsl/leaf";
 import { DEPTH_FRAGMENT } from "../glsl/shadow";
 import type { Uniforms } from "../materials";
@@ -63,7 +63,7 @@ export class Ghost {
         ...options,
       });
     const both = { side: 2 } as const;
-    const bark = shader(BRANCH_VERTEX, BRANCH_FRAGMENT, colour);
+    const bark = shader(BRANCH_VERTEX, branchFragment(), colour);
     const branchDepth = shader(BRANCH_VERTEX, DEPTH_FRAGMENT, depth);
     const leaf = shader(leafVertex(), leafFragment(), { ...colour, ...both });
     const leafDepth = shader(leafVertex(), LEAF_DEPTH_FRAGMENT, { ...depth, ...both });
