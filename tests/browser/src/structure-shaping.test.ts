@@ -1,7 +1,8 @@
 import { expect, test } from "vitest";
+import { axisOf } from "./design-axis";
 import { LANDSCAPE, PHONE, type Screen } from "./screens";
 import type { Tablet } from "./tablet";
-import { way } from "./ways";
+import { type Point, way } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
@@ -38,8 +39,9 @@ test.each<[string, Screen]>([
 
   // A tap on a limb chooses it, in the picture and in the list alike.
   const canvas = await tablet.boxOf(tablet.page.locator("#workspace"));
-  const tip = await middleOf(tablet, "tip");
-  await tablet.tapAt({ x: tip.x + 40, y: tip.y + 0.5 * (canvas.y + canvas.height - tip.y) });
+  const stem = await axisOf(tablet);
+  const [foot, top] = [stem[0] as Point, stem.at(-1) as Point];
+  await tablet.tapAt({ x: top.x + 0.09 * (foot.y - top.y), y: top.y + 0.62 * (foot.y - top.y) });
   await expect.poll(() => chosen(tablet)).toMatch(/^(Limb|lowest)/);
   const limb = await chosen(tablet);
   await expect.poll(() => tablet.page.locator(".structure-name[aria-pressed=true] span").innerText()).toBe(limb);

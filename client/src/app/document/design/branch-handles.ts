@@ -27,7 +27,7 @@ export interface Dragged {
 /** What is said of the branch by it. */
 export type Change =
   | { readonly kind: "value"; readonly key: KeyName; readonly value: unknown; readonly isPrivate: boolean }
-  | { readonly kind: "edit"; readonly edit: DesignEdit; readonly keys: readonly KeyName[] };
+  | { readonly kind: "edits"; readonly edits: readonly DesignEdit[]; readonly keys: readonly KeyName[] };
 
 /** Numbers to be shown beside the finger. */
 export interface Readout {
@@ -40,6 +40,8 @@ export interface Readout {
   readonly shape?: number;
   /** As a share of the bearer's axis. */
   readonly place?: number;
+  /** Whether the finger is lower than a tip can be. */
+  readonly isLowest?: boolean;
 }
 
 /** What a drag begins with. */
@@ -75,6 +77,8 @@ const [LEAST_SHAPE, MOST_SHAPE] = [0.2, 8];
 /** How far a place on the surface is from the middle, at which its bulge is taken hold of. */
 const BULGE = 0.55;
 const MOST_POINTS = 24;
+/** Nothing is said of places farther out, or lower below the ground (`LM2`). */
+const [FARTHEST, LOWEST] = [1000, -10];
 
 /** All handles that a branch has. */
 export function handlesOf(shape: BranchShape): readonly Handle[] {
@@ -95,15 +99,21 @@ const TIP: Handle = {
   group: "way",
   place: (shape) => shape.tip,
   drag: ({ shape }, view, x, y) => {
-    const tip = view.pointOnPlane(x, y, shape.tip);
-    if (!tip || size(minus(tip, shape.base)) < 0.5) {
+    const wanted = view.pointOnPlane(x, y, shape.tip);
+    // What is drawn is what is said: a tip goes no lower than the server takes it.
+    const tip = wanted && tidyPlace(wanted);
+    if (!wanted || !tip || size(minus(tip, shape.base)) < 0.5) {
       return null;
     }
     const way = minus(tip, shape.base);
     return {
       shape: shape.aimed(tip),
-      change: { kind: "edit", edit: { edit: "aim", node: shape.path, tip: tidy(tip) }, keys: ["turn", "reach"] },
-      readout: { length: size(way), angle: angleBetween(shape.placed.heading, way) },
+      change: { kind: "edits", edits: [{ edit: "aim", node: shape.path, tip }], keys: ["turn", "reach"] },
+      readout: {
+        length: size(way),
+        angle: angleBetween(shape.placed.heading, way),
+        isLowest: wanted[1] < LOWEST,
+      },
     };
   },
 };
@@ -150,7 +160,7 @@ const BASE: Handle = {
     const by = minus(bearer.along(bearer.curve.at(place)), shape.base);
     return {
       shape: shape.movedBy(by),
-      change: { kind: "edit", edit: { edit: "anchor", node: shape.path, at: place }, keys: [] },
+      change: { kind: "edits", edits: [{ edit: "anchor", node: shape.path, at: place }], keys: [] },
       readout: { place },
     };
   },
@@ -364,6 +374,8 @@ function round(value: number, parts: number): number {
   return Math.round(value * parts) / parts;
 }
 
-function tidy([x, y, z]: Vec3): [number, number, number] {
-  return [round(clamp(x, -1000, 1000), 1000), round(clamp(y, -10, 1000), 1000), round(clamp(z, -1000, 1000), 1000)];
+/** A place that can be said of: to a thousandth, and within the scene. */
+export function tidyPlace([x, y, z]: Vec3): [number, number, number] {
+  const within = (part: number, least: number) => round(clamp(part, least, FARTHEST), 1000);
+  return [within(x, -FARTHEST), within(y, LOWEST), within(z, -FARTHEST)];
 }

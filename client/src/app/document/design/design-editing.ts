@@ -2,13 +2,27 @@ import { computed, signal } from "@preact/signals";
 import type { Command, DesignEdit, DesignSetting } from "../../../wire/generated";
 import type { Change } from "./branch-handles";
 import type { DESIGN_TEMPLATES } from "./design-keys";
-import { bearerOf, type DesignKey, DesignModel, type KeyName, ROOT, type Status, wayTo } from "./design-model";
+import {
+  bearerOf,
+  type DesignKey,
+  DesignModel,
+  type KeyGroup,
+  type KeyName,
+  levelOf,
+  orderOf,
+  ROOT,
+  type Scope,
+  type Status,
+  wayTo,
+} from "./design-model";
 import type { DesignSignal } from "./design-signal";
 
 export type TemplateName = (typeof DESIGN_TEMPLATES)[number];
 
 /** How often a value that moves is sent at most, in milliseconds. */
 const SEND_EVERY = 33;
+/** So many edits go into one command (`LM21`). */
+const MOST_EDITS = 64;
 /** How high a tree that falls below its own base stands. */
 const STAND = 50;
 
@@ -33,20 +47,27 @@ export class DesignEditing {
   });
   /** The branch whose values are shown. */
   readonly chosen = signal(ROOT);
+  /** Of what values are said: of the chosen branch, or of all of its order. */
+  readonly scope = computed<Scope>(() => (this.chosen.value === ROOT ? "branch" : this.#scope.value));
+  /** What the shown parameters are about. */
+  readonly group = signal<KeyGroup>("all");
   /** The parameter whose way is shown. */
   readonly key = signal<KeyName | null>(null);
   /** Branches that show what they bear. */
   readonly unfolded = signal<ReadonlySet<string>>(new Set([ROOT]));
+  /** How many designs somebody has begun on this page. */
+  readonly begun = signal(0);
   /** The branch whose values are to be given to another. */
   readonly copied = signal<string | null>(null);
 
   #options: DesignEditingOptions;
+  #scope = signal<Scope>("branch");
   #gesture: number | undefined;
   #sentAt = Number.NEGATIVE_INFINITY;
   /** What moved while the server was busy, to be sent once it is not. */
   #waiting: readonly DesignEdit[] | null = null;
   /** What was said before the movement. */
-  #before: { readonly path: string; readonly model: DesignModel } | null = null;
+  #before: { readonly path: string; readonly of: string; readonly model: DesignModel } | null = null;
 
   constructor(options: DesignEditingOptions) {
     this.#options = options;
@@ -54,6 +75,7 @@ export class DesignEditing {
 
   /** Begins with a template, or with a plain tree; one that is open gives its place to it. */
   begin(template: TemplateName | null): void {
+    this.begun.value += 1;
     const open = this.#options.design.inForce.peek()?.steps_on_top === 0;
     const [command, stand] = [
       { kind: "new_design", ...(template ? { template } : {}) } as const,
@@ -72,6 +94,7 @@ export class DesignEditing {
 
   /** Begins with a graph from a file. */
   open(graph: unknown): void {
+    this.begun.value += 1;
     const open = this.#options.design.inForce.peek()?.steps_on_top === 0;
     this.#options.submit({ kind: "new_design", graph, ...(open ? {} : { position: [0, 0, 0] }) });
     this.chosen.value = ROOT;
@@ -81,10 +104,39 @@ export class DesignEditing {
     this.#options.submit({ kind: "release_design" });
   }
 
+  /** From now on values are said of the chosen branch, or of all of its order. */
+  speakOf(scope: Scope): void {
+    this.#scope.value = scope;
+  }
+
+  /** Branches that say something of a parameter themselves say nothing of it any more. */
+  follow(key: KeyName, paths: readonly string[]): void {
+    this.#edit(paths.slice(0, MOST_EDITS).map((path) => ({ edit: "clear", of: path, key })));
+  }
+
   choose(path: string): void {
     this.chosen.value = path;
     // The list shows what is chosen.
     this.unfolded.value = new Set([...this.unfolded.peek(), ...wayTo(path).slice(0, -1)]);
+  }
+
+  /**
+   * The laterals of a branch from base to tip. Of the plant and its limbs all are told; of branches above only while they
+   * are on the way to the one that is looked at, and null until they are.
+   */
+  laterals(path: string): readonly string[] | null {
+    const model = this.model.value;
+    if (!model || path in model.told.laterals) {
+      return model?.laterals(path) ?? null;
+    }
+    const { of, branches } = this.#options.design.placed.value;
+    const isTold = orderOf(path) < 2 || wayTo(of).includes(path);
+    return isTold
+      ? branches
+          .filter((branch) => bearerOf(branch.path) === path)
+          .sort((a, b) => a.at - b.at)
+          .map((branch) => branch.path)
+      : null;
   }
 
   fold(path: string, open: boolean): void {
@@ -102,6 +154,11 @@ export class DesignEditing {
     this.#move([this.#set(key, value)]);
   }
 
+  /** A value that was dragged is as it was before. */
+  undrag(key: DesignKey): void {
+    this.unshape({ kind: "value", key: key.name, value: null, isPrivate: false });
+  }
+
   /** A value that was let go, typed or picked. */
   commit(key: DesignKey, value: unknown): void {
     this.#settle([this.#set(key, value)]);
@@ -109,11 +166,11 @@ export class DesignEditing {
 
   /** What a hand does to the chosen branch in the picture, while it does it, and once it is done. */
   shape(change: Change): void {
-    this.#move([this.#changed(change)]);
+    this.#move(this.#changed(change));
   }
 
   shaped(change: Change): void {
-    this.#settle([this.#changed(change)]);
+    this.#settle(this.#changed(change));
   }
 
   /** Takes back what a hand has done since it took hold: what was said before is said again. */
@@ -126,15 +183,18 @@ export class DesignEditing {
       return;
     }
     const keys: readonly KeyName[] = change.kind === "value" ? [change.key] : change.keys;
-    const { path, model } = before;
-    const edits = keys.map((key): DesignEdit => {
-      const setting = model.graph.nodes?.[path]?.values?.[key];
-      if (setting?.shared !== undefined) {
-        return { edit: "set_shared", share: setting.shared, value: model.graph.shares?.[setting.shared]?.value };
-      }
-      return setting ? { edit: "set", of: path, key, value: setting } : { edit: "clear", of: path, key };
-    });
-    if (change.kind === "edit" && change.edit.edit === "anchor") {
+    const { path, of, model } = before;
+    const owners = of === path ? [path] : [of, path];
+    const edits = keys.flatMap((key) =>
+      owners.map((owner): DesignEdit => {
+        const setting = model.settingOf(owner, key);
+        if (setting?.shared !== undefined) {
+          return { edit: "set_shared", share: setting.shared, value: model.graph.shares?.[setting.shared]?.value };
+        }
+        return setting ? { edit: "set", of: owner, key, value: setting } : { edit: "clear", of: owner, key };
+      }),
+    );
+    if (change.kind === "edits" && change.edits.some(({ edit }) => edit === "anchor")) {
       edits.push({ edit: "anchor", node: path, at: model.anchorOf(path) });
     }
     this.#edit(edits, this.#gesture);
@@ -147,12 +207,13 @@ export class DesignEditing {
     if (!model) {
       return;
     }
-    const { value, isPrivate } = model.resolve(path, key);
+    const of = this.#of();
+    const { value, isPrivate } = model.resolve(path, key, this.scope.peek());
     const rest = isPrivate ? { private: true } : {};
     if (status === "inherited") {
-      this.#edit([{ edit: "clear", of: path, key: key.name }]);
+      this.#edit([{ edit: "clear", of, key: key.name }]);
     } else if (status === "own") {
-      this.#edit([{ edit: "set", of: path, key: key.name, value: { own: value, ...rest } }]);
+      this.#edit([{ edit: "set", of, key: key.name, value: { own: value, ...rest } }]);
     } else if (status === "offset" || status === "factor") {
       const neutral = status === "offset" ? 0 : 1;
       const none =
@@ -163,7 +224,7 @@ export class DesignEditing {
             ]
           : neutral;
       const setting = status === "offset" ? { add: none } : { multiply: none };
-      this.#edit([{ edit: "set", of: path, key: key.name, value: { ...setting, ...rest } }]);
+      this.#edit([{ edit: "set", of, key: key.name, value: { ...setting, ...rest } }]);
     } else {
       this.#share(key, value);
     }
@@ -171,13 +232,22 @@ export class DesignEditing {
 
   /** Keeps a value from the branches above, or gives it to them. */
   hide(key: DesignKey, isPrivate: boolean): void {
-    const [path, model] = [this.chosen.peek(), this.model.peek()];
-    const said = model?.said(path, key.name);
-    const setting = { ...(said && said.by === path ? said.setting : { inherited: true }) };
+    const of = this.#of();
+    const setting = { ...(this.model.peek()?.settingOf(of, key.name) ?? { inherited: true }) };
     delete setting.private;
     const value: DesignSetting = isPrivate ? { ...setting, private: true } : setting;
     const says = value.inherited !== true || isPrivate;
-    this.#edit([says ? { edit: "set", of: path, key: key.name, value } : { edit: "clear", of: path, key: key.name }]);
+    this.#edit([says ? { edit: "set", of, key: key.name, value } : { edit: "clear", of, key: key.name }]);
+  }
+
+  /** Inherits a value along the axis, from the next branch beneath, or from the bearer again. */
+  inheritBelow(key: DesignKey, below: boolean): void {
+    const of = this.#of();
+    const setting = { ...(this.#said(key.name) ?? { inherited: true }) };
+    delete setting.below;
+    const value: DesignSetting = below ? { ...setting, below: true } : setting;
+    const says = value.inherited !== true || value.private === true || below;
+    this.#edit([says ? { edit: "set", of, key: key.name, value } : { edit: "clear", of, key: key.name }]);
   }
 
   /** Gives a value to the bearer, so that all it bears inherit it. */
@@ -238,35 +308,51 @@ export class DesignEditing {
 
   /** The edit that makes a value of the chosen branch this: relative values stay relative, shared ones shared. */
   #set(key: DesignKey, value: unknown): DesignEdit {
-    const [path, model] = [this.chosen.peek(), this.model.peek()];
-    const said = model?.said(path, key.name);
-    const setting = said?.setting;
+    const [of, setting] = [this.#of(), this.#said(key.name)];
     const rest = setting?.private ? { private: true } : {};
+    const from = setting?.below ? { below: true } : {};
     if (setting?.shared !== undefined) {
       return { edit: "set_shared", share: setting.shared, value };
     }
     if (setting?.add !== undefined) {
-      return { edit: "set", of: path, key: key.name, value: { add: value, ...rest } };
+      return { edit: "set", of, key: key.name, value: { add: value, ...rest, ...from } };
     }
     if (setting?.multiply !== undefined) {
-      return { edit: "set", of: path, key: key.name, value: { multiply: value, ...rest } };
+      return { edit: "set", of, key: key.name, value: { multiply: value, ...rest, ...from } };
     }
-    return { edit: "set", of: path, key: key.name, value: { own: value, ...rest } };
+    return { edit: "set", of, key: key.name, value: { own: value, ...rest } };
   }
 
   /** The edit that a hand asks for. A hand says what is to be, so nothing stays relative that it has touched. */
-  #changed(change: Change): DesignEdit {
-    if (change.kind === "edit") {
-      return change.edit;
+  #changed(change: Change): readonly DesignEdit[] {
+    if (change.kind === "edits") {
+      return change.edits;
     }
-    const [path, model] = [this.chosen.peek(), this.model.peek()];
-    const setting = model?.said(path, change.key)?.setting;
+    const [path, of, setting] = [this.chosen.peek(), this.#of(), this.#said(change.key)];
     if (setting?.shared !== undefined) {
-      return { edit: "set_shared", share: setting.shared, value: change.value };
+      return [{ edit: "set_shared", share: setting.shared, value: change.value }];
+    }
+    if (of !== path) {
+      const edit: DesignEdit = { edit: "set", of, key: change.key, value: { own: change.value } };
+      return this.model.peek()?.settingOf(path, change.key)
+        ? [edit, { edit: "clear", of: path, key: change.key }]
+        : [edit];
     }
     const isPrivate = path !== ROOT && (change.isPrivate || setting?.private === true);
     const value = { own: change.value, ...(isPrivate ? { private: true } : {}) };
-    return { edit: "set", of: path, key: change.key, value };
+    return [{ edit: "set", of, key: change.key, value }];
+  }
+
+  /** Of what values are said: the chosen branch, or its level. */
+  #of(): string {
+    const path = this.chosen.peek();
+    return this.scope.peek() === "order" ? levelOf(path) : path;
+  }
+
+  /** What is said of a parameter there. */
+  #said(key: KeyName): DesignSetting | undefined {
+    const [path, model] = [this.chosen.peek(), this.model.peek()];
+    return (this.scope.peek() === "order" ? model?.saidOfOrder(path, key) : model?.said(path, key))?.setting;
   }
 
   /** Sends what moves, as often as the server takes it; the newest waits. */
@@ -284,7 +370,7 @@ export class DesignEditing {
     if (this.#gesture === undefined) {
       this.#gesture = this.#options.newGesture();
       const model = this.model.peek();
-      this.#before = model && { path: this.chosen.peek(), model };
+      this.#before = model && { path: this.chosen.peek(), of: this.#of(), model };
     }
     this.#sentAt = this.#options.now();
     this.#edit(edits, this.#gesture);

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { Command, DesignInForce } from "../../../wire/generated";
+import type { Command, DesignInForce, PlacedBranch } from "../../../wire/generated";
 import { DesignEditing } from "./design-editing";
 import { DESIGN_KEYS } from "./design-keys";
 import { bearerOf, DesignModel, type KeyName, wayTo } from "./design-model";
@@ -100,7 +100,7 @@ describe("editing a design", () => {
       unsettled: () => 0,
       later: () => {},
     });
-    return { of, sent };
+    return { of, sent, design };
   }
 
   it("sends all of one movement as one gesture, not too often", () => {
@@ -142,6 +142,64 @@ describe("editing a design", () => {
         { edit: "clear", of: "/1", key: "roll" },
       ],
       [{ edit: "share", share: 3, key: "girth", value: 0.55, members: ["/0", "/1", "/2"] }],
+    ]);
+  });
+
+  it("inherits along the axis, and changes what is said so without forgetting it", () => {
+    const { of, sent } = editing();
+    of.choose("/1/0");
+    of.inheritBelow(keyOf("roll"), true);
+    of.choose("/2");
+    of.inheritBelow(keyOf("roll"), false);
+    const level = editing({ levels: { "1": { values: { roll: { add: 6, below: true } } } } });
+    level.of.choose("/2");
+    level.of.commit(keyOf("roll"), 9);
+    expect(
+      [...sent, ...level.sent].map((command) => (command.kind === "edit_design" ? command.edits[0] : null)),
+    ).toEqual([
+      { edit: "set", of: "/1/0", key: "roll", value: { add: 5, below: true } },
+      { edit: "clear", of: "/2", key: "roll" },
+      { edit: "set", of: "/2", key: "roll", value: { add: 9, below: true } },
+    ]);
+  });
+
+  it("knows branches far up once they are on the way to the one that is looked at", () => {
+    const { of, design } = editing();
+    expect([of.laterals("/1"), of.laterals("/1/0")]).toEqual([["/1/0", "/1/1"], null]);
+    const branch = (path: string, at: number) => ({ path, at }) as PlacedBranch;
+    design.placed.value = { of: "/1/0", branches: [branch("/1/0/3", 0.7), branch("/1/0/1", 0.2), branch("/1/1", 0.5)] };
+    expect([of.laterals("/1/0"), of.laterals("/1/1")]).toEqual([["/1/0/1", "/1/0/3"], null]);
+  });
+
+  it("says values of all branches of an order, and lets those follow that have their own", () => {
+    const graph = {
+      nodes: { "/1": { values: { reach: { own: 2 } } }, "/0": { values: { roll: { own: 1 } } } },
+      levels: { "1": { values: { girth: { add: 0.1 } } } },
+    };
+    const { of, sent } = editing(graph);
+    of.choose("/");
+    of.speakOf("order");
+    // The plant as a whole is the only one of its order.
+    expect(of.scope.value).toBe("branch");
+    of.choose("/1");
+    expect(of.model.value?.resolve("/1", keyOf("reach"), "order")).toMatchObject({ value: 1, status: "inherited" });
+    of.commit(keyOf("reach"), 0.8);
+    of.commit(keyOf("girth"), 0.2);
+    of.say(keyOf("zone"), "own");
+    of.hide(keyOf("girth"), true);
+    of.follow("reach", of.model.value?.exceptions(1, "reach") ?? []);
+    // What a hand shapes holds for all, and for the one that it shaped.
+    of.shaped({ kind: "value", key: "reach", value: 0.5, isPrivate: true });
+    expect(sent.map((command) => (command.kind === "edit_design" ? command.edits : null))).toEqual([
+      [{ edit: "set", of: "level 1", key: "reach", value: { own: 0.8 } }],
+      [{ edit: "set", of: "level 1", key: "girth", value: { add: 0.2 } }],
+      [{ edit: "set", of: "level 1", key: "zone", value: { own: [0.15, 0.95] } }],
+      [{ edit: "set", of: "level 1", key: "girth", value: { add: 0.1, private: true } }],
+      [{ edit: "clear", of: "/1", key: "reach" }],
+      [
+        { edit: "set", of: "level 1", key: "reach", value: { own: 0.5 } },
+        { edit: "clear", of: "/1", key: "reach" },
+      ],
     ]);
   });
 

@@ -1,5 +1,6 @@
 import type { DesignInForce, DesignSetting } from "../../../wire/generated";
 import { DESIGN_KEYS } from "./design-keys";
+import { valuesOf } from "./function-course";
 
 export type DesignKey = (typeof DESIGN_KEYS)[number];
 export type KeyName = DesignKey["name"];
@@ -31,7 +32,12 @@ export interface Resolved {
   readonly isPrivate: boolean;
   /** The branch or level that says it; null where nobody does. */
   readonly origin: string | null;
+  /** What is said of it here. */
+  readonly setting: DesignSetting | undefined;
 }
+
+/** Of what something is said: of one branch, or of all of its order that say nothing themselves. */
+export type Scope = "branch" | "order";
 
 export const ROOT = "/";
 
@@ -48,6 +54,11 @@ export function lateralOf(path: string, number: number): string {
 /** The order of branching: 0 for the plant's own axis. */
 export function orderOf(path: string): number {
   return path === ROOT ? 0 : path.split("/").length - 1;
+}
+
+/** What all branches of the order of one are called where something is said of them. */
+export function levelOf(path: string): string {
+  return `level ${orderOf(path)}`;
 }
 
 /** The way to a branch from the plant's own axis, both included. */
@@ -94,12 +105,31 @@ export class DesignModel {
     if (own) {
       return { by: path, setting: own };
     }
-    const level = this.graph.levels?.[orderOf(path)]?.values?.[key];
-    return level ? { by: `level ${orderOf(path)}`, setting: level } : null;
+    return this.saidOfOrder(path, key);
   }
 
-  resolve(path: string, key: DesignKey): Resolved {
-    const said = this.said(path, key.name);
+  /** The same for all branches of its order. */
+  saidOfOrder(path: string, key: KeyName): { readonly by: string; readonly setting: DesignSetting } | null {
+    const level = this.graph.levels?.[orderOf(path)]?.values?.[key];
+    return level ? { by: levelOf(path), setting: level } : null;
+  }
+
+  /** What is said of a parameter by a branch or a level, and by nobody else. */
+  settingOf(owner: string, key: KeyName): DesignSetting | undefined {
+    const [, level] = /^level (\d+)$/.exec(owner) ?? [];
+    const record = level === undefined ? this.graph.nodes?.[owner] : this.graph.levels?.[level];
+    return record?.values?.[key];
+  }
+
+  /** The branches of an order that say something of a parameter themselves. */
+  exceptions(order: number, key: KeyName): readonly string[] {
+    const nodes = Object.entries(this.graph.nodes ?? {});
+    return nodes.filter(([path, { values }]) => orderOf(path) === order && values?.[key]).map(([path]) => path);
+  }
+
+  /** A value of a branch, or the one that all of its order have who say nothing themselves. */
+  resolve(path: string, key: DesignKey, scope: Scope = "branch"): Resolved {
+    const said = scope === "order" ? this.saidOfOrder(path, key.name) : this.said(path, key.name);
     const from = this.#heir(path, key.name, said?.setting.below === true);
     const below = from === null ? null : this.resolve(from, key);
     const inherited = below ? below.value : JSON.parse(key.standard);
@@ -107,21 +137,21 @@ export class DesignModel {
     const setting = said?.setting;
     const by = said?.by ?? null;
     if (setting?.own !== undefined) {
-      return { value: setting.own, inherited, status: "own", isPrivate, origin: by };
+      return { value: setting.own, inherited, status: "own", isPrivate, origin: by, setting };
     }
     if (setting?.shared !== undefined) {
       const value = this.graph.shares?.[setting.shared]?.value ?? inherited;
-      return { value, inherited, status: "shared", isPrivate, origin: by };
+      return { value, inherited, status: "shared", isPrivate, origin: by, setting };
     }
     if (setting?.add !== undefined) {
       const value = combined(inherited, setting.add, key, (a, b) => a + b);
-      return { value, inherited, status: "offset", isPrivate, origin: by };
+      return { value, inherited, status: "offset", isPrivate, origin: by, setting };
     }
     if (setting?.multiply !== undefined) {
       const value = combined(inherited, setting.multiply, key, (a, b) => a * b);
-      return { value, inherited, status: "factor", isPrivate, origin: by };
+      return { value, inherited, status: "factor", isPrivate, origin: by, setting };
     }
-    return { value: inherited, inherited, status: "inherited", isPrivate, origin: below?.origin ?? null };
+    return { value: inherited, inherited, status: "inherited", isPrivate, origin: below?.origin ?? null, setting };
   }
 
   /** The branch that a parameter is inherited from; null for the plant's own axis. */
@@ -156,27 +186,45 @@ export function keyNamed(name: KeyName): DesignKey {
   return DESIGN_KEYS.find((key) => key.name === name) as DesignKey;
 }
 
+/** What parameters are about, to find one among many. */
+export const KEY_GROUPS = ["all", "size", "form", "branches", "looks"] as const;
+export type KeyGroup = (typeof KEY_GROUPS)[number];
+
+const GROUP_OF: Readonly<Record<KeyName, Exclude<KeyGroup, "all">>> = {
+  height: "size",
+  stem: "size",
+  silhouette: "form",
+  axis: "form",
+  reach: "size",
+  cut: "size",
+  turn: "form",
+  roll: "form",
+  pull: "form",
+  density: "branches",
+  zone: "branches",
+  whorl: "branches",
+  phyllotaxis: "branches",
+  azimuth: "branches",
+  branching_angle: "branches",
+  irregularity: "form",
+  orders: "branches",
+  internode: "size",
+  girth: "size",
+  taper: "size",
+  leaves: "looks",
+  leaf_size: "looks",
+  material: "looks",
+  shown: "branches",
+};
+
 /** The parameters that a branch has. */
-export function keysOf(path: string): readonly DesignKey[] {
-  return DESIGN_KEYS.filter((key) => path === ROOT || !key.ofRoot);
+export function keysOf(path: string, group: KeyGroup = "all"): readonly DesignKey[] {
+  const isIn = (key: DesignKey) => group === "all" || GROUP_OF[key.name] === group;
+  return DESIGN_KEYS.filter((key) => (path === ROOT || !key.ofRoot) && isIn(key));
 }
 
 export function isPoints(value: unknown): value is Points {
   return Array.isArray(value) && value.every((point) => Array.isArray(point) && point.length === 2);
-}
-
-/** The value of a function between its points; straight, where the server's is smooth. */
-export function at(points: Points, t: number): number {
-  const next = points.findIndex(([place]) => place >= t);
-  const [after, before] = [points[next] ?? points.at(-1), points[next - 1]];
-  if (!after) {
-    return 0;
-  }
-  if (!before || next < 0) {
-    return after[1];
-  }
-  const share = (t - before[0]) / Math.max(after[0] - before[0], 1e-6);
-  return before[1] + (after[1] - before[1]) * share;
 }
 
 function combined(inherited: unknown, own: unknown, key: DesignKey, join: (a: number, b: number) => number): unknown {
@@ -185,8 +233,10 @@ function combined(inherited: unknown, own: unknown, key: DesignKey, join: (a: nu
     return within(join(inherited, own));
   }
   if (isPoints(inherited) && isPoints(own)) {
-    const places = [...new Set([...inherited, ...own].map(([t]) => t))].sort((a, b) => a - b);
-    return places.map((t) => [t, within(join(at(inherited, t), at(own, t)))]);
+    const all = [...inherited, ...own].map(([t]) => t);
+    const places = [...new Set(all)].sort((a, b) => a - b);
+    const [below, said] = [valuesOf(inherited, places), valuesOf(own, places)];
+    return places.map((t, at) => [t, within(join(below[at] ?? 0, said[at] ?? 0))]);
   }
   return inherited;
 }

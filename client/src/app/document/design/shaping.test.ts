@@ -275,6 +275,53 @@ describe("shaping by hand", () => {
     expect(shaping.trace.value).toEqual([]);
   });
 
+  it("an axis that is drawn goes from the base to where the stroke ends, as one deed", () => {
+    const { editing, shaping, sent, world, stroke } = setUp({ roll: { own: 90 } });
+    editing.choose("/0");
+    shaping.group.value = "axis";
+    shaping.sketching.value = true;
+    stroke([0, -100], [4, -100]);
+    expect([world.unfitted, sent, shaping.sketching.value]).toEqual([["small"], [], true]);
+    // From the base, ten up, over a hump to eight out.
+    stroke([0, -100], [20, -130], [40, -140], [60, -130], [80, -100]);
+    expect([shaping.sketching.value, shaping.group.value, sent.length]).toEqual([false, "axis", 1]);
+    const [aim, bend] = edits(sent[0]);
+    expect(aim).toEqual({ edit: "aim", node: "/0", tip: [8, 10, 0] });
+    expect(bend).toMatchObject({ edit: "set", of: "/0", key: "axis", value: { private: true } });
+    const points = bend?.edit === "set" ? (bend.value.own as Vec3[]) : [];
+    expect([points[0], points.at(-1)]).toEqual([
+      [0, 0, 0],
+      [0, 1, 0],
+    ]);
+    // A quarter of roll has turned the side that looked up aside: the hump is along −Z of its frame.
+    const top = points[Math.floor(points.length / 2)];
+    expect(top?.map((part) => Math.round(100 * part) / 100 || 0)).toEqual([0, 0.5, -0.5]);
+  });
+
+  it("a stroke that begins elsewhere is moved to the base, and one that ends there was drawn backwards", () => {
+    const { editing, shaping, sent, stroke } = setUp();
+    editing.choose("/0");
+    shaping.group.value = "axis";
+    shaping.sketching.value = true;
+    stroke([300, -300], [320, -330], [380, -300]);
+    shaping.sketching.value = true;
+    stroke([80, -100], [20, -130], [1, -101]);
+    const tips = sent.flatMap(edits).map((edit) => (edit.edit === "aim" ? edit.tip : null));
+    expect(tips.filter((tip) => tip !== null)).toEqual([
+      [8, 10, 0],
+      [8, 10, 0],
+    ]);
+  });
+
+  it("a tip stops where the server takes no lower one, in the picture too", () => {
+    const { editing, shaping, sent, drag } = setUp();
+    editing.choose("/0");
+    drag("tip", [120, 250]);
+    expect(shaping.held.value?.readout.isLowest).toBe(true);
+    expect(shaping.chosen.value?.tip.map((part) => Math.round(100 * part) / 100)).toEqual([12, -10, 0]);
+    expect(edits(sent.at(-1))).toEqual([{ edit: "aim", node: "/0", tip: [12, -10, 0] }]);
+  });
+
   it("an outline that is let be is none", () => {
     const { design, shaping, sent } = setUp();
     shaping.sketching.value = true;

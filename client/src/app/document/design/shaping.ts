@@ -1,8 +1,11 @@
 import { computed, effect, type ReadonlySignal, signal } from "@preact/signals";
 import type { Shell, Shells } from "../../../scene/structure/shells";
 import type { Ray, Vec3 } from "../../../scene/vector";
+import type { DesignEdit } from "../../../wire/generated";
 import type { Gesture } from "../../input/gesture";
+import { drawnAxis } from "./axis-sketch";
 import {
+  type Change,
   type Dragged,
   type Handle,
   type HandleGroup,
@@ -12,8 +15,9 @@ import {
   type Readout,
 } from "./branch-handles";
 import { BranchShape } from "./branch-shape";
+import type { Curve } from "./curve-points";
 import type { DesignEditing } from "./design-editing";
-import { bearerOf, keyNamed } from "./design-model";
+import { bearerOf, keyNamed, ROOT } from "./design-model";
 import type { DesignSignal } from "./design-signal";
 import { fittedOutline, type Unfitted } from "./outline-fit";
 import { borneBy, pickable, pickBranch } from "./shell-pick";
@@ -48,6 +52,12 @@ export interface ShapingOptions {
   readonly unfitted: (why: Unfitted) => void;
 }
 
+/** How many handles cannot be hit: because they lie too close together, or because one looks along them. */
+export interface Hidden {
+  readonly near: number;
+  readonly along: number;
+}
+
 /** A handle in a finger. */
 interface Grip {
   readonly handle: Handle;
@@ -61,10 +71,14 @@ export class Shaping {
   /** Whether it is wanted. */
   readonly wanted = signal(false);
   readonly group = signal<HandleGroup>("way");
-  /** Whether a finger on the picture draws the outline of the chosen branch. */
+  /** Whether the list of branches is open, which asks for those around the chosen one. */
+  readonly isListed = signal(false);
+  /** Whether a finger on the picture draws the outline of the chosen branch, or its axis where the handles are about that. */
   readonly sketching = signal(false);
   /** What it has drawn. */
   readonly trace = signal<readonly (readonly [number, number])[]>([]);
+  /** Handles that are not shown. */
+  readonly hidden = signal<Hidden>({ near: 0, along: 0 });
   /** What the finger makes of the chosen branch, while it does. */
   readonly held = signal<{ readonly handle: string; readonly shape: BranchShape; readonly readout: Readout } | null>(
     null,
@@ -86,6 +100,8 @@ export class Shaping {
     const held = this.held.value?.shape;
     return held?.path === path ? held : (this.shapes.value.get(path) ?? null);
   });
+  /** What a finger draws. */
+  readonly draws = computed(() => (this.group.value === "axis" ? "axis" : "outline"));
   readonly handles = computed(() => {
     const [shape, group] = [this.chosen.value, this.group.value];
     if (this.held.value !== null && this.#grip !== null) {
@@ -109,7 +125,8 @@ export class Shaping {
         design.hands = this.isOn.value ? (gesture) => this.gesture(gesture) : null;
       }),
       effect(() => {
-        const of = this.isOn.value ? editing.chosen.value : null;
+        const isAsked = this.isOn.value || (this.isListed.value && design.inForce.value !== null);
+        const of = isAsked ? editing.chosen.value : null;
         if (connected.value && (of !== null || isLooking)) {
           isLooking = of !== null;
           options.look(of);
@@ -252,19 +269,43 @@ export class Shaping {
         this.#options.unfitted(fit);
       } else if (fit) {
         this.sketching.value = false;
-        this.group.value = "outline";
-        this.#options.editing.shaped({ kind: "value", key: "silhouette", value: fit, isPrivate: false });
+        this.group.value = this.draws.peek();
+        this.#options.editing.shaped(fit);
       }
     }
   }
 
-  #fit() {
-    const [shape, view] = [this.shapes.peek().get(this.#options.editing.chosen.peek()), this.#options.view()];
-    const fit = shape && view ? fittedOutline(shape, view, this.trace.peek()) : null;
-    if (shape && fit && typeof fit !== "string") {
-      this.held.value = { handle: "", shape: shape.shaped(fit), readout: {} };
+  /** What comes of what was drawn so far, which is shown at once. */
+  #fit(): Change | Unfitted | null {
+    const { editing } = this.#options;
+    const path = editing.chosen.peek();
+    const [shape, view, model] = [this.shapes.peek().get(path), this.#options.view(), editing.model.peek()];
+    if (!shape || !view || !model) {
+      return null;
     }
-    return fit;
+    if (this.draws.peek() === "axis") {
+      const roll = path === ROOT ? 0 : Number(model.resolve(path, keyNamed("roll")).value);
+      const drawn = drawnAxis(shape, view, this.trace.peek(), roll);
+      if (typeof drawn === "string") {
+        return drawn;
+      }
+      this.held.value = { handle: "", shape: drawn.shape, readout: {} };
+      if (editing.scope.peek() === "order") {
+        return { kind: "value", key: "axis", value: drawn.points, isPrivate: false };
+      }
+      const keys = path === ROOT ? (["height", "silhouette", "axis"] as const) : (["turn", "reach", "axis"] as const);
+      return {
+        kind: "edits",
+        edits: [{ edit: "aim", node: path, tip: [...drawn.tip] }, axisOf(path, drawn.points)],
+        keys,
+      };
+    }
+    const fit = fittedOutline(shape, view, this.trace.peek());
+    if (typeof fit === "string") {
+      return fit;
+    }
+    this.held.value = { handle: "", shape: shape.shaped(fit), readout: {} };
+    return { kind: "value", key: "silhouette", value: fit, isPrivate: false };
   }
 
   /** A finger takes hold of a handle. */
@@ -348,4 +389,10 @@ export class Shaping {
     const hits = drawn ? drawn.hits(view.rayAt(x, y)) : [];
     return pickBranch(levels, hits, view.projector() as (point: Vec3) => readonly [number, number] | null, x, y);
   }
+}
+
+/** A course that belongs to one branch alone; that of the plant as a whole is for all. */
+function axisOf(path: string, points: Curve): DesignEdit {
+  const value = { own: points, ...(path === ROOT ? {} : { private: true }) };
+  return { edit: "set", of: path, key: "axis", value };
 }

@@ -17,6 +17,8 @@ export function StructurePanel({ studio }: { studio: Studio }) {
   const model = editing.model.value;
   const onTop = model?.told.steps_on_top ?? 0;
   const shaping = shapingOf(studio);
+  const { bark, leaves } = studio.appearance.value;
+  const colours = { bark: bark.tint, leaves: leaves.tint };
   useEffect(() => mountStage(studio), [studio]);
   return (
     <>
@@ -84,10 +86,10 @@ export function StructurePanel({ studio }: { studio: Studio }) {
         <>
           <Section name="structure.branches" title={say("structure.branches")} open>
             <p class="quiet">{say("structure.counts", { values: model.told.values, branches: model.told.branches })}</p>
-            <BranchList editing={editing} model={model} />
+            <BranchList editing={editing} shaping={shaping} model={model} />
           </Section>
           <Section name="structure.values" title={say("structure.values")} open>
-            <BranchValues editing={editing} model={model} key={editing.chosen.value} />
+            <BranchValues editing={editing} model={model} colours={colours} key={editing.chosen.value} />
           </Section>
           {onTop === 0 && editing.chosen.value === ROOT && (
             <button type="button" class="structure-release" onClick={() => editing.release()}>

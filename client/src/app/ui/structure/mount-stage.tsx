@@ -1,7 +1,10 @@
 import { effect } from "@preact/signals";
 import { render } from "preact";
+import { ROOT } from "../../document/design/design-model";
+import { designOf } from "../../document/design/design-of";
 import { shapingOf } from "../../document/design/shaping-of";
 import type { Studio } from "../../studio";
+import { comeTo } from "./come-to";
 import { StructureStage } from "./structure-stage";
 
 const MOUNTED = new WeakSet<Studio>();
@@ -24,6 +27,21 @@ export function mountStage(studio: Studio): void {
   effect(() => {
     if (studio.layout.panel.value === "structure") {
       shaping.wanted.value = true;
+    }
+  });
+  // A tree that somebody begins here stands in sight above the bar.
+  const editing = designOf(studio);
+  let begun = editing.begun.peek();
+  let former = studio.design.placed.peek();
+  effect(() => {
+    const [now, placed] = [editing.begun.value, studio.design.placed.value];
+    const stem = shaping.shapes.value.get(ROOT) ?? null;
+    if (now !== begun && stem && placed !== former) {
+      begun = now;
+      comeTo(studio, stem);
+    }
+    if (now === begun) {
+      former = placed;
     }
   });
   let before = studio.tools.chosen.peek();

@@ -1,12 +1,15 @@
 import { useEffect, useRef } from "preact/hooks";
 import { HANDLE_GROUPS, type Handle, type Readout } from "../../document/design/branch-handles";
+import { ROOT } from "../../document/design/design-model";
 import { designOf } from "../../document/design/design-of";
 import type { Shaping } from "../../document/design/shaping";
 import type { Studio } from "../../studio";
 import { numberText } from "../../words/number-text";
 import { say } from "../../words/say";
-import { titleOf } from "../panels/structure/branch-list";
+import { allLike, titleOf } from "../panels/structure/branch-list";
 import { closedPath, useAnimationFrames } from "../use-animation-frames";
+import { comeTo } from "./come-to";
+import { shownHandles } from "./crowding";
 
 interface StageProps {
   readonly studio: Studio;
@@ -60,13 +63,17 @@ function Handles({ studio, shaping }: StageProps) {
         .map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`)
         .join(" "),
     );
-    const byId = new Map(shaping.handles.peek().map((handle) => [handle.id, handle]));
+    const all = shaping.handles.peek();
+    const byId = new Map(all.map((handle) => [handle.id, handle]));
+    const { ids, hidden } = shownHandles(all, shape, project, shaping.held.peek()?.handle);
+    const told = shaping.hidden.peek();
+    if (shaping.held.peek() === null && (told.near !== hidden.near || told.along !== hidden.along)) {
+      shaping.hidden.value = hidden;
+    }
     for (const mark of layer.current?.querySelectorAll<HTMLElement>("[data-handle]") ?? []) {
       const handle = byId.get(mark.dataset.handle ?? "");
       const at = handle && project(handle.place(shape));
-      const isHeld = shaping.held.peek()?.handle === mark.dataset.handle;
-      const isShown = Boolean(at) && (isHeld || handle?.hides?.(shape, project) !== true);
-      mark.dataset.shown = String(isShown);
+      mark.dataset.shown = String(ids.has(mark.dataset.handle ?? ""));
       if (at && layer.current) {
         // What lies beside the picture stands at its edge.
         const [x, y] = [inside(at[0], layer.current.clientWidth), inside(at[1], layer.current.clientHeight)];
@@ -79,7 +86,12 @@ function Handles({ studio, shaping }: StageProps) {
     <div class="structure-handles" ref={layer} data-held={held !== null}>
       <svg class="overlay" aria-hidden="true">
         <polyline ref={axis} class="structure-stage-axis" />
-        {trace.length > 0 && <path d={closedPath(trace)} class="structure-trace" />}
+        {trace.length > 0 && shaping.draws.value === "outline" && (
+          <path d={closedPath(trace)} class="structure-trace" />
+        )}
+        {trace.length > 0 && shaping.draws.value === "axis" && (
+          <polyline points={trace.map(([x, y]) => `${x},${y}`).join(" ")} class="structure-trace-line" />
+        )}
       </svg>
       {!sketching &&
         handles.map((handle) => <HandleKnob key={handle.id} studio={studio} shaping={shaping} handle={handle} />)}
@@ -179,7 +191,7 @@ function cancelOthers(pointer: number, cancel: () => void): () => void {
   return () => stop.abort();
 }
 
-function readoutText({ length, angle, width, height, shape, place }: Readout): string {
+function readoutText({ length, angle, width, height, shape, place, isLowest }: Readout): string {
   const parts = [
     length !== undefined && say("structure.readout.length", { length: numberText(length, 0.1) }),
     angle !== undefined && say("structure.readout.angle", { angle: numberText(angle, 1) }),
@@ -187,8 +199,31 @@ function readoutText({ length, angle, width, height, shape, place }: Readout): s
     height !== undefined && say("structure.readout.height", { height: numberText(height, 0.1) }),
     shape !== undefined && say("structure.readout.shape", { shape: numberText(shape, 0.1) }),
     place !== undefined && say("structure.readout.place", { percent: numberText(100 * place, 1) }),
+    isLowest === true && say("structure.readout.lowest"),
   ];
   return parts.filter((part) => part !== false).join(" · ");
+}
+
+/** Says how many handles are not shown, and what shows them. */
+function HiddenHandles({ studio, shaping }: StageProps) {
+  const { near, along } = shaping.hidden.value;
+  if (shaping.sketching.value || near + along === 0) {
+    return null;
+  }
+  return (
+    <div class="structure-bar-hidden">
+      {near > 0 && (
+        <button
+          type="button"
+          title={say("structure.hidden.help")}
+          onClick={() => comeTo(studio, shaping.chosen.peek())}
+        >
+          {say("structure.hidden", { handles: near })}
+        </button>
+      )}
+      {along > 0 && <span>{say("structure.hidden.turn", { handles: along })}</span>}
+    </div>
+  );
 }
 
 /** Which branch is chosen, the ways to others, and which handles it shows. */
@@ -199,14 +234,17 @@ function Bar({ studio, shaping }: StageProps) {
     return null;
   }
   const placed = shaping.shapes.value.get(path)?.placed;
+  const isAxis = shaping.draws.value === "axis";
   return (
     <section class="panel structure-bar" aria-label={say("structure.shaping")}>
-      {shaping.sketching.value && <p class="structure-bar-hint">{say("structure.sketch.help")}</p>}
+      {shaping.sketching.value && (
+        <p class="structure-bar-hint">{say(isAxis ? "structure.sketch.axis" : "structure.sketch.help")}</p>
+      )}
       <div class="structure-bar-way">
         <button
           type="button"
           class="tool"
-          disabled={path === "/"}
+          disabled={path === ROOT}
           aria-label={say("structure.up")}
           title={say("structure.up")}
           onClick={() => shaping.up()}
@@ -214,7 +252,7 @@ function Bar({ studio, shaping }: StageProps) {
           ↑
         </button>
         <span class="structure-bar-name" role="status">
-          {titleOf(model, path)}
+          {editing.scope.value === "order" ? allLike(path) : titleOf(model, path)}
         </span>
         <button
           type="button"
@@ -227,6 +265,17 @@ function Bar({ studio, shaping }: StageProps) {
           ↓
         </button>
       </div>
+      {path !== ROOT && (
+        <button
+          type="button"
+          class="structure-bar-scope"
+          title={say("structure.scope.help")}
+          aria-pressed={editing.scope.value === "order"}
+          onClick={() => editing.speakOf(editing.scope.peek() === "order" ? "branch" : "order")}
+        >
+          {allLike(path)}
+        </button>
+      )}
       <fieldset class="structure-bar-groups">
         <legend>{say("structure.handles")}</legend>
         {HANDLE_GROUPS.map((group) => (
@@ -244,15 +293,16 @@ function Bar({ studio, shaping }: StageProps) {
         ))}
         <button
           type="button"
-          title={say("structure.sketch.help")}
+          title={say(isAxis ? "structure.sketch.axis" : "structure.sketch.help")}
           aria-pressed={shaping.sketching.value}
           onClick={() => {
             shaping.sketching.value = !shaping.sketching.peek();
           }}
         >
-          {say("structure.sketch")}
+          {say(isAxis ? "structure.sketch.axis.short" : "structure.sketch")}
         </button>
       </fieldset>
+      <HiddenHandles studio={studio} shaping={shaping} />
       <button
         type="button"
         class="structure-bar-done"

@@ -1,46 +1,32 @@
-import type { ComponentChildren } from "preact";
 import type { DesignEditing } from "../../../document/design/design-editing";
 import {
   bearerOf,
   type DesignKey,
   type DesignModel,
-  isPoints,
-  type KeyName,
+  KEY_GROUPS,
   keysOf,
+  levelOf,
+  orderOf,
   type Resolved,
   ROOT,
+  type Scope,
   type Status,
   wayTo,
 } from "../../../document/design/design-model";
-import { type Key, say } from "../../../words/say";
-import { Slider } from "../../controls/slider";
-import { Switch } from "../../controls/switch";
-import type { Scale } from "../../controls/travel";
-import { titleOf } from "./branch-list";
-import { FunctionEditor } from "./function-editor";
-import { type EnvelopeValue, OutlineEditor } from "./outline-editor";
+import { say } from "../../../words/say";
+import { allLike, titleOf } from "./branch-list";
+import type { BaseColours } from "./material-editor";
+import { ValueEditor } from "./value-editor";
 
 interface ValuesProps {
   readonly editing: DesignEditing;
   readonly model: DesignModel;
+  /** The colours of the tree as a whole. */
+  readonly colours: BaseColours;
 }
 
-/** Kinds of values that hands set, or files, and no editor here. */
-const BY_HAND = new Set(["curve", "material"]);
-
-/** The part of a wide range that trees have, which gets most of a slider. */
-const TRAVEL: Partial<Record<KeyName, readonly [number, number]>> = {
-  height: [10, 150],
-  stem: [0.2, 5],
-  reach: [0.3, 1.7],
-  turn: [-90, 90],
-  roll: [-90, 90],
-  pull: [-2, 2],
-  leaf_size: [0.2, 3],
-};
-
 /** All parameters of the chosen branch, and what can be done with it as a whole. */
-export function BranchValues({ editing, model }: ValuesProps) {
+export function BranchValues({ editing, model, colours }: ValuesProps) {
   const path = editing.chosen.value;
   const copied = editing.copied.value;
   return (
@@ -52,6 +38,7 @@ export function BranchValues({ editing, model }: ValuesProps) {
           </button>
         ))}
       </nav>
+      {path !== ROOT && <ScopeChoice editing={editing} path={path} />}
       <div class="structure-row">
         <button type="button" onClick={() => editing.copy()}>
           {say("structure.copy")}
@@ -67,12 +54,43 @@ export function BranchValues({ editing, model }: ValuesProps) {
           {say("structure.forget")}
         </button>
       </div>
-      {keysOf(path)
-        .filter((key) => !BY_HAND.has(key.kind))
-        .map((key) => (
-          <ValueRow key={key.name} editing={editing} model={model} path={path} of={key} />
+      <nav class="structure-groups" aria-label={say("structure.groups")}>
+        {KEY_GROUPS.map((group) => (
+          <button
+            type="button"
+            key={group}
+            aria-pressed={editing.group.value === group}
+            onClick={() => {
+              editing.group.value = group;
+            }}
+          >
+            {say(`structure.group.${group}`)}
+          </button>
         ))}
+      </nav>
+      {keysOf(path, editing.group.value).map((key) => (
+        <ValueRow key={key.name} editing={editing} model={model} path={path} of={key} colours={colours} />
+      ))}
     </>
+  );
+}
+
+/** Whether values are said of the chosen branch, or of all of its order. */
+function ScopeChoice({ editing, path }: { readonly editing: DesignEditing; readonly path: string }) {
+  return (
+    <fieldset class="structure-ways">
+      <legend>{say("structure.scope")}</legend>
+      {(["branch", "order"] as const).map((scope) => (
+        <button
+          type="button"
+          key={scope}
+          aria-pressed={editing.scope.value === scope}
+          onClick={() => editing.speakOf(scope)}
+        >
+          {scope === "branch" ? say("structure.scope.branch") : allLike(path)}
+        </button>
+      ))}
+    </fieldset>
   );
 }
 
@@ -82,12 +100,14 @@ interface ValueRowProps extends ValuesProps {
 }
 
 /** One parameter: its editor, how the branch has it, and where it comes from. */
-function ValueRow({ editing, model, path, of }: ValueRowProps) {
-  const resolved = model.resolve(path, of);
+function ValueRow({ editing, model, path, of, colours }: ValueRowProps) {
+  const scope = editing.scope.value;
+  const resolved = model.resolve(path, of, scope);
+  const exceptions = scope === "order" ? model.exceptions(orderOf(path), of.name) : [];
   const isShown = editing.key.value === of.name;
   return (
     <div class="structure-value" data-status={resolved.status}>
-      <Editor editing={editing} model={model} path={path} of={of} resolved={resolved} />
+      <ValueEditor editing={editing} of={of} resolved={resolved} colours={colours} />
       <button
         type="button"
         class="structure-status"
@@ -97,17 +117,34 @@ function ValueRow({ editing, model, path, of }: ValueRowProps) {
         }}
       >
         <StatusMark resolved={resolved} />
-        {say(resolved.origin === null ? "structure.status.standard" : `structure.status.${resolved.status}`)}
+        {statusText(path, resolved, scope)}
         {resolved.isPrivate && <span title={say("structure.private")}> 🔒</span>}
       </button>
       {isShown && (
         <>
-          <PathStrip model={model} path={path} of={of} editing={editing} />
+          <PathStrip model={model} path={path} of={of} editing={editing} resolved={resolved} />
           <StatusMenu editing={editing} path={path} of={of} resolved={resolved} />
         </>
       )}
+      {exceptions.length > 0 && (
+        <div class="structure-row">
+          <span class="structure-legend">{say("structure.exceptions", { branches: exceptions.length })}</span>
+          <button type="button" onClick={() => editing.follow(of.name, exceptions)}>
+            {say("structure.follow")}
+          </button>
+        </div>
+      )}
     </div>
   );
+}
+
+/** How a branch has a value, in a word or two. */
+function statusText(path: string, { origin, status }: Resolved, scope: Scope): string {
+  if (origin === null) {
+    return say("structure.status.standard");
+  }
+  // What is said for all of its order a branch has not said itself.
+  return scope === "branch" && origin === levelOf(path) ? allLike(path) : say(`structure.status.${status}`);
 }
 
 /** Filled where the value is said, a ring where it is inherited, half where it is relative. */
@@ -116,12 +153,13 @@ function StatusMark({ resolved }: { resolved: Resolved }) {
 }
 
 /** How each branch on the way has a value, so that one sees where it comes from. */
-function PathStrip({ model, path, of, editing }: ValueRowProps) {
-  const { origin } = model.resolve(path, of);
+function PathStrip(props: Omit<ValueRowProps, "colours"> & { readonly resolved: Resolved }) {
+  const { model, path, of, editing } = props;
+  const { origin } = props.resolved;
   return (
     <ol class="structure-strip" aria-label={say("structure.strip")}>
       {wayTo(path).map((step) => {
-        const resolved = model.resolve(step, of);
+        const resolved = step === path ? props.resolved : model.resolve(step, of);
         const status = say(`structure.status.${resolved.status}`);
         return (
           <li key={step} data-origin={origin === step}>
@@ -138,12 +176,16 @@ function PathStrip({ model, path, of, editing }: ValueRowProps) {
         );
       })}
       <li class="quiet">
-        {origin === null
-          ? say("structure.origin.default")
-          : say("structure.origin", { branch: origin.startsWith("level") ? origin : titleOf(model, origin) })}
+        {origin === null ? say("structure.origin.default") : say("structure.origin", { branch: sayer(model, origin) })}
       </li>
     </ol>
   );
+}
+
+/** Who says a value: a branch, or what is said for all of an order. */
+function sayer(model: DesignModel, origin: string): string {
+  const [, order] = /^level (\d+)$/.exec(origin) ?? [];
+  return order === undefined ? titleOf(model, origin) : say("structure.level", { order });
 }
 
 interface StatusMenuProps {
@@ -165,9 +207,9 @@ function StatusMenu({ editing, path, of, resolved }: StatusMenuProps) {
     );
   }
   const canBeRelative = of.kind === "scalar" || of.kind === "function";
-  const ways: readonly Status[] = canBeRelative
-    ? ["inherited", "own", "offset", "factor", "shared"]
-    : ["inherited", "own", "shared"];
+  const isOfOne = editing.scope.value === "branch";
+  const relative: readonly Status[] = canBeRelative ? ["offset", "factor"] : [];
+  const ways: readonly Status[] = ["inherited", "own", ...relative, ...(isOfOne ? (["shared"] as const) : [])];
   return (
     <div class="structure-menu">
       <fieldset class="structure-ways">
@@ -186,130 +228,21 @@ function StatusMenu({ editing, path, of, resolved }: StatusMenuProps) {
         />
         {say("structure.hide")}
       </label>
-      {bearerOf(path) !== null && resolved.status !== "inherited" && (
+      {resolved.status !== "own" && resolved.status !== "shared" && (
+        <label class="structure-private">
+          <input
+            type="checkbox"
+            checked={resolved.setting?.below === true}
+            onChange={(event) => editing.inheritBelow(of, event.currentTarget.checked)}
+          />
+          {say("structure.below")}
+        </label>
+      )}
+      {isOfOne && bearerOf(path) !== null && resolved.status !== "inherited" && (
         <button type="button" onClick={() => editing.promote(of)}>
           {say("structure.promote")}
         </button>
       )}
     </div>
   );
-}
-
-/** What a slider moves of a value: the whole, or what is said relative to the inherited one. */
-function ownOf(model: DesignModel, path: string, of: DesignKey, resolved: Resolved): unknown {
-  const setting = model.said(path, of.name)?.setting;
-  if (resolved.status === "offset") {
-    return setting?.add;
-  }
-  return resolved.status === "factor" ? setting?.multiply : resolved.value;
-}
-
-function rangeOf(of: DesignKey, status: Status): Omit<Scale, "step"> {
-  if (status === "offset") {
-    return { least: of.least - of.most, most: of.most - of.least };
-  }
-  return status === "factor" ? { least: 0, most: 10 } : { least: of.least, most: of.most, travel: TRAVEL[of.name] };
-}
-
-function Editor({ editing, model, path, of, resolved }: ValueRowProps & { readonly resolved: Resolved }) {
-  const label = say(`structure.key.${of.name}`);
-  const help = say(`structure.key.${of.name}.help`);
-  const own = ownOf(model, path, of, resolved);
-  const range = rangeOf(of, resolved.status);
-  const back = () => editing.say(of, "inherited");
-  const slider = (props: Part): ComponentChildren => (
-    <Slider
-      key={props.label}
-      label={props.label}
-      help={help}
-      unit={unitOf(of)}
-      {...range}
-      step={of.kind === "whole" ? 1 : stepOf(range.most - range.least)}
-      value={props.value}
-      standard={props.standard}
-      onDrag={(value) => editing.drag(of, props.whole(value))}
-      onReset={back}
-      onCommit={(value) => editing.commit(of, props.whole(value))}
-    />
-  );
-  if (typeof own === "number") {
-    const standard = typeof resolved.inherited === "number" ? resolved.inherited : own;
-    if (of.kind === "whole" && of.most === 1) {
-      return (
-        <Switch
-          label={label}
-          help={help}
-          value={own === 1}
-          standard={standard === 1}
-          onCommit={(value) => (value === (standard === 1) ? back() : editing.commit(of, value ? 1 : 0))}
-        />
-      );
-    }
-    return slider({ label, value: own, standard, whole: (value) => value });
-  }
-  if (of.kind === "function" && isPoints(own)) {
-    return (
-      <FunctionEditor
-        label={label}
-        help={help}
-        points={own}
-        inherited={resolved.status === "own" || !isPoints(resolved.inherited) ? null : resolved.inherited}
-        result={isPoints(resolved.value) ? resolved.value : own}
-        least={range.least}
-        most={range.most}
-        onDrag={(points) => editing.drag(of, points)}
-        onCommit={(points) => editing.commit(of, points)}
-      />
-    );
-  }
-  if (of.kind === "envelope") {
-    return (
-      <OutlineEditor
-        label={label}
-        help={help}
-        value={own as EnvelopeValue | null}
-        onDrag={(value) => editing.drag(of, value)}
-        onCommit={(value) => editing.commit(of, value)}
-      />
-    );
-  }
-  if (Array.isArray(own)) {
-    const parts = own as readonly number[];
-    const names: readonly Key[] =
-      of.kind === "span" ? ["structure.first", "structure.last"] : ["structure.x", "structure.y", "structure.z"];
-    return (
-      <>
-        {parts.map((value, index) =>
-          slider({
-            label: `${label}, ${say(names[index] ?? "structure.x")}`,
-            value,
-            standard: value,
-            whole: (changed) => parts.map((part, at) => (at === index ? changed : part)),
-          }),
-        )}
-      </>
-    );
-  }
-  return null;
-}
-
-interface Part {
-  readonly label: string;
-  readonly value: number;
-  readonly standard: number;
-  readonly whole: (value: number) => unknown;
-}
-
-function unitOf(of: DesignKey): string {
-  if (of.unit === "degrees") {
-    return say("structure.unit.degrees");
-  }
-  return of.unit === "internodes" ? say("structure.unit.internodes") : "";
-}
-
-function stepOf(span: number): number {
-  if (span > 100) {
-    return 1;
-  }
-  return span > 10 ? 0.1 : 0.01;
 }

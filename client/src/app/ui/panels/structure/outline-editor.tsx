@@ -39,13 +39,16 @@ interface OutlineEditorProps {
   readonly value: EnvelopeValue | null;
   readonly onDrag: (value: EnvelopeValue) => void;
   readonly onCommit: (value: EnvelopeValue) => void;
+  /** What was dragged is to be as it was. */
+  readonly onCancel: () => void;
 }
 
 /** The outline from the front or from the side, with a handle at each end. */
-export function OutlineEditor({ label, help, value, onDrag, onCommit }: OutlineEditorProps) {
+export function OutlineEditor({ label, help, value, onDrag, onCommit, onCancel }: OutlineEditorProps) {
   const [side, setSide] = useState<0 | 1>(0);
   const [held, setHeld] = useState<EnvelopeValue | null>(null);
   const grip = useRef<Grip | null>(null);
+  const hasMoved = useRef(false);
   const shown = held ?? value ?? STANDARD;
   const axis = side === 0 ? 0 : 2;
   const x = (across: number) => SIZE / 2 + across * UNIT;
@@ -63,6 +66,13 @@ export function OutlineEditor({ label, help, value, onDrag, onCommit }: OutlineE
       ((event.clientY - box.top) / box.height) * SIZE,
     ];
     return [(across - SIZE / 2) / UNIT, (SIZE - 60 - down) / UNIT];
+  };
+  const cancel = () => {
+    grip.current = null;
+    setHeld(null);
+    if (hasMoved.current) {
+      onCancel();
+    }
   };
   const change = (of: Grip, [across, up]: readonly [number, number]) => moved(shown, of, side, across, up);
   const slider = (name: "upper" | "lower") => (
@@ -96,6 +106,12 @@ export function OutlineEditor({ label, help, value, onDrag, onCommit }: OutlineE
         role="application"
         aria-label={say("structure.outline")}
         onPointerDown={(event) => {
+          if (grip.current) {
+            // A second finger.
+            cancel();
+            return;
+          }
+          hasMoved.current = false;
           const [across, up] = place(event);
           const far = (of: Grip) => Math.hypot(x(at[of][0]) - x(across), y(at[of][1]) - y(up));
           const nearest = GRIPS.reduce((one, other) => (far(other) < far(one) ? other : one));
@@ -108,6 +124,7 @@ export function OutlineEditor({ label, help, value, onDrag, onCommit }: OutlineE
         onPointerMove={(event) => {
           if (grip.current) {
             const next = change(grip.current, place(event));
+            hasMoved.current ||= next !== shown;
             setHeld(next);
             onDrag(next);
           }
@@ -116,13 +133,12 @@ export function OutlineEditor({ label, help, value, onDrag, onCommit }: OutlineE
           if (grip.current && held) {
             grip.current = null;
             setHeld(null);
-            onCommit(held);
+            if (hasMoved.current) {
+              onCommit(held);
+            }
           }
         }}
-        onPointerCancel={() => {
-          grip.current = null;
-          setHeld(null);
-        }}
+        onPointerCancel={cancel}
       >
         <path d={outline(shown, side, x, y)} class="structure-hull" />
         <line x1={x(0)} y1={y(0)} x2={x(shown.tip[axis])} y2={y(shown.tip[1])} class="structure-axis" />
