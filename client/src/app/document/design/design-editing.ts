@@ -24,7 +24,7 @@ const SEND_EVERY = 33;
 /** So many edits go into one command (`LM21`). */
 const MOST_EDITS = 64;
 /** How high a tree that falls below its own base stands. */
-const STAND = 50;
+const STAND = 58;
 
 export interface DesignEditingOptions {
   readonly design: DesignSignal;
