@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use espalier_mesh::{Bodies, Body, Grain, Style, TriangleMesh, Wood, seeds};
 use espalier_motion::Rig;
-use espalier_plant::{AxisId, MetamerId, Plant};
+use espalier_plant::{MetamerId, Plant};
 use espalier_settings::Appearance;
 use glam::{Vec2, Vec3, Vec4};
 use serde_json::{Value, json};
@@ -144,6 +144,7 @@ pub(crate) struct Assembly<'a> {
     model: &'a Model,
     bark: Bark,
     thin: [Option<Thin>; 3],
+    wood: Bodies,
     levels: Vec<Level<'a>>,
     swaying: Option<&'a Swaying>,
 }
@@ -171,13 +172,14 @@ impl<'a> Assembly<'a> {
         name: Option<&'a str>,
         model: &'a Model,
     ) -> Self {
+        let wood = Bodies::of(plant, style, &looks.bark, Grain::default());
         let levels = model.detail.levels().into_iter().map(|number| {
             // A billboard shows a plant of the middle level.
             let drawn = usize::from(if number == Detail::BILLBOARD { 1 } else { number });
             Level {
                 number,
-                bodies: Bodies::of(plant, style, &looks.bark, Grain::LEVELS[drawn]),
-                foliage: Foliage::of(plant, style, looks, drawn),
+                bodies: wood.in_grain(Grain::LEVELS[drawn]),
+                foliage: Foliage::of(plant, style, looks, drawn).upon(&wood),
             }
         });
         Self {
@@ -192,6 +194,7 @@ impl<'a> Assembly<'a> {
                 thin::fruits(&looks.fruits),
             ],
             levels: levels.collect(),
+            wood,
             swaying: None,
         }
     }
@@ -211,14 +214,11 @@ impl<'a> Assembly<'a> {
         if living(self.plant).next().is_none() {
             return 0;
         }
-        let axes = (0..self.plant.axis_count()).map(AxisId::new);
-        let is_limb = |&axis: &AxisId| {
-            let order = self.plant.axes().order(axis);
-            order == 0 || (self.model.by_limb && order == 1 && self.plant.has_living_wood(axis))
-        };
+        let most = u32::from(self.model.by_limb);
+        let stems = self.wood.limbs().all().iter().filter(|limb| limb.level <= most).count();
         let leaves = if self.model.instanced { LeafForm::PROTOTYPES } else { 1 };
         let parts = PARTS.len() + leaves + 2 * usize::from(self.model.hull);
-        axes.filter(is_limb).count() * self.levels.len() * parts
+        stems * self.levels.len() * parts
     }
 
     /// Gives all nodes and parts to what makes a file of them.
@@ -262,11 +262,12 @@ impl<'a> Assembly<'a> {
             if level.number == Detail::BILLBOARD {
                 self.billboard(builder, level, &limbs, place, number)?;
             } else if self.model.by_limb {
-                for (number, (axis, limb)) in limbs.iter().enumerate() {
-                    let is_trunk = self.plant.axes().order(*axis) == 0;
-                    let name = if is_trunk { "Trunk".to_owned() } else { format!("Limb {number}") };
-                    let foot = limb.bodies.iter().find(|body| body.axis() == *axis).map(Body::foot);
-                    builder.begin(&name, foot.unwrap_or(place), Some(json!({ "axis": axis.raw() })))?;
+                for (number, (stem, limb)) in limbs.iter().enumerate() {
+                    let begins = &self.wood.limbs().all()[*stem as usize];
+                    let name = if begins.level == 0 { "Trunk".to_owned() } else { format!("Limb {number}") };
+                    let foot = self.wood.places()[begins.node as usize];
+                    let axis = self.plant.metamers().axis(MetamerId::new(begins.first as usize));
+                    builder.begin(&name, foot, Some(json!({ "axis": axis.raw() })))?;
                     self.parts(builder, level, limb)?;
                     builder.end()?;
                 }
@@ -299,29 +300,29 @@ impl<'a> Assembly<'a> {
         by_seed
     }
 
-    /// A plant's limbs by the axis that each begins with, or all of it in one.
-    fn limbs<'b>(
-        &self,
-        level: &'b Level<'_>,
-        seed: MetamerId,
-        ids: &[MetamerId],
-    ) -> BTreeMap<AxisId, Limb<'b>> {
-        let (axes, metamers) = (self.plant.axes(), self.plant.metamers());
-        let limb_of = |mut axis: AxisId| {
-            let most = u32::from(self.model.by_limb);
-            while axes.order(axis) > most
-                && let Some(bearer) = axes.bearer(axis)
+    /// A plant's limbs by the number of the one that each begins with, or all of it in one.
+    fn limbs<'b>(&self, level: &'b Level<'_>, seed: MetamerId, ids: &[MetamerId]) -> BTreeMap<u32, Limb<'b>> {
+        let all = self.wood.limbs();
+        let most = u32::from(self.model.by_limb);
+        let stem_of = |id: &MetamerId| {
+            let mut limb = all.limb(id.raw())?;
+            while all.all()[limb as usize].level > most
+                && let Some(bearer) = all.all()[limb as usize].bearer
             {
-                axis = metamers.axis(bearer);
+                limb = bearer;
             }
-            axis
+            Some(limb)
         };
-        let mut limbs: BTreeMap<AxisId, Limb<'b>> = BTreeMap::new();
+        let mut limbs: BTreeMap<u32, Limb<'b>> = BTreeMap::new();
         for body in level.bodies.iter().filter(|body| body.seed() == seed) {
-            limbs.entry(limb_of(body.axis())).or_default().bodies.push(body);
+            if let Some(stem) = body.metamers().first().and_then(stem_of) {
+                limbs.entry(stem).or_default().bodies.push(body);
+            }
         }
         for &id in ids {
-            limbs.entry(limb_of(metamers.axis(id))).or_default().metamers.push(id);
+            if let Some(stem) = stem_of(&id) {
+                limbs.entry(stem).or_default().metamers.push(id);
+            }
         }
         limbs
     }
@@ -400,7 +401,7 @@ impl<'a> Assembly<'a> {
 
     /// What the vertices of a body go along with; nothing where nothing sways.
     fn riders(&self, body: &Body<'_>, mesh: &TriangleMesh) -> Vec<Rider> {
-        self.swaying.map_or_else(Vec::new, |swaying| swaying.along(self.plant, body.axis(), &mesh.positions))
+        self.swaying.map_or_else(Vec::new, |swaying| swaying.along(body, &mesh.positions))
     }
 
     /// A part of cards, with their places in a light map where one is asked for.
@@ -443,7 +444,7 @@ impl<'a> Assembly<'a> {
         &self,
         builder: &mut dyn Builder<'a>,
         level: &Level<'_>,
-        limbs: &BTreeMap<AxisId, Limb<'_>>,
+        limbs: &BTreeMap<u32, Limb<'_>>,
         place: Vec3,
         number: usize,
     ) -> Result<(), ExportError> {

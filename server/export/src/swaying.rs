@@ -1,17 +1,13 @@
 //! What files say of how plants sway: bones, clips, and which vertices go along with which row.
 
-use std::collections::BTreeMap;
-
-use espalier_mesh::{RingTable, Style};
+use espalier_mesh::{Body, RingTable, Style};
 use espalier_motion::{
     Joints, Limbs, Rig, Rows, Scale, Weather, Wood,
     clips::{Clip, clips, reaches},
 };
-use espalier_plant::{AxisId, MetamerId, Plant};
+use espalier_plant::{MetamerId, Plant};
 use espalier_settings::looks::WindLook;
 use glam::{DVec3, Vec3};
-
-use crate::foliage::living;
 
 /// The wind that moves files of trees that stand in a calm, m/s.
 const BREEZE: f32 = 4.0;
@@ -36,7 +32,6 @@ pub(crate) struct Swaying {
     /// How much leaves flutter, 0 to 1: in a breeze of 6 m/s and more all of it.
     pub stir: f32,
     reach: Vec<f64>,
-    rows_of: BTreeMap<AxisId, Vec<MetamerId>>,
 }
 
 impl Swaying {
@@ -46,11 +41,7 @@ impl Swaying {
         let clips = clips(&joints, &wood, &weather(look));
         let reach = reaches(&clips, joints.all().len());
         let stir = (weather(look).velocity.length() / 6.0).min(1.0) as f32 * look.flutter;
-        let mut rows_of: BTreeMap<AxisId, Vec<MetamerId>> = BTreeMap::new();
-        for id in living(plant) {
-            rows_of.entry(plant.metamers().axis(id)).or_default().push(id);
-        }
-        Self { limbs, wood, joints, clips, stir, reach, rows_of }
+        Self { limbs, wood, joints, clips, stir, reach }
     }
 
     /// At most so many bones for the plant of a seed.
@@ -59,18 +50,12 @@ impl Swaying {
         Rig::of(joints, limbs, wood, seed.raw(), reach, most as usize)
     }
 
-    /// For each vertex of the wood of an axis what it goes along with.
-    pub(crate) fn along(&self, plant: &Plant, axis: AxisId, vertices: &[Vec3]) -> Vec<Rider> {
-        let metamers = plant.metamers();
-        let rows = self.rows_of.get(&axis).map_or(&[][..], Vec::as_slice);
-        let pieces: Vec<(u32, Vec3, Vec3)> = rows
-            .iter()
-            .map(|&id| {
-                let to = metamers.end(id);
-                let from = metamers.parent(id).map_or(to, |parent| metamers.end(parent));
-                (id.raw(), from, to - from)
-            })
-            .collect();
+    /// For each vertex of a body what it goes along with.
+    pub(crate) fn along(&self, body: &Body<'_>, vertices: &[Vec3]) -> Vec<Rider> {
+        let nodes: Vec<Vec3> = body.nodes().collect();
+        let ways = nodes.windows(2).map(|pair| (pair[0], pair[1] - pair[0]));
+        let pieces: Vec<(u32, Vec3, Vec3)> =
+            body.metamers().iter().zip(ways).map(|(id, (from, way))| (id.raw(), from, way)).collect();
         let nearest = |vertex: &Vec3| {
             let mut best = (f32::INFINITY, Rider { row: 0, share: 0.0, flutter: 0.0 });
             for &(row, from, way) in &pieces {

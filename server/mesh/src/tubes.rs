@@ -1,16 +1,19 @@
-//! Wood as triangles: a tube swept along each axis. A lateral begins inside its bearer, with a collar; a stub ends
+//! Wood as triangles: a tube swept along each limb. A lateral begins inside its bearer, with a collar; a stub ends
 //! with the face of its cut.
 
-use std::f32::consts::TAU;
+use std::{f32::consts::TAU, sync::Arc};
 
 use espalier_plant::{AxisId, MetamerId, Plant};
 use espalier_settings::{BARK_SQUARES, BarkLook, THINNEST_BARK};
 use glam::{Vec2, Vec3, Vec4};
 
 use crate::{
-    course::{Course, End, courses},
-    curve::{Sample, samples},
+    drawn::{
+        course::{Course, Courses, End, Flare, ribs},
+        curve::{Sample, samples},
+    },
     grain::Grain,
+    limbs::Limbs,
     rotation_minimising,
     sheet::{Closing, Sheet},
     style::Style,
@@ -20,8 +23,10 @@ use crate::{
 const FEWEST_SIDES: u32 = 3;
 /// Normals lean no further along the axis than this slope has them: beside a bend they would belong to its other side.
 const STEEPEST: f32 = 0.8;
+/// A tube of fewer sides shows no ribs at its foot: they would fall between its corners.
+const LEAST_RIBBED: u32 = 14;
 
-/// The wood of one plant: a closed body for each axis, so that no edge is open; bodies lie one in another where a branch
+/// The wood of one plant: a closed body for each limb, so that no edge is open; bodies lie one in another where a branch
 /// begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wood {
@@ -55,27 +60,47 @@ pub fn wood(plant: &Plant, style: &Style, look: &BarkLook) -> Vec<Wood> {
 /// The living wood of a scene, whose bodies are made one by one: so little is held of what takes much room.
 #[derive(Clone, Debug)]
 pub struct Bodies {
-    courses: Vec<Course>,
+    courses: Arc<Courses>,
     smoothing: f32,
     grain: Grain,
+    /// Limbs that begin thinner are left out.
+    thinnest: f32,
 }
 
 impl Bodies {
-    /// All axes that are drawn in such a grain, in their order.
+    /// All limbs that are drawn in such a grain, those that bear before those that are borne.
     pub fn of(plant: &Plant, style: &Style, look: &BarkLook, grain: Grain) -> Self {
-        let thinnest = 0.5 * style.options().twig_diameter * grain.thinnest;
-        let mut courses = courses(plant, style, look);
-        courses.retain(|course| course.radii.iter().copied().fold(0.0, f32::max) >= thinnest);
-        Self { courses, smoothing: look.smoothing, grain }
+        let courses = Arc::new(Courses::of(plant, style, look));
+        let thinnest = 0.5 * style.options().twig_diameter;
+        let all = Self { courses, smoothing: look.smoothing, grain, thinnest };
+        all.in_grain(grain)
     }
 
-    /// The bodies, one for each axis.
+    /// The same wood in another grain.
+    pub fn in_grain(&self, grain: Grain) -> Self {
+        let thinnest = self.thinnest / self.grain.thinnest.max(1.0) * grain.thinnest.max(1.0);
+        Self { courses: Arc::clone(&self.courses), grain, thinnest, ..*self }
+    }
+
+    /// The bodies, one for each limb.
     pub fn iter(&self) -> impl Iterator<Item = Body<'_>> {
-        self.courses.iter().map(|course| Body { course, smoothing: self.smoothing, grain: self.grain })
+        let thickest = |course: &Course| course.nodes.iter().map(|node| node.radius).fold(0.0, f32::max);
+        let courses = self.courses.all.iter().filter(move |course| thickest(course) >= self.thinnest);
+        courses.map(|course| Body { course, smoothing: self.smoothing, grain: self.grain })
+    }
+
+    /// Which rows are one limb.
+    pub fn limbs(&self) -> &Limbs {
+        &self.courses.limbs
+    }
+
+    /// Where the node of each metamer is drawn, by rows.
+    pub fn places(&self) -> &[Vec3] {
+        &self.courses.places
     }
 }
 
-/// The closed body of one axis, which is still to be made.
+/// The closed body of one limb, which is still to be made.
 #[derive(Clone, Copy, Debug)]
 pub struct Body<'a> {
     course: &'a Course,
@@ -89,14 +114,24 @@ impl Body<'_> {
         self.course.seed
     }
 
-    /// The axis whose wood it is.
+    /// The axis that it begins with; it may go on along others.
     pub fn axis(&self) -> AxisId {
         self.course.axis
     }
 
+    /// Its metamers, base first.
+    pub fn metamers(&self) -> &[MetamerId] {
+        &self.course.rows
+    }
+
+    /// Where its nodes are drawn: the one at which it begins, and that of each metamer.
+    pub fn nodes(&self) -> impl Iterator<Item = Vec3> + '_ {
+        self.course.nodes.iter().map(|node| node.place)
+    }
+
     /// Where it begins: a node of its bearer, or the seed.
     pub fn foot(&self) -> Vec3 {
-        self.course.nodes[0]
+        self.course.nodes[0].place
     }
 
     /// Makes it, adds it to others and says how it hangs together; none where it has no length.
@@ -119,19 +154,31 @@ fn squares(radius: f32) -> f32 {
 
 /// How fast the radius grows along the axis at each place, as normals have it.
 fn slopes(samples: &[Sample], end: End) -> Vec<f32> {
-    let slope = |a: &Sample, b: &Sample| {
-        let length = b.arc - a.arc;
-        if length > 0.0 { (b.radius - a.radius) / length } else { 0.0 }
-    };
     let last = samples.len() - 1;
     // A grown tip is a cone as high as it is wide.
     let tip = if end == End::Grown { -1.0 } else { 0.0 };
     let at = |i: usize| {
         let (below, above) = (&samples[i.saturating_sub(1)], &samples[(i + 1).min(last)]);
-        let beside = [slope(below, &samples[i]), if i < last { slope(&samples[i], above) } else { tip }];
+        let beside = [rise(below, &samples[i]), if i < last { rise(&samples[i], above) } else { tip }];
         // Where wood swells and shrinks at once, a normal still belongs to the surface on both sides.
         let limited = |mean: f32, side: f32| if mean * side < -0.5 { -0.5 / side } else { mean };
-        beside.into_iter().fold(slope(below, above), limited).clamp(-STEEPEST, STEEPEST)
+        beside.into_iter().fold(rise(below, above), limited).clamp(-STEEPEST, STEEPEST)
+    };
+    (0..samples.len()).map(at).collect()
+}
+
+/// How fast the radius grows from one place to another.
+fn rise(a: &Sample, b: &Sample) -> f32 {
+    let length = b.arc - a.arc;
+    if length > 0.0 { (b.radius - a.radius) / length } else { 0.0 }
+}
+
+/// How fast ribs of roots rise along the axis at each place.
+fn rib_slopes(samples: &[Sample]) -> Vec<f32> {
+    let at = |i: usize| {
+        let (below, above) = (&samples[i.saturating_sub(1)], &samples[(i + 1).min(samples.len() - 1)]);
+        let length = above.arc - below.arc;
+        if length > 0.0 { (above.ribs - below.ribs) / length } else { 0.0 }
     };
     (0..samples.len()).map(at).collect()
 }
@@ -166,11 +213,12 @@ impl Wood {
     fn sweep(&mut self, course: &Course, smoothing: f32, grain: &Grain) -> Option<Sheet> {
         let samples = samples(course, smoothing, grain.tolerance);
         let [first, .., last] = &samples[..] else { return None };
+        let thickest = course.nodes.iter().map(|node| node.radius).fold(0.0, f32::max);
         let across = rotation_minimising::normals(samples.iter().map(|sample| sample.tangent), course.normal);
-        let thickest = course.radii.iter().copied().fold(0.0, f32::max);
-        let slopes = slopes(&samples, course.end);
-        let tube = Tube::new(sides(thickest, grain), squares(thickest));
-        let foot = self.add_ring(&tube, first, across[0], slopes[0], 0.0);
+        let (slopes, rib_slopes) = (slopes(&samples, course.end), rib_slopes(&samples));
+        let rises = matches!(course.flare, Flare::Roots { .. });
+        let tube = Tube::new(sides(thickest, grain), squares(thickest), rises);
+        let foot = self.add_ring(&tube, first, across[0], [slopes[0], rib_slopes[0]], 0.0);
         let mut rings = vec![foot];
         let face = self.count();
         let back = self.add_face(&tube, foot, first, -first.tangent, 0.0);
@@ -181,8 +229,11 @@ impl Wood {
         let (mut v, mut below) = (0.0, foot);
         for (i, pair) in samples.windows(2).enumerate() {
             let [from, to] = pair else { continue };
-            v += tube.tiles_along(to.arc - from.arc, 0.5 * (to.radius + from.radius));
-            let ring = self.add_ring(&tube, to, across[i + 1], slopes[i + 1], v);
+            // Bark follows the surface, which is longer than the axis where wood spreads.
+            let way = Vec2::new(to.arc - from.arc, to.radius - from.radius).length();
+            v += tube.tiles_along(way, 0.5 * (to.radius + from.radius));
+            let slopes = [slopes[i + 1], rib_slopes[i + 1]];
+            let ring = self.add_ring(&tube, to, across[i + 1], slopes, v);
             self.join(&tube, below, ring);
             rings.push(ring);
             below = ring;
@@ -219,16 +270,27 @@ impl Wood {
         (a + b).truncate().normalize_or(a.truncate()).extend(a.w)
     }
 
-    /// Adds a ring and returns its first vertex.
-    fn add_ring(&mut self, tube: &Tube, sample: &Sample, across: Vec3, slope: f32, v: f32) -> u32 {
+    /// Adds a ring and returns its first vertex; slopes are those of the radius and of ribs.
+    fn add_ring(
+        &mut self,
+        tube: &Tube,
+        sample: &Sample,
+        across: Vec3,
+        [slope, rib_slope]: [f32; 2],
+        v: f32,
+    ) -> u32 {
         let binormal = sample.tangent.cross(across);
         let first = self.count();
-        for &(cos, sin, u) in &tube.around {
+        for &Corner { cos, sin, u, rib, bulge } in &tube.around {
             let outward = across * cos + binormal * sin;
-            let normal = (outward - sample.tangent * slope).normalize();
-            let place = sample.point + outward * sample.radius;
-            let around = (binormal * cos - across * sin).extend(1.0);
-            self.vertex(place, normal, Vec2::new(u, v), sample.radius, around);
+            let around = binormal * cos - across * sin;
+            let radius = sample.radius + sample.ribs * rib;
+            let bulge = sample.ribs * bulge / radius;
+            let slope = (slope + rib_slope * rib).clamp(-STEEPEST, STEEPEST);
+            let normal = (outward - around * bulge - sample.tangent * slope).normalize();
+            let place = sample.point + outward * radius;
+            let along_u = (around + outward * bulge).normalize().extend(1.0);
+            self.vertex(place, normal, Vec2::new(u, v), sample.radius, along_u);
         }
         first
     }
@@ -276,17 +338,35 @@ impl Wood {
 /// What all rings of one tube have in common.
 struct Tube {
     tiles: f32,
-    /// Cosine, sine and texture coordinate of each vertex of a ring; the seam's stand at both ends.
-    around: Vec<(f32, f32, f32)>,
+    /// The vertices of a ring; the seam's stand at both ends.
+    around: Vec<Corner>,
+}
+
+/// One vertex of every ring.
+struct Corner {
+    cos: f32,
+    sin: f32,
+    /// Its texture coordinate.
+    u: f32,
+    /// How high the ribs of roots are there, and how fast they rise by the angle.
+    rib: f32,
+    bulge: f32,
 }
 
 impl Tube {
-    fn new(sides: u32, tiles: f32) -> Self {
+    fn new(sides: u32, tiles: f32, rises: bool) -> Self {
+        const STEP: f32 = 0.01;
         let around = (0..=sides).map(|side| {
-            let turn = side as f32 / sides as f32;
             // The seam's two vertices must be at the same place to the last bit.
-            let angle = if side == sides { 0.0 } else { TAU * turn };
-            (libm::cosf(angle), libm::sinf(angle), tiles * turn)
+            let turn = if side == sides { 0.0 } else { side as f32 / sides as f32 };
+            let u = tiles * side as f32 / sides as f32;
+            let (sin, cos) = libm::sincosf(TAU * turn);
+            let [rib, bulge] = if rises && sides >= LEAST_RIBBED {
+                [ribs(turn), (ribs(turn + STEP) - ribs(turn - STEP)) / (2.0 * TAU * STEP)]
+            } else {
+                [0.0; 2]
+            };
+            Corner { cos, sin, u, rib, bulge }
         });
         Self { tiles, around: around.collect() }
     }
@@ -307,181 +387,4 @@ impl Tube {
 }
 
 #[cfg(test)]
-mod tests {
-    use espalier_plant::Internode;
-
-    use super::*;
-    use crate::{checks, style::StyleOptions};
-
-    /// A straight trunk of some internodes with one lateral to +X at its first node.
-    fn trunk(internodes: u32, lateral: bool) -> Plant {
-        let mut plant = Plant::new(Vec3::ZERO);
-        plant.begin_step();
-        for height in 1..=internodes {
-            let end = Vec3::Y * height as f32;
-            plant.extend(AxisId::new(0), &Internode { end, normal: Vec3::X, laterals: &[Vec3::X] });
-        }
-        if lateral {
-            let internode = Internode { end: Vec3::new(1.0, 1.0, 0.0), normal: Vec3::Y, laterals: &[] };
-            plant.extend(AxisId::new(1), &internode);
-        }
-        plant.end_step();
-        plant
-    }
-
-    fn courses_of(plant: &Plant) -> Vec<Course> {
-        courses(plant, &style(0.1), &BarkLook::default())
-    }
-
-    /// The wood of the only plant, which is closed.
-    fn wood_of(plant: &Plant, style: &Style) -> Wood {
-        let mut plants = wood(plant, style, &BarkLook::default());
-        let wood = plants.pop().expect("it has grown");
-        assert!(plants.is_empty());
-        assert_eq!(checks::wood(&wood), Ok(()));
-        wood
-    }
-
-    fn bark_of(plant: &Plant, style: &Style) -> TriangleMesh {
-        wood_of(plant, style).surface
-    }
-
-    fn style(twig_diameter: f32) -> Style {
-        Style::new(StyleOptions { twig_diameter, ..StyleOptions::default() })
-    }
-
-    /// The largest distance from the trunk's middle at a height.
-    fn girth_at(mesh: &TriangleMesh, height: f32) -> f32 {
-        let ring = mesh.positions.iter().filter(|p| (p.y - height).abs() < 1e-5);
-        ring.map(|p| Vec3::new(p.x, 0.0, p.z).length()).fold(0.0, f32::max)
-    }
-
-    #[test]
-    fn seed_alone_has_no_wood() {
-        assert!(wood(&Plant::new(Vec3::ZERO), &Style::default(), &BarkLook::default()).is_empty());
-    }
-
-    #[test]
-    fn sides_keep_the_chord_error() {
-        // cos(36°) = 0.809, so a pentagon keeps 0.01 up to a radius of 0.0523.
-        assert_eq!(
-            [0.004, 0.05, 0.053, 1.0, 100.0].map(|radius| sides(radius, &Grain::default())),
-            [3, 5, 6, 23, 24]
-        );
-    }
-
-    #[test]
-    fn trunk_is_round_faces_out_and_tapers() {
-        let mesh = bark_of(&trunk(4, false), &style(0.1));
-        // The roots spread by 0.65; the tip is slim.
-        assert!((girth_at(&mesh, 0.0) - 0.05 * 1.65).abs() < 1e-5);
-        assert!((girth_at(&mesh, 3.0) - 0.05).abs() < 1e-5);
-        assert!((girth_at(&mesh, 4.0) - 0.05 * 0.45).abs() < 1e-5);
-    }
-
-    #[test]
-    fn lateral_begins_in_its_bearer_with_a_collar() {
-        let plant = trunk(3, true);
-        let courses = courses_of(&plant);
-        assert_eq!(courses.len(), 2);
-        let lateral = &courses[1];
-        assert_eq!((lateral.nodes[0], lateral.before), (Vec3::Y, Vec3::ZERO));
-        let bearing = 0.05 * libm::powf(2.0, 0.4);
-        let first = samples(lateral, 1.0, 0.0)[0].radius;
-        assert!((first - 0.95 * bearing).abs() < 1e-5, "the collar is {first} wide on a trunk of {bearing}");
-    }
-
-    #[test]
-    fn shed_wood_is_not_drawn() {
-        let mut plant = trunk(3, true);
-        let whole = bark_of(&plant, &style(0.1));
-        plant.begin_step();
-        plant.shed(&[AxisId::new(1)]);
-        plant.end_step();
-        let rest = bark_of(&plant, &style(0.1));
-        assert!(rest.positions.len() < whole.positions.len());
-        assert!(rest.bounds().is_some_and(|[_, high]| high.x < 0.2));
-    }
-
-    #[test]
-    fn texels_are_square_and_close_at_the_seam() {
-        let mesh = bark_of(&trunk(3, false), &style(1.0));
-        // From node 1 to node 2 the radius is 0.5 and the flare nearly gone.
-        let v_at = |height: f32| {
-            let at =
-                mesh.positions.iter().position(|p| (p.y - height).abs() < 1e-5).expect("a node has a ring");
-            mesh.uvs[at].y
-        };
-        let circumference = TAU * 0.5;
-        let tiles = squares(0.5);
-        assert_eq!(tiles, 1.0);
-        assert!((v_at(2.0) - v_at(1.0) - tiles / circumference).abs() < 0.08);
-        let (first, last) = (0, sides(0.5, &Grain::default()) as usize);
-        assert_eq!(mesh.positions[first], mesh.positions[last]);
-        assert_eq!((mesh.uvs[first].x, mesh.uvs[last].x), (0.0, tiles));
-    }
-
-    /// Sets the diameters of rows, then cuts a row off.
-    fn edit(plant: &mut Plant, widths: &[(usize, f32)], cut: Option<usize>) {
-        plant.begin_edit();
-        for &(row, diameter) in widths {
-            plant.set_width(MetamerId::new(row), Some(diameter));
-        }
-        if let Some(cut) = cut {
-            plant.prune(&[MetamerId::new(cut)]);
-        }
-        plant.end_step();
-    }
-
-    #[test]
-    fn stub_keeps_its_width_and_ends_flat() {
-        let mut plant = trunk(5, false);
-        edit(&mut plant, &[(3, 0.4)], Some(4));
-        let wood = wood_of(&plant, &style(0.1));
-        let mesh = &wood.surface;
-        assert!(mesh.bounds().is_some_and(|[_, high]| (high.y - 3.0).abs() < 1e-6));
-        assert!((girth_at(mesh, 3.0) - 0.2).abs() < 1e-5 && (girth_at(mesh, 2.0) - 0.2).abs() < 1e-4);
-        // The face is a whole polygon of upright triangles.
-        let mut face = 0.0;
-        for corners in wood.cuts.as_chunks::<3>().0 {
-            let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize]);
-            let area = 0.5 * (b - a).cross(c - a);
-            assert!(area.y > 0.0 && area.x.abs() < 1e-6 && area.z.abs() < 1e-6);
-            assert!(corners.iter().all(|&corner| mesh.normals[corner as usize].y > 0.999));
-            face += area.y;
-        }
-        let sides = sides(0.2, &Grain::default()) as f32;
-        let polygon = 0.5 * sides * 0.04 * libm::sinf(TAU / sides);
-        assert!((face - polygon).abs() < 1e-5, "the face has {face}, not {polygon}");
-    }
-
-    #[test]
-    fn cut_without_a_width_is_a_twig() {
-        let mut plant = trunk(5, true);
-        edit(&mut plant, &[], Some(3));
-        let mesh = bark_of(&plant, &style(0.1));
-        // As if nothing had been above, but neither slim nor pointed.
-        assert!((girth_at(&mesh, 2.0) - 0.05).abs() < 1e-5);
-        assert!(mesh.bounds().is_some_and(|[_, high]| high.y < 2.0 + 1e-5 && high.x > 1.0));
-    }
-
-    #[test]
-    fn lateral_closes_the_cut_above_it() {
-        let mut plant = trunk(5, true);
-        edit(&mut plant, &[(1, 0.4)], Some(2));
-        let courses = courses_of(&plant);
-        assert_eq!(courses.iter().map(|course| course.end).collect::<Vec<_>>(), [End::Grown; 2]);
-        assert_eq!(courses[0].nodes, [Vec3::ZERO, Vec3::Y]);
-        bark_of(&plant, &style(0.1));
-    }
-
-    #[test]
-    fn constrained_tip_is_not_slim() {
-        let mut plant = trunk(3, false);
-        edit(&mut plant, &[(1, 0.8), (3, 0.2)], None);
-        let mesh = bark_of(&plant, &style(0.1));
-        // Halved and halved again; at the second node the flare of the roots is gone but for a thousandth.
-        assert!((girth_at(&mesh, 2.0) - 0.2).abs() < 2e-3);
-        assert!((girth_at(&mesh, 3.0) - 0.1).abs() < 1e-3);
-    }
-}
+mod tests;

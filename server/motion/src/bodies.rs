@@ -11,7 +11,7 @@ mod spring;
 use glam::{DMat3, DQuat, DVec3};
 
 use self::{articulated::Articulated, spring::Spring};
-use crate::{rows::NONE, wood::Wood};
+use crate::{NONE, wood::Wood};
 
 /// How far ahead springs are taken, as a share of the step. From 0.5 on springs are stable by themselves, but spinning
 /// bodies are not: at 0.5 energy grows without bound. Above, a mode of ω is damped by (θ − ½) ω Δt.

@@ -1,6 +1,6 @@
 //! How much of the wind reaches what each joint bears.
 
-use crate::{joints::Joints, rows::NONE, wind::profile, wood::Wood};
+use crate::{NONE, joints::Joints, wind::profile, wood::Wood};
 
 /// For each joint its wind as a share of the open wind's speed at 10 m.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,14 +3,14 @@
 use glam::{DMat3, DVec3};
 
 use crate::{
+    Limbs,
     frequency::{Mode, Modes, Station},
-    limbs::Limbs,
     rides::{Ride, rides},
-    rows::{NONE, Rows},
     shapes::Shape,
     siblings::damping_by_company,
     statics::Borne,
     wood::{Scale, Wood},
+    {NONE, Rows},
 };
 
 /// The most joints of a table, slowest first.

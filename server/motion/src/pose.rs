@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::{joints::Joints, rides::Ride, rows::NONE, wood::Wood};
+use crate::{NONE, joints::Joints, rides::Ride, wood::Wood};
 
 /// The furthest that a joint is turned back to keep what it bears above the ground, radians.
 const LIFT: f64 = 0.5;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::{limbs::Limbs, rows::NONE, shapes::Shape, wood::Wood};
+use crate::{Limbs, NONE, shapes::Shape, wood::Wood};
 
 /// How one row rides: by the rotation Θ of its joint, θ = |Θ|, its node turns by `weight` Θ and moves by
 /// sin θ / θ · Θ × `first` + (1 − cos θ) / θ² · Θ × (Θ × `second`).

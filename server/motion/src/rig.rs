@@ -5,10 +5,9 @@ use std::collections::BTreeMap;
 use glam::{DQuat, DVec3};
 
 use crate::{
+    Limbs, NONE,
     joints::Joints,
-    limbs::Limbs,
     pose::{Node, Pose},
-    rows::NONE,
     wood::Wood,
 };
 

@@ -1,6 +1,6 @@
 //! Damping of wood, and of limbs that swing in company.
 
-use crate::{joints::Joint, limbs::Limbs};
+use crate::{Limbs, joints::Joint};
 
 /// Damping of a limb that swings alone, as a share of the critical one, without that of the air: leafless trees have
 /// 0.039 (Jackson 2019).

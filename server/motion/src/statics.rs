@@ -8,7 +8,7 @@
 use glam::{DMat3, DVec3};
 
 use crate::{
-    rows::NONE,
+    NONE,
     wood::{TWIST, Wood},
 };
 

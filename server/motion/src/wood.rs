@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use crate::{
-    limbs::Limbs,
+    Limbs,
     radii::radii,
-    rows::{NONE, Rows},
+    {NONE, Rows},
 };
 
 /// Mass of green wood with its water, kg/m³. Species lie between 700 and 1,100.

@@ -5,7 +5,7 @@ pub(crate) mod leaf_look;
 pub(crate) mod ornaments;
 
 use espalier_mesh::{
-    Style, foliage,
+    Bodies, Style, foliage,
     leaves::{self, Leaf},
 };
 use espalier_plant::{MetamerId, Plant, Widths};
@@ -26,6 +26,8 @@ pub(crate) struct Foliage<'a> {
     plant: &'a Plant,
     style: &'a Style,
     look: &'a Appearance,
+    /// The wood that bears it as it is drawn; none where it runs from node to node.
+    wood: Option<Bodies>,
     widths: Widths<'a>,
     /// Which metamers their axis goes on beyond.
     goes_on: Vec<bool>,
@@ -42,6 +44,7 @@ impl<'a> Foliage<'a> {
             plant,
             style,
             look,
+            wood: None,
             widths: Widths::of(plant, style.girth()),
             goes_on: goes_on(plant),
             painter: LeafPainter::new(&look.leaves),
@@ -50,11 +53,29 @@ impl<'a> Foliage<'a> {
         }
     }
 
+    /// The same on wood as it is drawn, of the same plant.
+    pub(crate) fn upon(self, wood: &Bodies) -> Self {
+        Self { wood: Some(wood.clone()), ..self }
+    }
+
+    /// Where a metamer begins and where it ends.
+    pub(crate) fn ends(&self, id: MetamerId) -> [Vec3; 2] {
+        let metamers = self.plant.metamers();
+        let place = |id: MetamerId| match &self.wood {
+            Some(wood) => wood.places()[id.index()],
+            None => metamers.end(id),
+        };
+        [place(metamers.parent(id).unwrap_or(id)), place(id)]
+    }
+
     /// The leaves of a metamer as they hang, and their colours.
     pub(crate) fn leaves(&self, id: MetamerId) -> impl Iterator<Item = (Leaf, Vec3)> {
         let shoot = Shoot::of(self.plant, id);
         let larger = (self.one_of as f32).sqrt();
-        let all = (id.raw()..).zip(leaves::of(self.plant, id, self.style));
+        let [from, to] = self.ends(id);
+        let count = foliage::leaves(self.plant, id, self.style);
+        let leaves = leaves::on_metamer(id.raw(), 0, from, to, count, self.style.options().leaf_size);
+        let all = (id.raw()..).zip(leaves);
         all.filter(|(number, _)| number % self.one_of == 0).filter_map(move |(_, leaf)| {
             let (leaf, hue) = self.painter.paint(&leaf, &shoot)?;
             Some((Leaf { size: larger * leaf.size, ..leaf }, hue))
@@ -99,11 +120,9 @@ impl<'a> Foliage<'a> {
     }
 
     fn bearer(&self, id: MetamerId) -> Bearer {
-        let metamers = self.plant.metamers();
-        let to = metamers.end(id);
         Bearer {
             row: id.raw(),
-            ends: [metamers.parent(id).map_or(to, |parent| metamers.end(parent)), to],
+            ends: self.ends(id),
             radius: self.radius(id),
             is_leafy: self.is_leafy(id),
             is_tip: !self.goes_on[id.index()],

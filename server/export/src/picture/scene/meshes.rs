@@ -60,8 +60,9 @@ impl Meshes {
         look: &Appearance,
         motion: Option<&Swaying>,
     ) -> Self {
-        let mut meshes = wooden(plant, style, look, motion);
-        meshes.extend(borne(plant, style, look));
+        let bodies = Bodies::of(plant, style, &look.bark, Grain::default());
+        let mut meshes = wooden(&bodies, look, motion);
+        meshes.extend(borne(plant, style, look, &bodies));
         Self(meshes)
     }
 
@@ -87,17 +88,17 @@ impl Meshes {
 }
 
 /// Wood in its bark, and the faces of cuts.
-fn wooden(plant: &Plant, style: &Style, look: &Appearance, motion: Option<&Swaying>) -> Vec<(Skin, Painted)> {
+fn wooden(bodies: &Bodies, look: &Appearance, motion: Option<&Swaying>) -> Vec<(Skin, Painted)> {
     let bark = Bark::of(&look.bark);
     let mut meshes = Vec::new();
     let mut plants: BTreeMap<MetamerId, (Wood, Vec<Rider>)> = BTreeMap::new();
-    for body in Bodies::of(plant, style, &look.bark, Grain::default()).iter() {
+    for body in bodies.iter() {
         let seed = body.seed();
         let (wood, riders) = plants.entry(seed).or_insert_with(|| (Wood::of(seed), Vec::new()));
         let first = wood.surface.positions.len();
         body.sweep(wood);
         if let Some(motion) = motion {
-            riders.extend(motion.along(plant, body.axis(), &wood.surface.positions[first..]));
+            riders.extend(motion.along(&body, &wood.surface.positions[first..]));
         }
     }
     for (wood, riders) in plants.into_values() {
@@ -128,8 +129,8 @@ fn cuts(wood: &Wood, riders: &[Rider]) -> Painted {
 }
 
 /// Leaves, flowers and fruits.
-fn borne(plant: &Plant, style: &Style, look: &Appearance) -> Vec<(Skin, Painted)> {
-    let foliage = Foliage::of(plant, style, look, 0);
+fn borne(plant: &Plant, style: &Style, look: &Appearance, bodies: &Bodies) -> Vec<(Skin, Painted)> {
+    let foliage = Foliage::of(plant, style, look, 0).upon(bodies);
     let painted = |thin: Thin, add: &dyn Fn(&mut Cards, MetamerId)| {
         let mut cards = Cards::default();
         for id in living(plant) {

@@ -1,20 +1,23 @@
-//! A smooth curve through the nodes of an axis: centripetal Catmull-Rom, which neither overshoots nor loops
-//! where internodes differ in length.
+//! The curve of a limb from node to node, and where on it rings stand.
 
 use glam::Vec3;
 
-use crate::course::Course;
+use super::course::{Course, End, Flare, Node};
 
 /// Rings stand close enough that the curve turns by no more than this many radians between two,
 const MOST_TURN: f32 = 0.3;
 /// unless the way between two nodes has been halved this often.
 const MOST_HALVINGS: u32 = 4;
-/// Where rings stand on a flare, in lengths of its falloff.
-const FLARE_RINGS: [f32; 4] = [0.0, 0.5, 1.0, 2.0];
+/// Where rings stand on a collar, in lengths of its falloff.
+const COLLAR_RINGS: [f32; 4] = [0.0, 0.5, 1.0, 2.0];
+/// Where they stand on spreading roots, in radii of the foot.
+const ROOT_RINGS: [f32; 4] = [0.25, 0.6, 1.1, 2.0];
 /// A flare of less, in internodes, needs no rings of its own: most of a tree is twigs.
 const LEAST_FLARE: f32 = 0.02;
 /// Rings closer than this share of an internode merge.
 const LEAST_GAP: f32 = 0.04;
+/// Thick wood, in radii an internode, turns its rings evenly from node to node: all of it, and from where on some.
+const STOUT: [f32; 2] = [0.25, 0.6];
 
 /// Rings are apart by this share of the smaller one's radius where they are nearest.
 const LEAST_CLEARANCE: f32 = 0.02;
@@ -28,11 +31,14 @@ const MOST_SPARED: usize = 12;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample {
     pub point: Vec3,
-    /// Unit vector along the curve.
+    /// Unit vector along the curve, or rather across the ring.
     pub tangent: Vec3,
     /// Length from the beginning.
     pub arc: f32,
+    /// On the average around the wood.
     pub radius: f32,
+    /// How far roots rise from that, by the shape of their ribs.
+    pub ribs: f32,
 }
 
 /// Places for rings, at least two, on a curve that `smoothing` takes from a polyline (0) to a smooth one (1). No ring
@@ -85,6 +91,9 @@ fn apart(samples: &[Sample]) -> Vec<Sample> {
     kept
 }
 
+/// How far ribs rise at most.
+const HIGHEST_RIB: f32 = 0.38;
+
 impl Sample {
     /// How far it lies off a straight tube between two others, in place or in radius.
     fn off(&self, [from, to]: [&Self; 2]) -> f32 {
@@ -93,34 +102,48 @@ impl Sample {
         self.point.distance(from.point.lerp(to.point, share)).max((self.radius - radius).abs())
     }
 
+    /// How far its ring reaches from the curve.
+    fn reach(&self) -> f32 {
+        self.radius + HIGHEST_RIB * self.ribs
+    }
+
     /// Whether its ring and the next one's cross, or nearly do, or the skin between them would be sheared flat.
     fn crosses(&self, above: &Self) -> bool {
         let way = above.point - self.point;
         let tilt = self.tangent.cross(above.tangent).length();
-        let least = (LEAST_CLEARANCE * self.radius.min(above.radius)).max(LEAST_UPRIGHT * way.length());
-        way.dot(self.tangent) < above.radius * tilt + least
-            || way.dot(above.tangent) < self.radius * tilt + least
+        let (below, above_reach) = (self.reach(), above.reach());
+        let least = (LEAST_CLEARANCE * below.min(above_reach)).max(LEAST_UPRIGHT * way.length());
+        way.dot(self.tangent) < above_reach * tilt + least || way.dot(above.tangent) < below * tilt + least
     }
 }
 
 fn on_curve(course: &Course, smoothing: f32) -> Vec<Sample> {
-    let nodes = &course.nodes;
-    let last = nodes.len() - 1;
-    let mut samples: Vec<Sample> = Vec::with_capacity(2 * nodes.len());
-    for i in 0..last {
-        let (from, to) = (nodes[i], nodes[i + 1]);
-        let before = if i == 0 { course.before } else { nodes[i - 1] };
-        let after = if i + 1 == last { 2.0 * to - from } else { nodes[i + 2] };
-        let smooth = Piece::through(before, from, to, after);
-        let piece = smooth.smoothed(smoothing);
+    let last = course.nodes.len() - 2;
+    let mut samples: Vec<Sample> = Vec::with_capacity(2 * course.nodes.len());
+    // Along the straight ways between nodes, by which the flare declines.
+    let mut reached = 0.0;
+    for (i, pair) in course.nodes.windows(2).enumerate() {
+        let &[from, to] = pair else { continue };
+        let piece = Piece::between(&from, &to, smoothing);
+        let is_foot = i == 0 && matches!(course.flare, Flare::Roots { .. });
+        let stout = if i == 0 && !is_foot { 0.0 } else { piece.stout(smoothing) };
+        let sinks = if is_foot { course.flare.sinks(from.direction) } else { 0.0 };
+        let taper = Taper::between(&from, &to, piece.length, i == last && course.end == End::Grown);
         for u in parts(&piece, course, i) {
-            let point = piece.point(u);
+            // The foot goes on into what it stands on, however that slopes; deeper where it leans, for it is round.
+            let sunk = (1.0 - u) * (1.0 - u) * sinks;
+            let point = piece.point(u) - sunk * from.direction;
             let arc = samples.last().map_or(0.0, |s| s.arc + s.point.distance(point));
-            let radius = course.radii[i] + (course.radii[i + 1] - course.radii[i]) * u + course.flare.at(arc);
-            // At a node the ring lies between both ways, also where there is a corner.
-            let tangent = if u < 1.0 && u > 0.0 { piece.tangent(u) } else { smooth.tangent(u) };
-            samples.push(Sample { point, tangent, arc, radius });
+            let [radius, ribs] = course.flare.at(reached + piece.length * u - sunk, taper.at(u));
+            let tangent = match u {
+                // At a node the ring lies between both ways, also where there is a corner.
+                0.0 => from.direction,
+                1.0 => to.direction,
+                _ => piece.across(u, stout),
+            };
+            samples.push(Sample { point, tangent, arc, radius, ribs });
         }
+        reached += piece.length;
     }
     samples
 }
@@ -133,63 +156,107 @@ fn parts(piece: &Piece, course: &Course, index: usize) -> Vec<f32> {
         return parts;
     }
     parts.insert(0, 0.0);
-    if course.flare.amount > LEAST_FLARE {
-        let length = piece.chord.length();
-        let wanted =
-            FLARE_RINGS.map(|falloffs| (course.flare.hidden + falloffs * course.flare.falloff) / length);
-        for part in wanted {
-            let place = parts.partition_point(|&p| p < part);
-            let is_free = |neighbour: Option<&f32>| neighbour.is_some_and(|n| (n - part).abs() >= LEAST_GAP);
-            if place > 0 && is_free(parts.get(place - 1)) && is_free(parts.get(place)) {
-                parts.insert(place, part);
-            }
+    let wanted = match course.flare {
+        Flare::Collar { amount, hidden, falloff } if amount > LEAST_FLARE => {
+            COLLAR_RINGS.map(|falloffs| hidden + falloffs * falloff)
+        }
+        Flare::Roots { foot, .. } if foot > LEAST_FLARE => ROOT_RINGS.map(|radii| radii * foot),
+        _ => return parts,
+    };
+    for part in wanted.map(|length| length / piece.length.max(f32::MIN_POSITIVE)) {
+        let place = parts.partition_point(|&p| p < part);
+        let is_free = |neighbour: Option<&f32>| neighbour.is_some_and(|n| (n - part).abs() >= LEAST_GAP);
+        if place > 0 && is_free(parts.get(place - 1)) && is_free(parts.get(place)) {
+            parts.insert(place, part);
         }
     }
     parts
+}
+
+/// How thick wood is between two nodes: widths meet without a corner at the joints, and the last metamer is a cone.
+struct Taper {
+    from: f32,
+    drop: f32,
+    /// At both nodes, in radii over the whole length.
+    inclines: [f32; 2],
+    is_cone: bool,
+}
+
+impl Taper {
+    fn between(from: &Node, to: &Node, length: f32, is_cone: bool) -> Self {
+        let drop = to.radius - from.radius;
+        // Never beyond either: slopes are those of one girth, and the tip of a limb is slimmer.
+        let incline = |node: &Node| {
+            (node.slope * node.radius * length).clamp((3.0 * drop).min(0.0), (3.0 * drop).max(0.0))
+        };
+        Self { from: from.radius, drop, inclines: [incline(from), incline(to)], is_cone }
+    }
+
+    fn at(&self, u: f32) -> f32 {
+        let (u2, u3) = (u * u, u * u * u);
+        if self.is_cone {
+            return self.from + self.drop * u2;
+        }
+        let [below, above] = self.inclines;
+        self.from + self.drop * (3.0 * u2 - 2.0 * u3) + below * (u3 - 2.0 * u2 + u) + above * (u3 - u2)
+    }
 }
 
 /// The curve between two nodes, in Hermite form.
 struct Piece {
     from: Vec3,
     chord: Vec3,
-    leaving: Vec3,
-    arriving: Vec3,
+    length: f32,
+    heading: Vec3,
+    /// Unit vectors along the curve at both nodes.
+    leaves: Vec3,
+    arrives: Vec3,
+    /// Across which rings lie there.
+    rings: [Vec3; 2],
+    /// Radii at both, the larger one in internodes.
+    thickness: f32,
 }
 
 impl Piece {
-    fn through(before: Vec3, from: Vec3, to: Vec3, after: Vec3) -> Self {
-        // Knots are the square roots of the distances; none is zero, for no internode has length zero.
-        let knot = |a: Vec3, b: Vec3| a.distance(b).sqrt().max(1e-3);
-        let (k0, k1, k2) = (knot(before, from), knot(from, to), knot(to, after));
-        let chord = to - from;
-        Self {
-            from,
-            chord,
-            leaving: ((from - before) / k0 - (to - before) / (k0 + k1) + chord / k1) * k1,
-            arriving: (chord / k1 - (after - from) / (k1 + k2) + (after - to) / k2) * k1,
-        }
+    /// Between the straight way (`smoothing` 0) and the whole curve (1).
+    fn between(from: &Node, to: &Node, smoothing: f32) -> Self {
+        let chord = to.place - from.place;
+        let length = chord.length();
+        let heading = chord.normalize_or(from.direction);
+        let [leaves, arrives] =
+            [from, to].map(|node| heading.lerp(node.direction, smoothing).normalize_or(heading));
+        let thickness = from.radius.max(to.radius) / length.max(1e-3);
+        let rings = [from.direction, to.direction];
+        Self { from: from.place, chord, length, heading, leaves, arrives, rings, thickness }
     }
 
-    /// Between the straight way (0) and the whole curve (1).
-    fn smoothed(&self, share: f32) -> Self {
-        let [leaving, arriving] = [self.leaving, self.arriving].map(|way| self.chord.lerp(way, share));
-        Self { from: self.from, chord: self.chord, leaving, arriving }
+    /// How much its rings turn evenly: they would cross where the curve gathers its turn.
+    fn stout(&self, smoothing: f32) -> f32 {
+        let share = ((self.thickness - STOUT[0]) / (STOUT[1] - STOUT[0])).clamp(0.0, 1.0);
+        share * share * (3.0 - 2.0 * share) * smoothing
     }
 
     fn point(&self, u: f32) -> Vec3 {
         let (u2, u3) = (u * u, u * u * u);
         self.from
-            + (u3 - 2.0 * u2 + u) * self.leaving
+            + (u3 - 2.0 * u2 + u) * self.length * self.leaves
             + (3.0 * u2 - 2.0 * u3) * self.chord
-            + (u3 - u2) * self.arriving
+            + (u3 - u2) * self.length * self.arrives
     }
 
     fn tangent(&self, u: f32) -> Vec3 {
         let u2 = u * u;
-        let derivative = (3.0 * u2 - 4.0 * u + 1.0) * self.leaving
-            + 6.0 * (u - u2) * self.chord
-            + (3.0 * u2 - 2.0 * u) * self.arriving;
-        derivative.try_normalize().unwrap_or_else(|| self.chord.normalize_or(Vec3::Y))
+        let derivative = (3.0 * u2 - 4.0 * u + 1.0) * self.leaves
+            + 6.0 * (u - u2) * self.heading
+            + (3.0 * u2 - 2.0 * u) * self.arrives;
+        derivative.normalize_or(self.heading)
+    }
+
+    /// Across which a ring between the nodes lies.
+    fn across(&self, u: f32, stout: f32) -> Vec3 {
+        let tangent = self.tangent(u);
+        let even = self.rings[0].lerp(self.rings[1], u).normalize_or(tangent);
+        tangent.lerp(even, stout).normalize_or(tangent)
     }
 
     /// Adds places between `from` and `to`, the last of which is `to`.
@@ -210,19 +277,29 @@ impl Piece {
 mod tests {
     use espalier_plant::{AxisId, MetamerId};
 
-    use super::*;
-    use crate::course::{End, Flare};
+    use super::{super::course::ribs, *};
 
+    /// A limb from node to node, whose rings lie half-way between both ways.
     fn course(nodes: &[Vec3]) -> Course {
+        let way = |i: usize| (nodes[i + 1] - nodes[i]).normalize();
+        let node = |(i, &place): (usize, &Vec3)| {
+            let direction = if i == 0 {
+                way(0)
+            } else if i + 1 == nodes.len() {
+                way(i - 1)
+            } else {
+                (way(i - 1) + way(i)).normalize()
+            };
+            Node { place, direction, radius: 0.1, slope: 0.0 }
+        };
         Course {
             seed: MetamerId::new(0),
             axis: AxisId::new(0),
-            nodes: nodes.to_vec(),
-            radii: vec![0.1; nodes.len()],
-            before: 2.0 * nodes[0] - nodes[1],
-            normal: Vec3::X,
-            flare: Flare { amount: 0.0, hidden: 0.0, falloff: 1.0 },
-            end: End::Grown,
+            rows: (1..nodes.len()).map(MetamerId::new).collect(),
+            nodes: nodes.iter().enumerate().map(node).collect(),
+            normal: way(0).any_orthonormal_vector(),
+            flare: Flare::Collar { amount: 0.0, hidden: 0.0, falloff: 1.0 },
+            end: End::Cut,
         }
     }
 
@@ -256,7 +333,7 @@ mod tests {
     #[test]
     fn flare_declines_on_rings_of_its_own() {
         let mut course = course(&[Vec3::ZERO, Vec3::Y]);
-        course.flare = Flare { amount: 0.1, hidden: 0.1, falloff: 0.1 };
+        course.flare = Flare::Collar { amount: 0.1, hidden: 0.1, falloff: 0.1 };
         let radii: Vec<f32> = samples(&course, 1.0, 0.0).iter().map(|s| s.radius).collect();
         assert_eq!(radii.len(), 6);
         assert_eq!(radii[..2], [0.2, 0.2]);
@@ -266,7 +343,9 @@ mod tests {
     #[test]
     fn rings_of_a_sharp_bend_do_not_cross() {
         let mut course = course(&[Vec3::ZERO, Vec3::Y, Vec3::Y + 0.4 * Vec3::X, Vec3::X]);
-        course.radii = vec![0.8, 0.8, 0.7, 0.6];
+        for (node, radius) in course.nodes.iter_mut().zip([0.8, 0.8, 0.7, 0.6]) {
+            node.radius = radius;
+        }
         assert!(on_curve(&course, 1.0).windows(2).any(|pair| pair[0].crosses(&pair[1])));
         let samples = samples(&course, 1.0, 0.0);
         assert!(samples.len() >= 2 && !samples.windows(2).any(|pair| pair[0].crosses(&pair[1])));
@@ -293,5 +372,27 @@ mod tests {
             samples.iter().map(|s| s.point).collect::<Vec<_>>(),
             [Vec3::ZERO, Vec3::Y, Vec3::Y + Vec3::X]
         );
+    }
+
+    #[test]
+    fn a_foot_spreads_in_ribs_and_goes_into_the_ground() {
+        let mut course = course(&[Vec3::ZERO, Vec3::Y, 2.0 * Vec3::Y, 3.0 * Vec3::Y]);
+        course.nodes.iter_mut().for_each(|node| node.radius = 0.5);
+        course.flare = Flare::Roots { share: 1.0, foot: 0.5 };
+        let samples = samples(&course, 1.0, 0.0);
+        assert!((samples[0].point.y + 0.25).abs() < 1e-6, "half a radius deep");
+        assert!((samples[0].radius - 0.5 * 1.58).abs() < 1e-3 && samples[0].ribs == 0.5);
+        assert!(samples.iter().map(|s| s.ribs).is_sorted_by(|a, b| a >= b));
+        let mean = (0..720).map(|i| ribs(i as f32 / 720.0)).sum::<f32>() / 720.0;
+        assert!(mean.abs() < 0.03, "{mean}");
+        assert!((0..720).all(|i| ribs(i as f32 / 720.0) <= HIGHEST_RIB + 1e-4));
+    }
+
+    #[test]
+    fn a_last_metamer_is_a_cone_and_joints_have_no_corner() {
+        let taper = Taper { from: 1.0, drop: -0.5, inclines: [0.0; 2], is_cone: true };
+        assert_eq!([0.0, 0.5, 1.0].map(|u| taper.at(u)), [1.0, 0.875, 0.5]);
+        let taper = Taper { from: 1.0, drop: -0.5, inclines: [-0.5, -0.5], is_cone: false };
+        assert_eq!([0.0, 0.5, 1.0].map(|u| taper.at(u)), [1.0, 0.75, 0.5]);
     }
 }

@@ -1,7 +1,11 @@
-//! A plant's rows as clients have them: what joints are made from.
+//! A plant's rows as clients have them: what limbs and joints are made from.
 
-use espalier_mesh::{RingTable, radius_code::NOT_DRAWN, ring_table::POSITION_STEPS};
 use glam::DVec3;
+
+use crate::{
+    radius_code::NOT_DRAWN,
+    ring_table::{POSITION_STEPS, RingTable},
+};
 
 /// In place of a row, limb or joint that is not there.
 pub const NONE: u32 = u32::MAX;
@@ -24,11 +28,16 @@ pub struct Row {
 /// Rows in birth order, column by column.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Rows {
-    pub(crate) parent: Vec<u32>,
-    pub(crate) starts_axis: Vec<bool>,
-    pub(crate) position: Vec<[i32; 3]>,
-    pub(crate) radius: Vec<u16>,
-    pub(crate) leaves: Vec<u8>,
+    /// The row that each grows from; [`NONE`] of a seed.
+    pub parent: Vec<u32>,
+    /// Whether each is the first wood of its axis.
+    pub starts_axis: Vec<bool>,
+    /// Where each metamer ends, in steps of 1/256 internode.
+    pub position: Vec<[i32; 3]>,
+    /// The code of each radius; 0 for seeds and the dead.
+    pub radius: Vec<u16>,
+    /// How many leaves each bears.
+    pub leaves: Vec<u8>,
 }
 
 /// Rows that are no plant.
@@ -95,12 +104,12 @@ impl Rows {
     }
 
     /// Whether a row is drawn: it lives and is no seed.
-    pub(crate) fn is_wood(&self, row: usize) -> bool {
+    pub fn is_wood(&self, row: usize) -> bool {
         self.radius[row] != NOT_DRAWN && self.parent[row] != NONE
     }
 
     /// Where a row ends, in internodes. A quotient by a power of two, so it is exact.
-    pub(crate) fn place(&self, row: usize) -> DVec3 {
+    pub fn place(&self, row: usize) -> DVec3 {
         let [x, y, z] = self.position[row].map(f64::from);
         DVec3::new(x, y, z) / f64::from(POSITION_STEPS)
     }
