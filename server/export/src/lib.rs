@@ -20,6 +20,7 @@ pub mod picture;
 pub mod ply;
 mod png;
 pub mod qsm;
+mod shades;
 mod sink;
 pub mod skeleton;
 mod structure;

@@ -33,7 +33,7 @@ pub fn obj(
     let model = Model { instanced: false, lightmap: None, ..*model };
     let assembly = Assembly::of(plant, style, appearance, about.species, &model);
     let mut zip = Zip::new(out);
-    let mut materials = MeanMaterials::default();
+    let mut materials = MeanMaterials::shaded(&assembly)?;
     zip.add("tree.obj", |out| {
         writeln!(out, "# {}, metres, Y up", about.program)?;
         if let Some(copyright) = about.copyright() {
@@ -45,9 +45,9 @@ pub fn obj(
         assembly.build(&mut writer)
     })?;
     zip.add("tree.mtl", |out| {
-        materials.0.iter().try_for_each(|material| Ok(out.write_all(library(material, scale).as_bytes())?))
+        materials.all.iter().try_for_each(|material| Ok(out.write_all(library(material, scale).as_bytes())?))
     })?;
-    for (name, png) in materials.0.iter().flat_map(MeanMaterial::pictures) {
+    for (name, png) in materials.all.iter().flat_map(MeanMaterial::pictures) {
         zip.add(&name, |out| Ok(out.write_all(&png)?))?;
     }
     zip.finish()
@@ -93,6 +93,17 @@ impl Writer<'_> {
         Ok(writeln!(self.out, "o {}_{name}", all.join("_"))?)
     }
 
+    /// Triangles whose first place and first vertex have the numbers after these.
+    fn faces(&mut self, faces: &[[u32; 3]], [places, vertices]: [usize; 2]) -> Result<(), ExportError> {
+        for corners in faces {
+            let [a, b, c] = corners.map(|corner| corner as usize + 1);
+            let [pa, pb, pc] = [a, b, c].map(|corner| corner + places);
+            let [a, b, c] = [a, b, c].map(|corner| corner + vertices);
+            writeln!(self.out, "f {pa}/{a}/{a} {pb}/{b}/{b} {pc}/{c}/{c}")?;
+        }
+        Ok(())
+    }
+
     fn place(&self, place: Vec3) -> Result<Vec3, ExportError> {
         let place = place * self.scale;
         if place.is_finite() { Ok(place) } else { Err(ExportError::NotFinite) }
@@ -112,6 +123,10 @@ impl Builder<'_> for Writer<'_> {
 
     fn part(&mut self, part: &Part<'_>) -> Result<(), ExportError> {
         let mut is_begun = false;
+        // What is thin has a material for each of a few colours: its triangles come material by material after all of
+        // its vertices, so that readers find few groups.
+        let is_shaded = matches!(part.surfaces, [one] if self.materials.shades(one) > 1);
+        let first = [self.places, self.vertices];
         (part.blocks)(&mut |block| {
             if block.mesh.positions.is_empty() {
                 return Ok(());
@@ -126,23 +141,43 @@ impl Builder<'_> for Writer<'_> {
                 writeln!(self.out, "v {x} {y} {z}\nvt {} {}", uv.x, uv.y)?;
                 writeln!(self.out, "vn {:.4} {:.4} {:.4}", normal.x, normal.y, normal.z)?;
             }
-            for (indices, surface) in [&block.mesh.indices[..], block.second].into_iter().zip(part.surfaces) {
-                if indices.is_empty() {
-                    continue;
-                }
-                self.materials.add(surface, &block);
-                writeln!(self.out, "usemtl {}", surface.name())?;
-                for corners in indices.as_chunks::<3>().0 {
-                    let [a, b, c] = corners.map(|corner| corner as usize + 1);
-                    let [pa, pb, pc] = [a, b, c].map(|corner| corner + self.places);
-                    let [a, b, c] = [a, b, c].map(|corner| corner + self.vertices);
-                    writeln!(self.out, "f {pa}/{a}/{a} {pb}/{b}/{b} {pc}/{c}/{c}")?;
+            if !is_shaded {
+                for (indices, surface) in
+                    [&block.mesh.indices[..], block.second].into_iter().zip(part.surfaces)
+                {
+                    if !indices.is_empty() {
+                        self.materials.add(surface, &block);
+                        writeln!(self.out, "usemtl {}", surface.name())?;
+                        self.faces(indices.as_chunks().0, [self.places, self.vertices])?;
+                    }
                 }
             }
             self.vertices += block.mesh.positions.len();
             self.places += block.mesh.positions.len();
             Ok(())
-        })
+        })?;
+        let [surface] = part.surfaces else { return Ok(()) };
+        if !is_shaded || !is_begun {
+            return Ok(());
+        }
+        self.materials.count(surface, Vec3::ZERO, 0);
+        for shade in 0..self.materials.shades(surface) {
+            let (mut numbers, mut is_used) = (first, false);
+            (part.blocks)(&mut |block| {
+                let has_shade =
+                    |corner: u32| self.materials.shade(surface, block.colours[corner as usize]) == shade;
+                let all = block.mesh.indices.as_chunks::<3>().0.iter();
+                let faces: Vec<[u32; 3]> = all.filter(|corners| has_shade(corners[0])).copied().collect();
+                if !faces.is_empty() && !is_used {
+                    is_used = true;
+                    writeln!(self.out, "usemtl {}", self.materials.name(surface, shade))?;
+                }
+                self.faces(&faces, numbers)?;
+                numbers = numbers.map(|number| number + block.mesh.positions.len());
+                Ok(())
+            })?;
+        }
+        Ok(())
     }
 
     fn scatter(&mut self, _: &Scatter<'_>) -> Result<(), ExportError> {

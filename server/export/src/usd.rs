@@ -14,16 +14,16 @@ use serde_json::Value;
 use self::arrays::{Array, joined};
 use crate::{
     About, Detail, ExportError, Model, Sink,
-    assembly::{Assembly, Builder, Part, Scatter},
+    assembly::{Assembly, Builder, Part, Scatter, Surface},
     foliage::cards::{Cards, LeafForm},
-    mean_materials::{MeanMaterial, MeanMaterials},
+    mean_materials::{MeanMaterial, MeanMaterials, seen_of},
     zip::Zip,
 };
 
 /// The prim that holds all others.
 const ROOT: &str = "Plants";
 
-/// The present of `plant` as USD in text, whose materials have one colour each; see `docs/formats.md`.
+/// The present of `plant` as USD in text, without textures: each vertex has its colour; see `docs/formats.md`.
 ///
 /// # Errors
 /// Where an internode cannot be as long as `about` says, the plant is too large, or the file cannot be written.
@@ -36,7 +36,7 @@ pub fn usda(
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
     let assembly = Assembly::of(plant, style, appearance, about.species, model);
-    layer(&assembly, about, model, false, out)?;
+    layer(&assembly, about, model, None, out)?;
     Ok(())
 }
 
@@ -54,12 +54,12 @@ pub fn usdz(
 ) -> Result<(), ExportError> {
     let assembly = Assembly::of(plant, style, appearance, about.species, model);
     let mut zip = Zip::new(out);
-    let mut materials = MeanMaterials::default();
+    let mut materials = MeanMaterials::shaded(&assembly)?;
     zip.add("tree.usda", |out| {
-        materials = layer(&assembly, about, model, true, out)?;
+        materials = layer(&assembly, about, model, Some(std::mem::take(&mut materials)), out)?;
         Ok(())
     })?;
-    for (name, png) in materials.0.iter().flat_map(MeanMaterial::pictures) {
+    for (name, png) in materials.all.iter().flat_map(MeanMaterial::pictures) {
         zip.add(&name, |out| Ok(out.write_all(&png)?))?;
     }
     zip.finish()
@@ -69,7 +69,7 @@ fn layer(
     assembly: &Assembly<'_>,
     about: &About<'_>,
     model: &Model,
-    has_pictures: bool,
+    materials: Option<MeanMaterials>,
     out: &mut dyn Write,
 ) -> Result<MeanMaterials, ExportError> {
     let scale = about.scale()?;
@@ -83,7 +83,8 @@ fn layer(
          def Xform \"{ROOT}\" (\n    kind = \"group\"\n)\n{{\n",
         quoted(about.program)
     )?;
-    let mut writer = Writer { out, scale, model, open: Vec::new(), materials: MeanMaterials::default() };
+    let has_pictures = materials.is_some();
+    let mut writer = Writer { out, scale, model, open: Vec::new(), materials: materials.unwrap_or_default() };
     assembly.build(&mut writer)?;
     let Writer { out, materials, .. } = writer;
     materials::write(&materials, has_pictures, scale, out)?;
@@ -125,6 +126,46 @@ impl Writer<'_> {
 
     fn bound(&mut self, material: &str) -> io::Result<()> {
         writeln!(self.out, "rel material:binding = </{ROOT}/Looks/{material}>")
+    }
+
+    /// What triangles of a part are made of: so many have its surface, or one of its colours, and so many the next.
+    fn subsets(&mut self, part: &Part<'_>, faces: &[u32], shades: usize) -> Result<(), ExportError> {
+        let Some(first) = part.surfaces.first() else { return Ok(()) };
+        let names: Vec<String> = if shades > 1 {
+            (0..shades).map(|shade| self.materials.name(first, shade).into_owned()).collect()
+        } else {
+            part.surfaces.iter().map(|surface| surface.name().to_owned()).collect()
+        };
+        self.bound(&names[0])?;
+        let mut reached = 0;
+        let mut is_told = false;
+        for (number, (name, &count)) in names.iter().zip(faces).enumerate() {
+            let faces = reached..reached + count;
+            reached += count;
+            // What has the first surface needs no subset, unless colours share it.
+            if faces.is_empty() || (number == 0 && shades == 1) {
+                continue;
+            }
+            if !is_told {
+                is_told = true;
+                writeln!(
+                    self.out,
+                    "uniform token subsetFamily:materialBind:familyType = \"nonOverlapping\""
+                )?;
+            }
+            writeln!(
+                self.out,
+                "def GeomSubset \"{name}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n{{"
+            )?;
+            writeln!(
+                self.out,
+                "uniform token elementType = \"face\"\nuniform token familyName = \"materialBind\""
+            )?;
+            self.array("int[] indices", "", |array| faces.clone().try_for_each(|face| array.put(face)))?;
+            self.bound(name)?;
+            writeln!(self.out, "}}")?;
+        }
+        Ok(())
     }
 
     /// The arrays that all meshes have.
@@ -214,19 +255,30 @@ impl Builder<'_> for Writer<'_> {
         self.array("int[] faceVertexCounts", "", |array| {
             (0..triangles[0] + triangles[1]).try_for_each(|_| array.put(3))
         })?;
-        self.array("int[] faceVertexIndices", "", |array| {
-            // The triangles of the second surface stand behind all others, so that they can be told by their numbers.
-            for second in [false, true] {
-                let mut first = 0;
-                (part.blocks)(&mut |block| {
-                    let indices = if second { block.second } else { &block.mesh.indices };
-                    indices.iter().try_for_each(|index| array.put(first + index))?;
-                    first += block.mesh.positions.len() as u32;
-                    Ok(())
-                })?;
-            }
-            Ok(())
-        })?;
+        // The triangles of the second surface stand behind all others, and those of one colour of leaves together, so that
+        // they can be told by their numbers.
+        let shades = if let [one] = part.surfaces { self.materials.shades(one) } else { 1 };
+        let mut faces = vec![0; shades.max(2)];
+        let Self { out, materials, .. } = self;
+        let mut array = Array::begin(&mut **out, "int[] faceVertexIndices")?;
+        for (number, faces) in faces.iter_mut().enumerate() {
+            let mut first = 0;
+            (part.blocks)(&mut |block| {
+                let second = number > 0 && shades == 1;
+                let indices = if second { block.second } else { &block.mesh.indices };
+                for corners in indices.as_chunks::<3>().0 {
+                    let colour = block.colours[corners[0] as usize];
+                    if shades > 1 && materials.shade(&part.surfaces[0], colour) != number {
+                        continue;
+                    }
+                    *faces += 1;
+                    corners.iter().try_for_each(|index| array.put(first + index))?;
+                }
+                first += block.mesh.positions.len() as u32;
+                Ok(())
+            })?;
+        }
+        array.end("")?;
         let vertex = " (\ninterpolation = \"vertex\"\n)";
         self.array("point3f[] points", "", |array| {
             (part.blocks)(&mut |block| {
@@ -250,30 +302,13 @@ impl Builder<'_> for Writer<'_> {
                 })
             })?;
         }
+        let tint = part.surfaces.first().map_or(Vec3::ONE, seen);
         self.array("color3f[] primvars:displayColor", vertex, |array| {
             (part.blocks)(&mut |block| {
-                block.colours.iter().try_for_each(|colour| array.vector(&colour.to_array()))
+                block.colours.iter().try_for_each(|&colour| array.vector(&(colour * tint).to_array()))
             })
         })?;
-        let [first, second] =
-            [part.surfaces.first(), part.surfaces.get(1)].map(|one| one.map_or("", |one| one.name()));
-        self.bound(first)?;
-        if triangles[1] > 0 {
-            writeln!(self.out, "uniform token subsetFamily:materialBind:familyType = \"nonOverlapping\"")?;
-            writeln!(
-                self.out,
-                "def GeomSubset \"{second}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n{{"
-            )?;
-            writeln!(
-                self.out,
-                "uniform token elementType = \"face\"\nuniform token familyName = \"materialBind\""
-            )?;
-            self.array("int[] indices", "", |array| {
-                (triangles[0]..triangles[0] + triangles[1]).try_for_each(|face| array.put(face))
-            })?;
-            self.bound(second)?;
-            writeln!(self.out, "}}")?;
-        }
+        self.subsets(part, &faces, shades)?;
         Ok(writeln!(self.out, "}}")?)
     }
 
@@ -294,12 +329,18 @@ impl Builder<'_> for Writer<'_> {
         }
         self.materials.count(&scatter.surface, sum, count);
         writeln!(self.out, "def PointInstancer \"{}\"\n{{", scatter.name)?;
+        let (surface, shades) = (&scatter.surface, self.materials.shades(&scatter.surface));
         let leaf = |which: usize| format!("<{}/Leaf{which}>", self.path(scatter.name));
-        let prototypes: Vec<String> = (0..LeafForm::PROTOTYPES).map(leaf).collect();
+        // Each form in each colour.
+        let prototypes: Vec<String> = (0..shades * LeafForm::PROTOTYPES).map(leaf).collect();
         writeln!(self.out, "rel prototypes = [{}]", prototypes.join(", "))?;
-        self.array("int[] protoIndices", "", |array| {
-            each(&mut |(instance, _)| array.put(instance.prototype))
+        let Self { out, materials, .. } = self;
+        let mut array = Array::begin(&mut **out, "int[] protoIndices")?;
+        each(&mut |(instance, hue)| {
+            let shade = materials.shade(surface, hue * scatter.strength);
+            array.put(shade * LeafForm::PROTOTYPES + instance.prototype)
         })?;
+        array.end("")?;
         self.array("point3f[] positions", "", |array| {
             each(&mut |(instance, _)| array.vector(&((instance.place - origin) * scale).to_array()))
         })?;
@@ -312,12 +353,13 @@ impl Builder<'_> for Writer<'_> {
         self.array("float3[] scales", "", |array| {
             each(&mut |(instance, _)| array.vector(&[instance.scale * scale; 3]))
         })?;
+        let tint = scatter.strength * seen(surface);
         self.array("color3f[] primvars:displayColor", " (\ninterpolation = \"vertex\"\n)", |array| {
-            each(&mut |(_, hue)| array.vector(&(hue * scatter.strength).to_array()))
+            each(&mut |(_, hue)| array.vector(&(hue * tint).to_array()))
         })?;
-        for which in 0..LeafForm::PROTOTYPES {
+        for which in 0..prototypes.len() {
             let mut cards = Cards::default();
-            scatter.form.add_prototype(&mut cards, which);
+            scatter.form.add_prototype(&mut cards, which % LeafForm::PROTOTYPES);
             writeln!(
                 self.out,
                 "def Mesh \"Leaf{which}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n{{"
@@ -327,7 +369,8 @@ impl Builder<'_> for Writer<'_> {
             self.array("texCoord2f[] primvars:st", " (\ninterpolation = \"vertex\"\n)", |array| {
                 cards.mesh.uvs.iter().try_for_each(|uv| array.vector(&uv.to_array()))
             })?;
-            self.bound(scatter.surface.name())?;
+            let material = self.materials.name(surface, which / LeafForm::PROTOTYPES);
+            self.bound(&material)?;
             writeln!(self.out, "}}")?;
         }
         Ok(writeln!(self.out, "}}")?)
@@ -344,6 +387,15 @@ impl Builder<'_> for Writer<'_> {
         )?;
         self.triangles(mesh, |place| (place - origin) * scale)?;
         Ok(writeln!(self.out, "}}")?)
+    }
+}
+
+/// What colours are multiplied by to be what is seen, on the average over a surface.
+fn seen(surface: &Surface<'_>) -> Vec3 {
+    match surface {
+        Surface::Bark(bark, _) => seen_of(&bark.texture),
+        Surface::Thin(_, texture) => seen_of(texture),
+        Surface::Plain(..) => Vec3::ONE,
     }
 }
 

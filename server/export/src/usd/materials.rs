@@ -13,7 +13,7 @@ pub(super) fn write(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     writeln!(out, "def Scope \"Looks\"\n{{")?;
-    for material in &materials.0 {
+    for material in &materials.all {
         one(material, has_pictures && material.texture.is_some(), metres, out)?;
     }
     writeln!(out, "}}")
@@ -32,10 +32,19 @@ fn one(material: &MeanMaterial, has_pictures: bool, metres: f32, out: &mut dyn W
             writeln!(out, "float inputs:opacity.connect = <{path}/Colour.outputs:a>")?;
             writeln!(out, "float inputs:opacityThreshold = 0.5")?;
         }
+    } else if material.texture.is_some() {
+        writeln!(out, "color3f inputs:diffuseColor.connect = <{path}/Own.outputs:result>")?;
     } else {
         writeln!(out, "color3f inputs:diffuseColor = {}", joined(&material.seen().to_array()))?;
     }
     writeln!(out, "token outputs:surface\n}}")?;
+    if !has_pictures && material.texture.is_some() {
+        // Each vertex has its own colour, and each leaf where they are instances; who knows none takes the mean.
+        writeln!(out, "def Shader \"Own\"\n{{\nuniform token info:id = \"UsdPrimvarReader_float3\"")?;
+        writeln!(out, "string inputs:varname = \"displayColor\"")?;
+        writeln!(out, "float3 inputs:fallback = {}", joined(&material.seen().to_array()))?;
+        writeln!(out, "float3 outputs:result\n}}")?;
+    }
     if has_pictures {
         writeln!(out, "def Shader \"Place\"\n{{\nuniform token info:id = \"UsdPrimvarReader_float2\"")?;
         writeln!(out, "string inputs:varname = \"st\"\nfloat2 outputs:result\n}}")?;

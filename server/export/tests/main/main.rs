@@ -5,6 +5,7 @@ mod models;
 mod reader;
 mod saplings;
 mod scenes;
+mod shades;
 mod species;
 mod structure;
 mod swaying;
