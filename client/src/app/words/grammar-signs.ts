@@ -1,6 +1,9 @@
 import type { Text } from "./say";
 
-/** What the signs of the turtle and of rules do, in few words, as the keys of the editor and its short reference show them. */
+/**
+ * What the signs of the turtle and of rules do, in few words, as the keys of the editor and its short reference show
+ * them: in pairs, the most used first.
+ */
 export const SIGNS: readonly (readonly [sign: string, does: Text])[] = [
   ["[", ["a branch begins", "ein Ast beginnt"]],
   ["]", ["the branch ends", "der Ast endet"]],
@@ -9,23 +12,23 @@ export const SIGNS: readonly (readonly [sign: string, does: Text])[] = [
   ["+", ["turn left", "nach links drehen"]],
   ["-", ["turn right", "nach rechts drehen"]],
   ["&", ["pitch down", "nach unten neigen"]],
-  ["/", ["roll right", "nach rechts rollen"]],
   ["^", ["pitch up", "nach oben neigen"]],
+  ["/", ["roll right", "nach rechts rollen"]],
+  ["\\", ["roll left", "nach links rollen"]],
   ["F", ["wood, one step forward", "Holz, ein Schritt vorwärts"]],
   ["A", ["a module of your own", "ein eigenes Modul"]],
   ["-->", ["becomes", "wird zu"]],
-  ["~l", ["a leaf: read, not drawn", "ein Blatt: wird gelesen, nicht gezeichnet"]],
   [":", ["condition, or probability", "Bedingung oder Wahrscheinlichkeit"]],
   [",", ["between numbers", "zwischen Zahlen"]],
+  ["!", ["width", "Dicke"]],
   ["<", ["what stands below", "was darunter steht"]],
   [">", ["what stands above", "was darüber steht"]],
-  ["!", ["width", "Dicke"]],
-  ["|", ["turn about", "umdrehen"]],
-  ["\\", ["roll left", "nach links rollen"]],
-  ["$", ["level", "waagrecht stellen"]],
-  ["%", ["cut the rest of the branch", "den Rest des Asts abschneiden"]],
   ["*", ["times, or nothing", "mal, oder nichts"]],
   ["=", ["a number gets a name", "eine Zahl bekommt einen Namen"]],
+  ["|", ["turn about", "umdrehen"]],
+  ["$", ["level", "waagrecht stellen"]],
+  ["%", ["cut the rest of the branch", "den Rest des Asts abschneiden"]],
+  ["~l", ["a leaf: read, not drawn", "ein Blatt: wird gelesen, nicht gezeichnet"]],
   ["{", ["no wood from here", "ab hier kein Holz"]],
   ["}", ["wood again", "wieder Holz"]],
 ];

@@ -17,7 +17,7 @@ export const GRAMMARS = {
   "grammars.open": ["Open a file", "Datei öffnen"],
   "grammars.paste": ["Paste", "Einfügen"],
   "grammars.paste.none": ["There is no text to paste.", "Es gibt keinen Text zum Einfügen."],
-  "grammars.save": ["Save", "Sichern"],
+  "grammars.save": ["As file", "Als Datei"],
   "grammars.save.title": ["Save the text as a file", "Den Text als Datei sichern"],
   "grammars.too-long": [
     "{file} is too long: a grammar has at most 128 KB.",

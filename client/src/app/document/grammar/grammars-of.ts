@@ -5,6 +5,7 @@ import { explained } from "../../problems/explained";
 import type { Studio } from "../../studio";
 import { growthAhead } from "../growth/growth-ahead";
 import { DepthControl } from "./depth-control";
+import { Framing } from "./framing";
 import { checkGrammar, originsIn } from "./grammar-api";
 import { GrammarEditing } from "./grammar-editing";
 import { Origins } from "./origins";
@@ -39,17 +40,18 @@ export function grammarsOf(studio: Studio): Grammars {
   });
   const submit: Studio["submit"] = (command) => {
     const id = studio.submit(command);
+    if (command.kind !== "set_grammar_values") {
+      framing.changed();
+    }
     traffic.value += 1;
     return id;
   };
   const failed = (error: unknown) => void explained(error).then((text) => studio.toasts.show(text));
   const page = { inForce, submit, newGesture: () => studio.link.next, busy, clock: browserClock };
-  // A plant of another size is seen whole once it stands.
-  let showsAll = false;
+  const framing = new Framing(studio);
   effect(() => {
-    if (showsAll && inForce.value !== null && !busy.value && studio.rows.value > 1) {
-      showsAll = false;
-      studio.stage.fitTree();
+    if (inForce.value !== null && !busy.value && studio.rows.value > 1) {
+      framing.settled();
     }
   });
   const editing = new GrammarEditing({
@@ -62,9 +64,7 @@ export function grammarsOf(studio: Studio): Grammars {
       const { max } = studio.table.bounds();
       return [Math.round(max[0]) + ASIDE, 0, 0];
     },
-    planting: () => {
-      showsAll = true;
-    },
+    planting: () => framing.planted(),
     check: checkGrammar,
     failed,
   });
@@ -72,6 +72,7 @@ export function grammarsOf(studio: Studio): Grammars {
     ...page,
     travel: (steps) => {
       studio.time.by(steps);
+      framing.changed();
       traffic.value += 1;
     },
     steered: () => editing.steer(),

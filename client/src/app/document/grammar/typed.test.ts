@@ -18,7 +18,9 @@ describe("what devices make of signs", () => {
 describe("chance", () => {
   it("is in functions and in probabilities on both sides", () => {
     expect(["A --> F : 0.5", "A --> (0.4) FB", "A --> F(ran(2))"].map(hasChance)).toEqual([true, true, true]);
-    expect(["A(x) : x > 3 --> F(x)", "derivation length: 8\nA --> F(2)"].map(hasChance)).toEqual([false, false]);
+    expect(["A --> F : p", "A --> F(x) : (1-p)/2"].map(hasChance)).toEqual([true, true]);
+    const certain = ["A(x) : x > 3 --> F(x)", "derivation length: 8\nA --> F(2)", "A(x) --> F(x > 1 ? 2 : (3))"];
+    expect([...certain, "A --> F // so: it is", "A --> F /* a: b */"].filter(hasChance)).toEqual([]);
   });
 });
 

@@ -31,7 +31,19 @@ export function saysDepth(text: string): boolean {
 
 /** Whether a text leaves anything to chance. */
 export function hasChance(text: string): boolean {
-  return /\bn?ran\s*\(|-->.*:\s*[\d.]+\s*$|-->\s*\(\s*[\d.]+\s*\)/m.test(text);
+  const bare = text.replace(/\/\*[\s\S]*?\*\/|\/\/.*$/gm, "");
+  return /\bn?ran\s*\(|-->\s*\(\s*[\d.]+\s*\)/m.test(bare) || hasProbability(bare);
+}
+
+/** Whether a rule ends in a colon and what stands for its probability; colons within brackets choose between numbers. */
+function hasProbability(text: string): boolean {
+  const inner = /\([^()\n]*\)/g;
+  let outer = text;
+  for (let before = ""; outer !== before; ) {
+    before = outer;
+    outer = outer.replace(inner, " x ");
+  }
+  return /-->.*:[ \t]*\S/m.test(outer);
 }
 
 /** What a text calls itself. */

@@ -108,7 +108,7 @@ async function recorded(studio: Studio, player: ReplayPlayer, { size, seconds, k
       }),
     );
     if (file !== null) {
-      keepFile(file, fileName(studio.trees.name.peek() ?? usualName(), kind?.ending ?? "frames.zip"));
+      keepFile(file, fileName(studio.trees.name.peek() ?? usualName(studio), kind?.ending ?? "frames.zip"));
       studio.toasts.show(say("replay.recorded"));
     }
   } catch (error) {

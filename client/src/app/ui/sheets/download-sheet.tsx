@@ -16,7 +16,7 @@ const LARGE = 3840;
 
 /** Names and gives the tree as a file: a picture of the view, or what the server writes. */
 export function DownloadSheet({ studio }: { studio: Studio }) {
-  const [name, setName] = useState(() => studio.trees.name.peek() ?? usualName());
+  const [name, setName] = useState(() => studio.trees.name.peek() ?? usualName(studio));
   const [formats, askAgain] = useFormats();
   const choice = studio.settings.exportChoice.value;
   const choose = (part: Partial<ExportChoice>) => {

@@ -12,7 +12,7 @@ import { Looking, useBelonging } from "./save-sheet";
 export function LeaveSheet({ studio }: { studio: Studio }) {
   const belonging = useBelonging(studio);
   const { of } = belonging;
-  const [name, setName] = useState(() => studio.trees.name.peek() ?? usualName());
+  const [name, setName] = useState(() => studio.trees.name.peek() ?? usualName(studio));
   const [leaving, setLeaving] = useState(false);
   const trimmed = name.trim();
 

@@ -1,4 +1,5 @@
 import { MAX_NAME_CHARACTERS } from "../../../wire/generated";
+import type { Studio } from "../../studio";
 import { dateText } from "../../words/date-text";
 import { say } from "../../words/say";
 
@@ -25,7 +26,11 @@ export function NameField({ name, onInput }: NameFieldProps) {
   );
 }
 
-/** What a tree is called that nobody names. */
-export function usualName(): string {
+/** What a tree is called that nobody names: as the grammar in force calls itself, or by the day. */
+export function usualName({ grammar }: Pick<Studio, "grammar">): string {
+  const title = grammar.inForce.peek()?.title?.trim();
+  if (title) {
+    return [...title].slice(0, MAX_NAME_CHARACTERS).join("");
+  }
   return say("sheets.save.default", { date: dateText(new Date().toISOString()) });
 }

@@ -12,7 +12,7 @@ import { SaidFields } from "./said-fields";
 /** Saves the tree: as the next version of the one it belongs to, or as a new one. */
 export function SaveSheet({ studio }: { studio: Studio }) {
   const belonging = useBelonging(studio);
-  const [name, setName] = useState(() => studio.trees.name.peek() ?? usualName());
+  const [name, setName] = useState(() => studio.trees.name.peek() ?? usualName(studio));
   const [note, setNote] = useState("");
   const [anew, setAnew] = useState(false);
   const [saving, setSaving] = useState(false);

@@ -1,4 +1,4 @@
-import { useState } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import type { GrammarDiagnostic } from "../../../../wire/generated";
 import type { Grammars } from "../../../document/grammar/grammars-of";
 import type { Studio } from "../../../studio";
@@ -21,6 +21,13 @@ export function EditorState({ studio, grammars: { editing, origins }, at, goTo }
   const errors = problems.filter(({ severity }) => severity === "error").length;
   const here = at === null ? undefined : problems[at];
   const end = endOf(editing);
+  // Those that come later are told where they stand; a list that opens by itself would take room from the text.
+  const isClean = problems.length === 0;
+  useEffect(() => {
+    if (isClean) {
+      setOpen(false);
+    }
+  }, [isClean]);
   const shownRule = origins.wanted.value && origins.line.value !== null;
   return (
     <div class="grammar-state">
@@ -53,6 +60,7 @@ export function EditorState({ studio, grammars: { editing, origins }, at, goTo }
             class="grammar-count"
             data-severity={errors > 0 ? "error" : "warning"}
             aria-expanded={open}
+            onMouseDown={keepFocus}
             onClick={() => {
               setOpen(!open);
               if (!open && problems.length === 1) {
@@ -71,6 +79,7 @@ export function EditorState({ studio, grammars: { editing, origins }, at, goTo }
           <button
             type="button"
             class="primary"
+            onMouseDown={keepFocus}
             disabled={editing.hasErrors.value || editing.theirs.value !== null || !studio.link.connected}
             onClick={() => editing.plant()}
           >
@@ -80,6 +89,11 @@ export function EditorState({ studio, grammars: { editing, origins }, at, goTo }
       </div>
     </div>
   );
+}
+
+/** The keyboard of the screen stays while somebody asks what is wrong. */
+function keepFocus(event: Event): void {
+  event.preventDefault();
 }
 
 /** At which depth the text ends for a reason of its own, and why; nothing where it only grows too large. */
