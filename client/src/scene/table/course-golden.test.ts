@@ -60,11 +60,17 @@ describe("wood that the server draws as well", () => {
       const radius = MIN_RADIUS * Math.exp((code - 1) * RADIUS_LOG_STEP);
       return parent === null ? { parent: -1, at } : { parent, begins, at, radius };
     });
-    const { course, radiusCode, rows } = tableOf(twigs);
+    const { course, girth, radiusCode, rows } = tableOf(twigs);
     expect([...radiusCode.slice(0, rows)]).toEqual(tree.rows.map(([, , , code]) => code));
     const column = <T>(at: number) => tree.rows.map((row) => row[at] as T);
     expectSame(course.placed, column<Steps>(4), "places");
     expectSame(course.across, column<Steps>(5), "directions");
+    for (const [row, [arc, radius]] of column<[number, number]>(6).entries()) {
+      expect(Math.abs(arc - STEPS * course.arc[row]!), `length at row ${row}`).toBeLessThan(1);
+      // A seed is drawn as thick as its trunk, and has no wood of its own.
+      const own = tree.rows[row]![0] === null ? 0 : girth.radius[row]!;
+      expect(Math.abs(radius - STEPS * own), `radius of row ${row}`).toBeLessThan(1);
+    }
   });
 
   it("folds in some of them, and is moved", () => {
