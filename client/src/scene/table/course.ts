@@ -22,6 +22,8 @@ const GIRTH = 4;
 /** Nearer than this share of its radius to where it was, and less turned, thick wood stays. */
 const SLACK = 0.012;
 const SHORTEST = 1e-6;
+/** Where more than this share of all rows has changed, all limbs are drawn anew. */
+const MOST = 0.5;
 
 /** How much a trunk spreads at its foot, by the height above the ground in radii: on the average around it. */
 export function spread(flare: number, height: number): number {
@@ -48,6 +50,8 @@ export class Course {
   private stale: number[] = [];
   /** What is drawn anew though no node was touched. */
   private anew: "nothing" | "trunks" | "all" = "nothing";
+  /** Whether every limb is drawn anew. */
+  private whole = false;
   private readonly curve = new LimbCurve();
   private readonly offset = new Float64Array(3);
   /** The rows of the limb at hand. */
@@ -89,7 +93,9 @@ export class Course {
     const { noted, stale, due, anew } = this;
     const { parent } = table;
     const asked = stale.length;
-    for (let i = 0; i < asked; i += 1) {
+    // Of a tree that has just come each limb is drawn: none has to be looked for.
+    this.whole = anew === "all" || asked > MOST * table.rows;
+    for (let i = 0; i < asked && !this.whole; i += 1) {
       const row = stale[i]!;
       if (row >= table.rows) continue;
       if ((noted[row]! & NODE) !== 0) this.bears(table, row);
@@ -101,10 +107,11 @@ export class Course {
       }
       if ((noted[at]! & LIMB) === 0) due[at] = 1;
     }
-    if (anew !== "nothing") {
+    if (this.whole || anew !== "nothing") {
       for (let row = 0; row < table.rows; row += 1) {
-        const trunk = parent[row]! >= 0 && parent[parent[row]!]! < 0;
-        if (trunk || (anew === "all" && parent[row]! >= 0 && beginsLimb(table, row))) due[row] = 1;
+        const seed = parent[row]! < 0;
+        const trunk = !seed && parent[parent[row]!]! < 0;
+        if (trunk || (this.whole && (seed || table.limbs.begins[row] === 1))) due[row] = 1;
       }
     }
     // Limbs come after what bears them, and a search for the next is quick.
@@ -120,6 +127,7 @@ export class Course {
 
   /** What goes out from a node begins elsewhere. */
   private bears(table: Nodes, node: number): void {
+    if (this.whole) return;
     table.eachChild(node, (row) => {
       if (beginsLimb(table, row)) this.due[row] = 1;
     });
