@@ -98,7 +98,7 @@ pub struct StrokeSample {
 const MAX_NAMES: usize = 64;
 
 /// A lasso is as deep as it is wide unless it says otherwise.
-fn whole_depth() -> Depth {
+pub(crate) fn whole_depth() -> Depth {
     Depth::MOST
 }
 
@@ -339,6 +339,13 @@ tagged_enum! {
             #[ts(optional)]
             depth: Option<Steps>,
             /// A body that the grammar may ask for as `inside(0)`.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            within: Option<GrammarBody>,
+        },
+        /// Give the grammar in force another body to ask for, or take it away; its plant follows (`GR9`).
+        SetGrammarBody {
+            /// What `inside(0)` asks for; no body if nothing is said.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[ts(optional)]
             within: Option<GrammarBody>,

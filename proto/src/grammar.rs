@@ -34,6 +34,8 @@ pub struct GrammarBody {
     /// Where the outline lies.
     pub plane: DrawingPlane,
     /// How deep the body is, 0.1 to 1: at 1 it is as deep as it is wide, everywhere.
+    #[serde(default = "crate::command::whole_depth")]
+    #[ts(as = "Option<f32>", optional)]
     pub depth: Depth,
 }
 
@@ -79,8 +81,8 @@ pub struct GrammarInForce {
     pub sliders: Vec<GrammarSlider>,
     /// What was set; other sliders have the values of the text.
     pub values: Vec<GrammarValue>,
-    /// Whether a body goes with it, for `inside(0)`.
-    pub within: bool,
+    /// The body that it asks for as `inside(0)`; null where none was drawn.
+    pub within: Option<GrammarBody>,
     /// Steps of derivation up to the present step of the plants.
     pub depth: u32,
     /// How many steps back on the line of time each lead to the depth before.

@@ -166,6 +166,13 @@ pub struct Grow {
     /// Derive the grammar so deep; as deep as its text says if nothing is said.
     #[arg(long, value_name = "N", requires = "grammar", value_parser = parse_steps)]
     pub depth: Option<Steps>,
+    /// The space that the grammar may ask for as `inside(0)`: a file with a `within` as `set_grammar` has it, in JSON.
+    #[arg(long, value_name = "FILE", requires = "grammar")]
+    pub space: Option<PathBuf>,
+    /// Something to grow around: a model (.glb, .gltf, .obj; metres), or obstacles as `place_obstacle` has them, one a
+    /// line, in JSON (.json, .jsonl); may be given again.
+    #[arg(long = "obstacle", value_name = "FILE")]
+    pub obstacles: Vec<PathBuf>,
     /// Plant a design: a file of one, `-` for standard input, or the name of a template, as `chokkan`.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["species", "grammar"])]
     pub design: Option<PathBuf>,

@@ -140,6 +140,7 @@ fn done(result: Result<(), HeadlessError>) -> ExitCode {
         | HeadlessError::Options(_)
         | HeadlessError::Design { .. }
         | HeadlessError::Grammar { .. }
+        | HeadlessError::Surroundings { .. }
         | HeadlessError::OneName
         | HeadlessError::NoFormat(_)
         | HeadlessError::Output(OutputError::Terminal(_))

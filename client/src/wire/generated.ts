@@ -196,7 +196,7 @@ plane: DrawingPlane,
 /**
  * How deep the body is, 0.1 to 1: at 1 it is as deep as it is wide, everywhere.
  */
-depth: number, };
+depth?: number, };
 
 export type GrammarSlider = { 
 /**
@@ -242,9 +242,9 @@ sliders: Array<GrammarSlider>,
  */
 values: Array<GrammarValue>, 
 /**
- * Whether a body goes with it, for `inside(0)`.
+ * The body that it asks for as `inside(0)`; null where none was drawn.
  */
-within: boolean, 
+within: GrammarBody | null, 
 /**
  * Steps of derivation up to the present step of the plants.
  */
@@ -1689,6 +1689,10 @@ position?: [number, number, number],
 depth?: number, 
 /**
  * A body that the grammar may ask for as `inside(0)`.
+ */
+within?: GrammarBody, } | { "kind": "set_grammar_body", 
+/**
+ * What `inside(0)` asks for; no body if nothing is said.
  */
 within?: GrammarBody, } | { "kind": "derive", 
 /**

@@ -168,14 +168,16 @@ fn emit(expr: &Expr, defines: &[f64], curves: &[Curve], ops: &mut Vec<Op>) {
     }));
 }
 
-/// Whether an expression asks where its module stands.
-pub(crate) fn asks_place(expr: &Expr) -> bool {
+/// Whether an expression calls one of these functions.
+pub(crate) fn calls(expr: &Expr, which: fn(Function) -> bool) -> bool {
     match expr {
         Expr::Number(_) | Expr::Define(_) | Expr::Parameter(_) => false,
-        Expr::Negative(inner) | Expr::Not(inner) | Expr::Curve(_, inner) => asks_place(inner),
-        Expr::Binary(_, left, right) => asks_place(left) || asks_place(right),
-        Expr::Choice(parts) => parts.iter().any(asks_place),
-        Expr::Call(function, arguments) => function.asks_place() || arguments.iter().any(asks_place),
+        Expr::Negative(inner) | Expr::Not(inner) | Expr::Curve(_, inner) => calls(inner, which),
+        Expr::Binary(_, left, right) => calls(left, which) || calls(right, which),
+        Expr::Choice(parts) => parts.iter().any(|part| calls(part, which)),
+        Expr::Call(function, arguments) => {
+            which(*function) || arguments.iter().any(|argument| calls(argument, which))
+        }
     }
 }
 
@@ -250,15 +252,21 @@ fn call(function: Function, arguments: [f64; 3], moment: &mut Moment<'_>) -> f64
         (Function::BrighterZ, Some(stand)) => surroundings.brighter(stand).z,
         (Function::Free, Some(stand)) => truth(surroundings.is_free(stand, a)),
         (Function::Inside, Some(stand)) => {
-            let is_number = a.fract() == 0.0 && (0.0..f64::from(u32::MAX)).contains(&a);
-            if is_number { truth(surroundings.is_inside(stand, a as u32)) } else { f64::NAN }
+            body(a).map_or(f64::NAN, |body| truth(surroundings.is_inside(stand, body)))
         }
+        (Function::Exists, Some(_)) => body(a).map_or(f64::NAN, |body| truth(surroundings.has_body(body))),
         (Function::Vigor, Some(stand)) => surroundings.vigor(stand),
         (Function::Order, Some(stand)) => f64::from(stand.order),
         (Function::Below, Some(stand)) => f64::from(stand.below),
         // Whoever asks for a place is asked only where one is known.
         _ => f64::NAN,
     }
+}
+
+/// The number of a body.
+fn body(number: f64) -> Option<u32> {
+    let is_number = number.fract() == 0.0 && (0.0..f64::from(u32::MAX)).contains(&number);
+    is_number.then_some(number as u32)
 }
 
 /// A curve's value; beyond its ends it goes on level.

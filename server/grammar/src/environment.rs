@@ -28,10 +28,14 @@ pub trait Environment {
     /// Whether no wood of another branch lies within a radius, in internodes.
     fn is_free(&self, stand: &Stand, radius: f64) -> bool;
 
-    /// Whether a body holds the place: 0 is the envelope that was drawn, others are obstacles.
+    /// Whether a body holds the place: 0 is the envelope that was drawn, others are obstacles. Where no envelope was
+    /// drawn all space is its own.
     fn is_inside(&self, stand: &Stand, body: u32) -> bool;
 
-    /// The share of vigor that would come to a place, 0 to 1.
+    /// Whether there is such a body.
+    fn has_body(&self, body: u32) -> bool;
+
+    /// The vigor of the wood nearest to a place, as a share of the greatest, 0 to 1.
     fn vigor(&self, stand: &Stand) -> f64;
 }
 
@@ -52,7 +56,11 @@ impl Environment for OpenSky {
         true
     }
 
-    fn is_inside(&self, _: &Stand, _: u32) -> bool {
+    fn is_inside(&self, _: &Stand, body: u32) -> bool {
+        body == 0
+    }
+
+    fn has_body(&self, _: u32) -> bool {
         false
     }
 

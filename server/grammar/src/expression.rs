@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use crate::{
     diagnostic::nearest,
+    foreign,
     functions::{FUNCTIONS, Function},
     parser::{Parser, Scope},
     source::Span,
@@ -172,6 +173,7 @@ impl Parser<'_> {
                 let name = self.word().to_owned();
                 self.named(scope, &name, start)
             }
+            Some(c @ ('[' | '"' | '\'')) => Err(self.foreign_operand(start, c)),
             Some(c) => {
                 let here = Span::new(start, start + c.len_utf8());
                 self.report.error(here, wording::NO_EXPRESSION, [("found", &c)]);
@@ -211,10 +213,39 @@ impl Parser<'_> {
         }
     }
 
+    /// A function of Python or C, with what to write instead.
+    fn foreign_function(&mut self, name: &str, span: Span) {
+        let Some((wording, sign)) = foreign::function(name) else { return };
+        match sign {
+            Some(sign) => {
+                let values: [(_, &dyn Display); 2] = [("name", &name), ("sign", &sign)];
+                self.report.error(span, wording, values);
+            }
+            None => self.report.error(span, wording, [("name", &name)]),
+        }
+    }
+
+    /// A list, a text or a function without a name, as other languages have them.
+    fn foreign_operand(&mut self, start: usize, first: char) -> Lost {
+        let here = Span::new(start, start + first.len_utf8());
+        let within = self.rest().split(']').next().unwrap_or_default();
+        let wording = match first {
+            '[' if within.contains(" for ") => wording::PYTHON_COMPREHENSION,
+            '[' => wording::PYTHON_LIST_HERE,
+            _ => wording::PYTHON_TEXT,
+        };
+        self.report.error(here, wording, []);
+        Lost
+    }
+
     fn named(&mut self, scope: &Scope, name: &str, start: usize) -> Result<Expr, Lost> {
         let span = Span::new(start, self.at);
         self.skip_blanks();
         let function = FUNCTIONS.iter().find(|row| row.0 == name);
+        if name == "lambda" {
+            self.report.error(span, wording::PYTHON_LAMBDA, [("name", &name)]);
+            return Err(Lost);
+        }
         if self.peek() == Some('(') {
             self.at += 1;
             if name == "func" {
@@ -224,6 +255,7 @@ impl Parser<'_> {
             let Some(&(_, wanted, function)) = function else {
                 let names = FUNCTIONS.iter().map(|row| row.0).chain(["func"]);
                 match nearest(name, names) {
+                    _ if foreign::function(name).is_some() => self.foreign_function(name, span),
                     _ if FUNCTIONS_OF_CPFG.contains(&name) => {
                         self.report.error(span, wording::CPFG_FUNCTION, [("name", &name)]);
                     }

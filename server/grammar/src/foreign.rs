@@ -39,6 +39,15 @@ const WORDS: &[(&str, &Wording)] = &[
     ("else", wording::PYTHON_ELSE),
     ("return", wording::PYTHON_RETURN),
     ("class", wording::PYTHON_CLASS),
+    ("lambda", wording::PYTHON_LAMBDA),
+    ("with", wording::PYTHON_STATEMENT),
+    ("try", wording::PYTHON_STATEMENT),
+    ("except", wording::PYTHON_STATEMENT),
+    ("assert", wording::PYTHON_STATEMENT),
+    ("pass", wording::PYTHON_STATEMENT),
+    ("del", wording::PYTHON_STATEMENT),
+    ("raise", wording::PYTHON_STATEMENT),
+    ("yield", wording::PYTHON_STATEMENT),
     ("print", wording::PYTHON_PRINT),
     ("global", wording::PYTHON_GLOBAL),
     ("produce", wording::PYTHON_PRODUCE),
@@ -58,10 +67,58 @@ const WORDS: &[(&str, &Wording)] = &[
     ("float", wording::C_NUMBER),
     ("double", wording::C_NUMBER),
     ("int", wording::C_NUMBER),
+    ("char", wording::C_NUMBER),
+    ("long", wording::C_NUMBER),
+    ("short", wording::C_NUMBER),
+    ("unsigned", wording::C_NUMBER),
+    ("const", wording::C_NUMBER),
+    ("static", wording::C_NUMBER),
+    ("bool", wording::C_NUMBER),
+    ("switch", wording::C_STATEMENT),
+    ("case", wording::C_STATEMENT),
+    ("do", wording::C_STATEMENT),
+    ("typedef", wording::C_STRUCT),
+    ("enum", wording::C_STRUCT),
     ("void", wording::C_FUNCTION),
     ("struct", wording::C_STRUCT),
     ("derivation", wording::HEADER),
 ];
+
+/// Functions of Python and C that are none here: what is said of them, and what to write instead where that depends.
+const FUNCTIONS: &[(&str, &Wording, Option<&str>)] = &[
+    ("sum", wording::PYTHON_LISTS, None),
+    ("range", wording::PYTHON_LISTS, None),
+    ("xrange", wording::PYTHON_LISTS, None),
+    ("len", wording::PYTHON_LISTS, None),
+    ("list", wording::PYTHON_LISTS, None),
+    ("dict", wording::PYTHON_LISTS, None),
+    ("tuple", wording::PYTHON_LISTS, None),
+    ("map", wording::PYTHON_LISTS, None),
+    ("zip", wording::PYTHON_LISTS, None),
+    ("enumerate", wording::PYTHON_LISTS, None),
+    ("sorted", wording::PYTHON_LISTS, None),
+    ("array", wording::PYTHON_LISTS, None),
+    ("Vector2", wording::PYTHON_LISTS, None),
+    ("Vector3", wording::PYTHON_LISTS, None),
+    ("AxialTree", wording::PYTHON_STRING, None),
+    ("Lstring", wording::PYTHON_STRING, None),
+    ("Lsystem", wording::PYTHON_STRING, None),
+    ("ParamModule", wording::PYTHON_STRING, None),
+    ("str", wording::PYTHON_STRING, None),
+    ("random", wording::PYTHON_CHANCE, Some("ran(1)")),
+    ("rand", wording::PYTHON_CHANCE, Some("ran(1)")),
+    ("uniform", wording::PYTHON_CHANCE, Some("a + ran(b-a)")),
+    ("randint", wording::PYTHON_CHANCE, Some("a + floor(ran(b-a+1))")),
+    ("gauss", wording::PYTHON_CHANCE, Some("nran(m, s)")),
+    ("int", wording::C_CAST, None),
+    ("float", wording::C_CAST, None),
+    ("double", wording::C_CAST, None),
+];
+
+/// What is said of a function of another language, and what to write instead where that depends on it.
+pub(crate) fn function(name: &str) -> Option<(&'static Wording, Option<&'static str>)> {
+    FUNCTIONS.iter().find(|row| row.0 == name).map(|&(_, wording, sign)| (wording, sign))
+}
 
 /// The construct of another language that a line begins with.
 pub(crate) fn foreign(line: &str) -> Option<Foreign<'_>> {
@@ -86,9 +143,15 @@ pub(crate) fn foreign(line: &str) -> Option<Foreign<'_>> {
         let is_statement = behind.is_empty() || behind.starts_with([' ', '\t', '(', ':', '\n', '[']);
         let is_length =
             name == "derivation" && behind.trim_start().to_ascii_lowercase().starts_with("length");
-        if is_statement && !is_length {
+        let is_number = behind.trim_start().starts_with('=');
+        if is_statement && !is_length && !is_number {
             return Some(Foreign::new(wording, name, 0, word_length));
         }
+    }
+    if let Some(at) =
+        ["++", "--"].iter().find(|sign| !word.is_empty() && behind.trim_start().starts_with(**sign))
+    {
+        return Some(Foreign::new(wording::C_STEP, at, word_length, behind.len().min(2)));
     }
     if header(line).is_none() {
         if let Some(body) = python_rule(line) {
@@ -102,10 +165,22 @@ pub(crate) fn foreign(line: &str) -> Option<Foreign<'_>> {
     }
     if is_definition(line) {
         let value = line.split_once('=').map_or("", |(_, value)| value.trim_start());
+        if value.starts_with('[') && value.contains(" for ") {
+            return Some(Foreign::new(wording::PYTHON_COMPREHENSION, word, 0, word_length));
+        }
         if value.starts_with(['[', '{', '"', '\'']) {
             return Some(Foreign::new(wording::PYTHON_LIST, word, 0, word_length));
         }
         let from = line.len() - value.len();
+        let called =
+            &value[..value.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(value.len())];
+        if called == "lambda" {
+            return Some(Foreign::new(wording::PYTHON_LAMBDA, called, from, called.len()));
+        }
+        let is_call = value[called.len()..].trim_start().starts_with('(');
+        if let Some((wording, sign)) = function(called).filter(|_| is_call) {
+            return Some(Foreign { sign, ..Foreign::new(wording, called, from, called.len()) });
+        }
         if let Some(&(name, sign)) = CONSTANTS.iter().find(|row| row.0 == value.trim_end()) {
             let found = Foreign::new(wording::PYTHON_CONSTANT, name, from, name.len());
             return Some(Foreign { sign: Some(sign), ..found });

@@ -36,6 +36,7 @@ pub(crate) enum Function {
     BrighterZ,
     Free,
     Inside,
+    Exists,
     Vigor,
     Order,
     Below,
@@ -49,8 +50,17 @@ impl Function {
 
     /// Whether it needs to know where the turtle stands.
     pub fn asks_place(self) -> bool {
-        use Function::{Below, BrighterX, BrighterY, BrighterZ, Free, Inside, Light, Order, Vigor};
-        matches!(self, Light | BrighterX | BrighterY | BrighterZ | Free | Inside | Vigor | Order | Below)
+        use Function::{Below, BrighterX, BrighterY, BrighterZ, Exists, Free, Inside, Light, Order, Vigor};
+        matches!(
+            self,
+            Light | BrighterX | BrighterY | BrighterZ | Free | Inside | Exists | Vigor | Order | Below
+        )
+    }
+
+    /// Whether its value depends on what wood stands there.
+    pub fn asks_of_wood(self) -> bool {
+        use Function::{BrighterX, BrighterY, BrighterZ, Free, Light, Vigor};
+        matches!(self, Light | BrighterX | BrighterY | BrighterZ | Free | Vigor)
     }
 }
 
@@ -90,6 +100,7 @@ pub(crate) const FUNCTIONS: &[(&str, u8, Function)] = &[
     ("towards_light_z", 0, Function::BrighterZ),
     ("free", 1, Function::Free),
     ("inside", 1, Function::Inside),
+    ("exists", 1, Function::Exists),
     ("vigor", 0, Function::Vigor),
     ("order", 0, Function::Order),
     ("below", 0, Function::Below),

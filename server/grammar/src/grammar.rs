@@ -216,4 +216,14 @@ impl Grammar {
     pub fn asks_places(&self) -> bool {
         crate::program::asks_places(self)
     }
+
+    /// Whether it asks for what depends on the wood around, its own and others': light, free space or vigor.
+    pub fn asks_of_wood(&self) -> bool {
+        crate::program::asks_of_wood(self)
+    }
+
+    /// Whether it asks for vigor, to be derived or drawn.
+    pub fn asks_of_vigor(&self) -> bool {
+        crate::program::asks_of_vigor(self)
+    }
 }

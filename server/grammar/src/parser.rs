@@ -72,6 +72,21 @@ pub(crate) struct Parser<'a> {
     pub is_over: bool,
 }
 
+/// Lines without the indented ones that belong to a block of another language: the line that begins it says all.
+fn outside_of_blocks(source: &Source, lines: Vec<Span>) -> Vec<Span> {
+    let mut is_in_block = false;
+    let mut is_outside = |line: &Span| {
+        let is_indented = source.text[..line.start as usize].ends_with([' ', '\t']);
+        if is_in_block && is_indented {
+            return false;
+        }
+        let first = source.slice(*line).lines().next().unwrap_or_default();
+        is_in_block = first.trim_end().ends_with(':') && foreign(source.slice(*line)).is_some();
+        true
+    };
+    lines.into_iter().filter(|line| is_outside(line)).collect()
+}
+
 impl<'a> Parser<'a> {
     fn new(source: &'a Source) -> Self {
         Self {
@@ -109,7 +124,7 @@ impl<'a> Parser<'a> {
             parser.report.error(end, wording::FILE_TOO_LONG, [("most", &most)]);
             return Checked { grammar: None, diagnostics: parser.report.finish(source) };
         }
-        let lines = source.logical_lines();
+        let lines = outside_of_blocks(source, source.logical_lines());
         // Names first: strings are read by them, and definitions stand for numbers everywhere.
         for &line in &lines {
             if is_definition_line(source.slice(line)) {

@@ -3,10 +3,11 @@
 use std::fmt::{self, Display};
 
 use crate::{
-    code::{Code, asks_place, compile, unsteady},
+    code::{Code, calls, compile, unsteady},
     derivation::Place,
     diagnostic::{Values, written},
     expression::Expr,
+    functions::Function,
     grammar::{Ahead, Buds, Curve, Grammar, Module, Neighbour, Radii, Rule, Slider, SliderRow},
     review::are_alternatives,
     source::Span,
@@ -151,25 +152,40 @@ pub struct Program {
 
 /// Whether a grammar asks where its modules stand.
 pub(crate) fn asks_places(grammar: &Grammar) -> bool {
+    let is_question = |action| {
+        use Action::{AskHeading, AskLeft, AskLight, AskPlace, AskUp};
+        matches!(action, AskPlace | AskHeading | AskUp | AskLeft | AskLight)
+    };
+    asks(grammar, is_question, Function::asks_place)
+}
+
+/// Whether it asks for what depends on the wood around.
+pub(crate) fn asks_of_wood(grammar: &Grammar) -> bool {
+    asks(grammar, |action| action == Action::AskLight, Function::asks_of_wood)
+}
+
+/// Whether it asks for vigor, to be derived or drawn.
+pub(crate) fn asks_of_vigor(grammar: &Grammar) -> bool {
+    let is_vigor = |function| function == Function::Vigor;
+    let of_rule = |rule: &Rule| {
+        let arguments = rule.successor.iter().flat_map(|module| &module.arguments);
+        let questions = rule.condition.iter().chain(&rule.weight).chain(&rule.locals.values);
+        questions.chain(arguments).any(|expr| calls(expr, is_vigor))
+    };
+    asks(grammar, |_| false, is_vigor) || grammar.homomorphism.iter().any(of_rule)
+}
+
+fn asks(grammar: &Grammar, is_question: fn(Action) -> bool, which: fn(Function) -> bool) -> bool {
     let of_modules = |modules: &[Module]| {
         modules.iter().any(|module| {
-            let action = turtle(module.symbol).map(|row| row.action);
-            let is_question = matches!(
-                action,
-                Some(
-                    Action::AskPlace
-                        | Action::AskHeading
-                        | Action::AskUp
-                        | Action::AskLeft
-                        | Action::AskLight
-                )
-            );
-            is_question || module.arguments.iter().any(asks_place)
+            let is_asked = turtle(module.symbol).is_some_and(|row| is_question(row.action));
+            is_asked || module.arguments.iter().any(|argument| calls(argument, which))
         })
     };
     let of_rule = |rule: &Rule| {
         let questions = rule.condition.iter().chain(&rule.weight);
-        questions.into_iter().chain(&rule.locals.values).any(asks_place) || of_modules(&rule.successor)
+        questions.into_iter().chain(&rule.locals.values).any(|expr| calls(expr, which))
+            || of_modules(&rule.successor)
     };
     of_modules(&grammar.axiom) || grammar.rules.iter().chain(&grammar.decomposition).any(of_rule)
 }

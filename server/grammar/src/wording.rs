@@ -103,12 +103,12 @@ wordings! {
     PYTHON_FUNCTION: "python.function", "`{name}` is Python, which is not run here"
         => "a grammar has no functions of its own; func: defines curves";
     PYTHON_IMPORT: "python.import", "`{name}` is Python, which is not run here" => "nothing is imported";
-    PYTHON_LOOP: "python.loop", "`{name}` is Python, which is not run here"
+    PYTHON_LOOP: "python.loop", "`{name}` is Python or C, which is not run here"
         => "a rule acts on all modules at once; repeat by deriving further";
-    PYTHON_IF: "python.if", "`{name}` is Python, which is not run here"
+    PYTHON_IF: "python.if", "`{name}` is Python or C, which is not run here"
         => "write conditions into the rule: A(x) : x > 0 --> F";
-    PYTHON_ELSE: "python.else", "`{name}` is Python, which is not run here" => "write a rule for each case";
-    PYTHON_RETURN: "python.return", "`{name}` is Python, which is not run here" => "a rule is written A --> F";
+    PYTHON_ELSE: "python.else", "`{name}` is Python or C, which is not run here" => "write a rule for each case";
+    PYTHON_RETURN: "python.return", "`{name}` is Python or C, which is not run here" => "a rule is written A --> F";
     PYTHON_CLASS: "python.class", "`{name}` is Python, which is not run here" => "a grammar has no classes";
     PYTHON_PRINT: "python.print", "`{name}` is Python, which is not run here" => "a grammar prints nothing";
     PYTHON_GLOBAL: "python.global", "`{name}` is Python, which is not run here"
@@ -126,6 +126,27 @@ wordings! {
         => "definitions are numbers: R = 1.5";
     PYTHON_LIST: "python.list", "`{name}` is a list or a text, and definitions are numbers"
         => "give each number a name of its own, or make a curve of them: func: {name} 0 1 1 2";
+    PYTHON_LAMBDA: "python.lambda", "`{name}` is Python, which is not run here"
+        => "a grammar has no functions of its own; func: defines curves";
+    PYTHON_COMPREHENSION: "python.comprehension", "a list made by `for` is Python, which is not run here"
+        => "a rule acts on all modules at once; repeat by deriving further";
+    PYTHON_LIST_HERE: "python.list-here", "`[` begins a list of Python here, and parameters are numbers"
+        => "give each number a name of its own, or make a curve of them: func: name 0 1 1 2";
+    PYTHON_TEXT: "python.text", "a text in quotes is Python or C here, and parameters are numbers"
+        => "write a number: A(1)";
+    PYTHON_LISTS: "python.lists", "`{name}(…)` is a function of Python, which is not run here"
+        => "a grammar has no lists; give each number a name of its own, or make a curve of them: func: name 0 1 1 2";
+    PYTHON_STRING: "python.string", "`{name}(…)` makes a string in Python, which is not run here"
+        => "write its modules behind the axiom or an arrow: axiom: F[+F]A";
+    PYTHON_CHANCE: "python.chance", "`{name}(…)` is a function of Python or C, which is not run here"
+        => "write {sign}";
+    PYTHON_STATEMENT: "python.statement", "`{name}` is Python, which is not run here"
+        => "a grammar has no statements; definitions are numbers: R = 1.5";
+    C_STATEMENT: "c.statement", "`{name}` is C, which is not run here"
+        => "a grammar has no statements; definitions are numbers: R = 1.5";
+    C_CAST: "c.cast", "`{name}(…)` is a function of Python or C, which is not run here"
+        => "numbers are not of kinds here; write trunc(x) to cut off what is behind the point";
+    C_STEP: "c.step", "`{name}` is C, which is not run here" => "write the new number into the successor: A(x) --> A(x+1)";
     STATEMENT_START: "cpfg-statements.start", "`{name}` is a statement, and none is run here"
         => "a grammar has no statements; definitions are numbers: R = 1.5";
     STATEMENT_EACH: "cpfg-statements.each", "`{name}` is a statement, and none is run here"

@@ -329,6 +329,18 @@ impl Canopy {
         (0..old).filter(|&slot| !self.nodes[slot].is_main()).filter_map(starve).collect()
     }
 
+    /// The vigor that flows through a node for each tip above it; none where no light comes from.
+    pub(crate) fn vigor_per_tip(&self, plant: &Plant, id: MetamerId) -> f32 {
+        self.vigors.get(self.slots.of(id) as usize).map_or(0.0, |&vigor| per_tip(plant, id, vigor))
+    }
+
+    /// The greatest of these of all nodes.
+    pub(crate) fn greatest_vigor(&self, plant: &Plant) -> f32 {
+        let wood = self.wood.of(plant);
+        let vigors = self.vigors.iter().enumerate();
+        vigors.map(|(slot, &vigor)| per_tip(plant, wood.id(slot), vigor)).fold(0.0, f32::max)
+    }
+
     /// Hands light and vigor on to whoever draws the plant.
     pub(crate) fn write_conditions(&mut self, scene: &mut Scene, parameters: &ParameterTable) {
         self.read_rest(scene, parameters);
@@ -337,12 +349,7 @@ impl Canopy {
         for id in self.darkened.drain(..).filter(|id| id.index() < count) {
             plant.set_condition(id, Condition { light: 0, vigor: 0 });
         }
-        let per_tip = |plant: &Plant, id: MetamerId, vigor: f64| {
-            vigor as f32 / plant.metamers().tips(id).max(1) as i32 as f32
-        };
-        let wood = self.wood.of(plant);
-        let vigors = self.vigors.iter().enumerate();
-        let greatest = vigors.map(|(slot, &vigor)| per_tip(plant, wood.id(slot), vigor)).fold(0.0, f32::max);
+        let greatest = self.greatest_vigor(plant);
         let scale = if greatest > 0.0 { 255.0 / greatest } else { 0.0 };
         for (slot, (sums, light)) in self.sums.iter().zip(&self.light).enumerate() {
             let id = self.wood.of(plant).id(slot);
@@ -355,6 +362,10 @@ impl Canopy {
             plant.set_condition(id, condition);
         }
     }
+}
+
+fn per_tip(plant: &Plant, id: MetamerId, vigor: f64) -> f32 {
+    vigor as f32 / plant.metamers().tips(id).max(1) as i32 as f32
 }
 
 /// L^κ (TreeSketch §3.2).

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use espalier_plant::TimeShift;
+use espalier_plant::{MetamerId, TimeShift};
 use glam::Vec3;
 
 use crate::{
@@ -168,6 +168,17 @@ impl Growth {
             || self.guides.values().any(|guide| guide.is_waiting() || is_led(guide))
     }
 
+    /// The vigor that flows through a node for each tip above it, in no unit, as it was [looked at](Self::look) last; 0
+    /// where no light comes from.
+    pub fn vigor_at(&self, scene: &Scene, node: MetamerId) -> f32 {
+        self.canopy.vigor_per_tip(&scene.plant, node)
+    }
+
+    /// The greatest vigor for each tip that any node has.
+    pub fn greatest_vigor(&self, scene: &Scene) -> f32 {
+        self.canopy.greatest_vigor(&scene.plant)
+    }
+
     pub(crate) fn show(&mut self, scene: &mut Scene) {
         self.look(scene);
         self.canopy.write_conditions(scene, &self.parameters);
@@ -187,8 +198,8 @@ impl Growth {
         self.is_blind = true;
     }
 
-    /// Reads the light of the present, where that was put off.
-    pub(crate) fn look(&mut self, scene: &Scene) {
+    /// Reads the light of the present and the vigor that follows from it, where that was put off.
+    pub fn look(&mut self, scene: &Scene) {
         if self.is_blind {
             self.is_blind = false;
             self.see_light(scene, &[], &mut NoObserver);

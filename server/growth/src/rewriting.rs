@@ -3,7 +3,7 @@
 
 mod frames;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use espalier_plant::{AxisId, Carried, DormantBuds, Internode, KeyTable, MetamerId, Plant, Wood};
 use glam::{Quat, Vec3};
@@ -40,6 +40,8 @@ pub struct Rewriting<'a> {
     pub before: Option<Drawn<'a>>,
     /// The rows that names had, in order of the names.
     pub rows: &'a [(u64, u32)],
+    /// What was told as [`Rewritten::ends`] then.
+    pub ends: &'a [(u32, u32)],
     /// Where the drawing begins.
     pub at: Vec3,
 }
@@ -49,6 +51,9 @@ pub struct Rewriting<'a> {
 pub struct Rewritten {
     /// The rows that names have now, in order of the names.
     pub rows: Vec<(u64, u32)>,
+    /// The rows at which drawings, and not others, have ended what went on from them, each with the axis that went on from
+    /// it last, in order: what goes on from there again may do so.
+    pub ends: Vec<(u32, u32)>,
     /// How many metamers moved.
     pub moved: usize,
 }
@@ -97,7 +102,7 @@ impl Rewriting<'_> {
         step.prune(&writer.cuts);
         writer.find_buds(step);
         writer.bear(step)?;
-        Ok(Rewritten { rows: writer.rows(), moved })
+        Ok(Rewritten { rows: writer.rows(), ends: writer.ends_of_axes(), moved })
     }
 
     /// Where names stand among the rows.
@@ -124,6 +129,8 @@ struct Writer<'a> {
     /// Whether the bud of an axis that a node would go on from lived before anything was cut, or what went on from there
     /// is cut now.
     may_go_on: Vec<bool>,
+    /// Where drawings have ended what went on, with the axis that went on last.
+    ended: BTreeMap<MetamerId, AxisId>,
     /// The axis that each node is to be born on, where it is known.
     buds: Vec<Option<AxisId>>,
     /// The rows of nodes.
@@ -154,6 +161,7 @@ impl<'a> Writer<'a> {
             turns: Vec::with_capacity(count),
             cuts: Vec::new(),
             may_go_on: vec![false; count],
+            ended: BTreeMap::new(),
             buds: vec![None; count],
             rows: vec![None; count],
         }
@@ -193,13 +201,41 @@ impl<'a> Writer<'a> {
         let metamers = plant.metamers();
         let mut bared: Vec<MetamerId> = self.cuts.iter().filter_map(|&row| metamers.parent(row)).collect();
         bared.sort_unstable();
+        self.ended = self.ended_before(plant);
+        for &cut in &self.cuts {
+            let below = metamers.parent(cut).filter(|&below| metamers.axis(below) == metamers.axis(cut));
+            if let Some(below) = below {
+                self.ended.entry(below).or_insert(metamers.axis(cut));
+            }
+        }
         for number in 0..self.wood().nodes.len() {
             let parent = self.wood().nodes[number].parent.map(|parent| self.fates[parent as usize]);
             if let (Fate::Born, Some(Fate::Stays(parent))) = (self.fates[number], parent) {
                 let is_alive = plant.is_axis_alive(metamers.axis(parent));
-                self.may_go_on[number] = is_alive || bared.binary_search(&parent).is_ok();
+                let is_bare = || bared.binary_search(&parent).is_ok() || self.ended.contains_key(&parent);
+                self.may_go_on[number] = is_alive || is_bare();
             }
         }
+    }
+
+    /// Where drawings ended before what went on, but for where others have cut what went on since.
+    fn ended_before(&self, plant: &Plant) -> BTreeMap<MetamerId, AxisId> {
+        let (rows, metamers) = (plant.metamer_count(), plant.metamers());
+        let ends = self.rewriting.ends.iter().filter(|&&(row, _)| (row as usize) < rows);
+        let mut ended: BTreeMap<MetamerId, AxisId> =
+            ends.map(|&(row, axis)| (MetamerId::new(row as usize), AxisId::new(axis as usize))).collect();
+        if ended.is_empty() {
+            return ended;
+        }
+        // A name whose row is dead was cut by others: what a drawing cuts has no name then.
+        let known = self.rewriting.rows.iter().map(|&(_, row)| MetamerId::new(row as usize));
+        for cut in known.filter(|&row| row.index() < rows && !plant.is_alive(row)) {
+            let Some(below) = metamers.parent(cut) else { continue };
+            if ended.get(&below) == Some(&metamers.axis(cut)) {
+                ended.remove(&below);
+            }
+        }
+        ended
     }
 
     fn fate(&self, plant: &Plant, number: usize) -> Fate {
@@ -346,7 +382,11 @@ impl<'a> Writer<'a> {
                     continue;
                 }
             }
-            self.buds[number] = Some(step.graft_bud(below, direction));
+            let axis = step.graft_bud(below, direction);
+            if self.goes_on(number) {
+                self.ended.insert(below, axis);
+            }
+            self.buds[number] = Some(axis);
         }
     }
 
@@ -440,6 +480,14 @@ impl<'a> Writer<'a> {
         rows.sort_unstable();
         rows.dedup_by_key(|&mut (key, _)| key);
         rows
+    }
+
+    /// Where drawings have ended what went on from rows that are still drawn.
+    fn ends_of_axes(&self) -> Vec<(u32, u32)> {
+        let mut drawn: Vec<MetamerId> = self.rows.iter().flatten().copied().collect();
+        drawn.sort_unstable();
+        let ended = self.ended.iter().filter(|(row, _)| drawn.binary_search(row).is_ok());
+        ended.map(|(row, axis)| (row.raw(), axis.raw())).collect()
     }
 }
 

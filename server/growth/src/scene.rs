@@ -75,6 +75,13 @@ impl Scene {
         if self.obstacles.contains(place) {
             return false;
         }
+        let Some(own) = self.nearest_node(place, radius) else { return true };
+        let own = self.plant.metamers().axis(own);
+        !self.space.is_occupied(place, radius, |id| self.plant.metamers().axis(id) != own)
+    }
+
+    /// The node nearest to a place, if one lies within a radius of it; of equally near ones the oldest.
+    pub fn nearest_node(&self, place: Vec3, radius: f32) -> Option<MetamerId> {
         let nearest = std::cell::Cell::new(None::<(f32, MetamerId)>);
         // Nothing counts, so that all are seen.
         self.space.is_occupied(place, radius, |id| {
@@ -84,9 +91,7 @@ impl Scene {
             }
             false
         });
-        let Some((_, own)) = nearest.get() else { return true };
-        let own = self.plant.metamers().axis(own);
-        !self.space.is_occupied(place, radius, |id| self.plant.metamers().axis(id) != own)
+        nearest.get().map(|(_, id)| id)
     }
 
     /// Whether an obstacle, by its place among all, holds a place.
@@ -102,6 +107,11 @@ impl Scene {
         }
         let difference = |axis: Vec3| self.exposure(place + axis) - self.exposure(place - axis);
         Vec3::new(difference(Vec3::X), difference(Vec3::Y), difference(Vec3::Z)).try_normalize()
+    }
+
+    /// Sets how many metamers the scene may hold.
+    pub fn set_metamer_budget(&mut self, budget: u32) {
+        self.metamer_budget = budget;
     }
 
     /// Metamers the scene may hold.

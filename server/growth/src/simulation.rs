@@ -83,7 +83,7 @@ impl<G: Generator> Simulation<G> {
 
     /// Sets how many metamers the scene may hold.
     pub fn set_metamer_budget(&mut self, budget: u32) {
-        self.scene.metamer_budget = budget;
+        self.scene.set_metamer_budget(budget);
     }
 
     /// Whether the last step had to stop at the budget.

@@ -236,6 +236,7 @@ impl Document {
                 };
                 self.set_grammar(cause, &planting)
             }
+            Action::SetGrammarBody { within } => self.set_grammar_body(cause, within.as_ref()),
             Action::Derive { steps } => self.derive(cause, steps.get()),
             Action::SetGrammarValues { values } => self.set_grammar_values(cause, values),
             Action::GoTo { step } => self.go_to(*step),
@@ -383,6 +384,7 @@ fn keeps_set(action: &Action) -> bool {
             | Action::EditDesign { .. }
             | Action::ReleaseDesign {}
             | Action::SetGrammar { .. }
+            | Action::SetGrammarBody { .. }
             | Action::Derive { .. }
             | Action::SetGrammarValues { .. }
             | Action::TakeBack {}

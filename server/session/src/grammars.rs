@@ -50,7 +50,8 @@ pub fn check_grammar(wanted: &CheckGrammar) -> Result<GrammarReport, Problem> {
     if wanted.sizes {
         let seed = wanted.seed.or(program.seed()).unwrap_or(1);
         let mut measured = Measured { sizes: Vec::new(), tiny: None, cost: 0 };
-        let ends = measured.look(&grammar, program, seed).err();
+        let deepest = program.depth().max(DEEPEST);
+        let ends = measured.look(&grammar, program, seed, deepest).err();
         report.sizes = measured.sizes;
         report.diagnostics.extend(measured.tiny.as_ref().map(wire));
         report.ends = ends.map(|stop| match stop {
@@ -74,8 +75,8 @@ struct Measured {
 
 impl Measured {
     /// Notes how large a plant is at each depth, as far as that can be found out.
-    fn look(&mut self, grammar: &Grammar, program: Program, seed: u32) -> Result<(), Stop> {
-        let (depth, deepest) = (program.depth(), program.depth().max(DEEPEST));
+    fn look(&mut self, grammar: &Grammar, program: Program, seed: u32, deepest: u32) -> Result<(), Stop> {
+        let depth = program.depth();
         let options = WoodOptions { nodes: MOST_INTERNODES, extent: WORLD_EXTENT as u32, twig_radius: 0.05 };
         let mut derivation = Derivation::new(Arc::new(program), seed, LIMITS)?;
         let mut drawn_for = 0;
@@ -176,6 +177,22 @@ pub fn grammar_script(text: &str, depth: Option<Steps>) -> Result<Action, Vec<Di
     })
 }
 
+/// What there is to say of a text that is planted: its warnings, and whether it is drawn too small.
+pub fn grammar_notes(text: &str) -> Vec<Diagnostic> {
+    let checked = Grammar::check(text);
+    let mut notes = checked.diagnostics;
+    if let Some((grammar, program)) =
+        checked.grammar.and_then(|grammar| grammar.program(&[]).ok().map(|program| (grammar, program)))
+    {
+        let (seed, depth) = (program.seed().unwrap_or(1), program.depth());
+        let mut measured = Measured { sizes: Vec::new(), tiny: None, cost: 0 };
+        // Where it ends is told when it is planted.
+        let _ended = measured.look(&grammar, program, seed, depth);
+        notes.extend(measured.tiny);
+    }
+    notes
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -241,7 +258,8 @@ mod tests {
             let grammar = Grammar::read(&text).expect("it is right");
             let program = grammar.program(&[]).expect("no sliders");
             let mut measured = Measured { sizes: Vec::new(), tiny: None, cost: 0 };
-            let ended = measured.look(&grammar, program, 1);
+            let deepest = program.depth().max(DEEPEST);
+            let ended = measured.look(&grammar, program, 1, deepest);
             let begin: String = text.chars().take(60).collect();
             assert!(ended.is_err(), "{begin}");
             // The work of one step, which is bounded, may be on top.

@@ -52,9 +52,10 @@ pub(crate) fn after_taking_on(action: &Action, rows: u64) -> u64 {
         // A copy of any branch.
         Action::Graft { .. } => 2 * rows + LEAST_STEP,
         // A step of derivation seldom adds more.
-        Action::SetGrammar { .. } | Action::Derive { .. } | Action::SetGrammarValues { .. } => {
-            4 * rows + LEAST_STEP
-        }
+        Action::SetGrammar { .. }
+        | Action::SetGrammarBody { .. }
+        | Action::Derive { .. }
+        | Action::SetGrammarValues { .. } => 4 * rows + LEAST_STEP,
         Action::PlaceObstacle { obstacle } => rows + as_rows(LEAST_STEP, triangles_of(&obstacle.shape)),
         _ => rows,
     }

@@ -5,6 +5,7 @@ mod design;
 mod grammar;
 mod species;
 mod stats;
+mod surroundings;
 
 use std::{
     fs,
@@ -90,6 +91,16 @@ pub enum HeadlessError {
         /// Why it ended.
         cause: String,
     },
+    /// What is to stand around does not fit.
+    #[error("The file {} is no {what}: {cause}.", path.display())]
+    Surroundings {
+        /// Which file.
+        path: PathBuf,
+        /// What it should be.
+        what: &'static str,
+        /// What is wrong with it.
+        cause: String,
+    },
     /// The file is no design.
     #[error("The file {} is no design: {cause}.", path.display())]
     Design {
@@ -133,8 +144,10 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
 pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
     check(&options.results)?;
     let pool = SimulationPool::new(options.results.threads)?;
+    // Standard input can be read once only, and what is said of a text is said once.
+    let wanted = Wanted::read(options)?;
     let Some(SeedRange(seeds)) = &options.seeds else {
-        return finish(grown(options, options.seed, &pool)?, options.species, &options.results);
+        return finish(grown(options, &wanted, options.seed, &pool)?, options.species, &options.results);
     };
     let name = options.results.export.as_ref().map(|export| export.path.to_string_lossy().into_owned());
     if name.as_ref().is_some_and(|name| !name.contains(SEED)) {
@@ -146,27 +159,58 @@ pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
         if let (Some(export), Some(name)) = (&mut results.export, &name) {
             export.path = name.replace(SEED, &seed.to_string()).into();
         }
-        let bench = grown(options, seed, &pool)?;
+        let bench = grown(options, &wanted, seed, &pool)?;
         bar.aside(|| finish(bench, options.species, &results))?;
         bar.step();
     }
     Ok(())
 }
 
+/// What is grown, as the files say.
+struct Wanted {
+    planted: Option<grammar::Planted>,
+    /// What stands around it.
+    obstacles: Vec<Action>,
+    /// Parameters that are set by hand.
+    parameters: ParametersPatch,
+}
+
+impl Wanted {
+    fn read(options: &Grow) -> Result<Self, HeadlessError> {
+        let space = options.space.as_deref().map(surroundings::body).transpose()?;
+        let grammar = options.grammar.as_deref();
+        let planted = grammar.map(|path| grammar::planted(path, options.depth, space)).transpose()?;
+        // All at once: weights that are changed one by one do not sum to 1 in between.
+        let patches = options.start.parameters.iter();
+        let parameters = patches.fold(ParametersPatch::default(), |all, patch| all.patched(patch));
+        let metres = Document::new(0).parameters().patched(&parameters).internode_length;
+        let mut obstacles = Vec::new();
+        for path in &options.obstacles {
+            obstacles.extend(surroundings::obstacles(path, metres)?);
+        }
+        Ok(Self { planted, obstacles, parameters })
+    }
+}
+
 /// One tree.
-fn grown(options: &Grow, seed: u32, pool: &SimulationPool) -> Result<Bench, HeadlessError> {
-    let planted = options.grammar.as_deref().map(|path| grammar::planted(path, options.depth)).transpose()?;
-    let depth = planted.as_ref().map(|planted| planted.depth);
+fn grown(options: &Grow, wanted: &Wanted, seed: u32, pool: &SimulationPool) -> Result<Bench, HeadlessError> {
+    let depth = wanted.planted.as_ref().map(|planted| planted.depth);
     let of_seed = options.seeds.is_some().then_some(seed);
     let designed = options.design.as_deref().map(|path| design::planted(path, of_seed)).transpose()?;
-    let base = match planted.map(|planted| planted.action).or(designed) {
+    let planted = wanted.planted.as_ref().map(|planted| planted.action.clone());
+    let base = match planted.or(designed) {
         Some(action) => Recipe { script: vec![action], ..Recipe::default() },
         None => options.species.map(Recipe::of).unwrap_or_default(),
     };
-    let patches = options.start.parameters.iter();
+    let is_set = wanted.parameters != ParametersPatch::default();
+    // A recipe without a script begins with its parameters.
+    let set =
+        (is_set && options.species.is_none() && !(base.script.is_empty() && wanted.obstacles.is_empty()))
+            .then(|| Action::SetParameters { parameters: wanted.parameters.clone() });
+    let script = set.into_iter().chain(wanted.obstacles.iter().cloned()).chain(base.script).collect();
     let recipe = Recipe {
-        // All at once: weights that are changed one by one do not sum to 1 in between.
-        parameters: patches.fold(ParametersPatch::default(), |all, patch| all.patched(patch)),
+        script,
+        parameters: wanted.parameters.clone(),
         steps: options.steps,
         metamers: options.metamers,
         // Dead metamers count as well, and how many will die is not known before.

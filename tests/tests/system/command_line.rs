@@ -198,6 +198,70 @@ fn a_grammar_that_is_none_is_told_from_one_that_ends() {
 }
 
 #[test]
+fn what_is_to_be_known_of_a_grammar_is_noted_on_stderr() {
+    let scratch = Scratch::new();
+    let path = scratch.path("own.lsys");
+    fs::write(&path, "axiom: A\nderivation length: 60\nA --> F(0.1)[+(30)F(0.1)F(0.1)F(0.1)~l]A\n")
+        .expect("it can be written");
+    let path = path.to_str().expect("a plain name");
+    let finished = program::run(&["grow", "--grammar", path, "--seeds", "1-2", "--stats", "json"]);
+    assert_eq!(finished.code, 0, "{}", finished.stderr);
+    let notes: Vec<&str> = finished.stderr.lines().filter(|line| line.starts_with("Note: ")).collect();
+    assert_eq!(notes.len(), 2, "each is said once: {}", finished.stderr);
+    assert!(notes[0].contains("own.lsys: line 3, column") && notes[0].contains("~l"), "{}", notes[0]);
+    assert!(notes[1].contains("scale: 10"), "{}", notes[1]);
+}
+
+#[test]
+fn a_grammar_is_given_a_space_and_obstacles() {
+    let scratch = Scratch::new();
+    let written = |name: &str, text: &str| {
+        let path = scratch.path(name);
+        fs::write(&path, text).expect("it can be written");
+        path.to_str().expect("a plain name").to_owned()
+    };
+    let grammar = written(
+        "own.lsys",
+        "axiom: A\nderivation length: 9\nA : inside(0) && !inside(1) --> F[&(50)A]/(137.5)A\nA : !inside(0) || inside(1) --> %\n",
+    );
+    let space = written(
+        "space.json",
+        r#"{"outline": [[-3, -1], [3, -1], [3, 5], [-3, 5]], "plane": {"origin": [0, 0, 0], "right": [1, 0, 0], "up": [0, 1, 0]}}"#,
+    );
+    let wall = written(
+        "wall.json",
+        r#"{"shape": {"kind": "box", "size": [2, 30, 30]}, "pose": {"position": [2, 0, 0]}}"#,
+    );
+    let model = written(
+        "wall.obj",
+        "v 1 -9 -9\nv 1 9 -9\nv 1 9 9\nv 1 -9 9\nv 3 0 0\nf 1 2 3\nf 1 3 4\nf 2 1 5\nf 3 2 5\nf 4 3 5\nf 1 4 5\n",
+    );
+    let alive = |more: &[&str]| {
+        let arguments = [&["grow", "--grammar", &*grammar, "--stats", "json"], more].concat();
+        stats(&arguments)["metamers_alive"].as_u64().expect("a number")
+    };
+    let free = alive(&[]);
+    let within = alive(&["--space", &space]);
+    let beside = alive(&["--obstacle", &wall]);
+    let both = alive(&["--space", &space, "--obstacle", &wall]);
+    assert!(within < free && beside < free && both < within.min(beside), "{free} {within} {beside} {both}");
+    let metres = ["--parameter", "internode_length=1", "--obstacle", &model];
+    assert!(alive(&metres) < free, "a model stands in the way as well");
+    // Trees that no grammar writes grow around it, too.
+    let grown = |more: &[&str]| stats(&[&["grow", "--steps", "12", "--stats", "json"], more].concat());
+    assert_ne!(outcome(&grown(&[])), outcome(&grown(&["--obstacle", &wall])));
+    for (options, named) in [
+        (["--space", &*wall], "wall.json is no space of a grammar"),
+        (["--obstacle", &*space], "space.json is no obstacle"),
+        (["--obstacle", &*grammar], "own.lsys is no obstacle"),
+    ] {
+        let finished = program::run(&[&["grow", "--grammar", &*grammar], &options[..]].concat());
+        assert_eq!(finished.code, 2, "{}", finished.stderr);
+        assert!(finished.stderr.contains(named), "{}", finished.stderr);
+    }
+}
+
+#[test]
 fn what_a_grammar_writes_leaves_in_every_format_and_sways() {
     let scratch = Scratch::new();
     let path = scratch.path("own.lsys");

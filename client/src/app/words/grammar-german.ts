@@ -49,15 +49,15 @@ export const GERMAN = {
   ],
   "python.import": ["`{name}` ist Python, das hier nicht ausgeführt wird", "eingebunden wird nichts"],
   "python.loop": [
-    "`{name}` ist Python, das hier nicht ausgeführt wird",
+    "`{name}` ist Python oder C, das hier nicht ausgeführt wird",
     "eine Regel wirkt auf alle Module zugleich; wiederholt wird, indem man weiter ableitet",
   ],
   "python.if": [
-    "`{name}` ist Python, das hier nicht ausgeführt wird",
+    "`{name}` ist Python oder C, das hier nicht ausgeführt wird",
     "schreibe Bedingungen in die Regel: A(x) : x > 0 --> F",
   ],
-  "python.else": ["`{name}` ist Python, das hier nicht ausgeführt wird", "schreibe für jeden Fall eine Regel"],
-  "python.return": ["`{name}` ist Python, das hier nicht ausgeführt wird", "eine Regel schreibt man A --> F"],
+  "python.else": ["`{name}` ist Python oder C, das hier nicht ausgeführt wird", "schreibe für jeden Fall eine Regel"],
+  "python.return": ["`{name}` ist Python oder C, das hier nicht ausgeführt wird", "eine Regel schreibt man A --> F"],
   "python.class": ["`{name}` ist Python, das hier nicht ausgeführt wird", "eine Grammatik hat keine Klassen"],
   "python.print": ["`{name}` ist Python, das hier nicht ausgeführt wird", "eine Grammatik gibt nichts aus"],
   "python.global": ["`{name}` ist Python, das hier nicht ausgeführt wird", "festgelegt werden Zahlen: R = 1.5"],
@@ -85,6 +85,50 @@ export const GERMAN = {
   "python.list": [
     "`{name}` ist eine Liste oder ein Text, festgelegt werden aber Zahlen",
     "gib jeder Zahl einen eigenen Namen, oder mach eine Kurve daraus: func: {name} 0 1 1 2",
+  ],
+  "python.lambda": [
+    "`{name}` ist Python, das hier nicht ausgeführt wird",
+    "eine Grammatik hat keine eigenen Funktionen; func: legt Kurven fest",
+  ],
+  "python.comprehension": [
+    "eine Liste mit `for` ist Python, das hier nicht ausgeführt wird",
+    "eine Regel wirkt auf alle Module zugleich; wiederhole, indem du weiter ableitest",
+  ],
+  "python.list-here": [
+    "`[` beginnt hier eine Liste von Python; Parameter sind Zahlen",
+    "gib jeder Zahl einen eigenen Namen, oder mach eine Kurve daraus: func: name 0 1 1 2",
+  ],
+  "python.text": [
+    "ein Text in Anführungszeichen ist hier Python oder C; Parameter sind Zahlen",
+    "schreibe eine Zahl: A(1)",
+  ],
+  "python.lists": [
+    "`{name}(…)` ist eine Funktion von Python, das hier nicht ausgeführt wird",
+    "eine Grammatik hat keine Listen; gib jeder Zahl einen eigenen Namen, oder mach eine Kurve daraus: func: name 0 1 1 2",
+  ],
+  "python.string": [
+    "`{name}(…)` baut eine Folge in Python, das hier nicht ausgeführt wird",
+    "schreibe ihre Module hinter das Axiom oder einen Pfeil: axiom: F[+F]A",
+  ],
+  "python.chance": [
+    "`{name}(…)` ist eine Funktion von Python oder C, was hier nicht ausgeführt wird",
+    "schreibe {sign}",
+  ],
+  "python.statement": [
+    "`{name}` ist Python, das hier nicht ausgeführt wird",
+    "eine Grammatik hat keine Anweisungen; festgelegt werden Zahlen: R = 1.5",
+  ],
+  "c.statement": [
+    "`{name}` ist C, das hier nicht ausgeführt wird",
+    "eine Grammatik hat keine Anweisungen; festgelegt werden Zahlen: R = 1.5",
+  ],
+  "c.cast": [
+    "`{name}(…)` ist eine Funktion von Python oder C, was hier nicht ausgeführt wird",
+    "Zahlen haben hier keine Arten; trunc(x) schneidet ab, was hinter dem Komma steht",
+  ],
+  "c.step": [
+    "`{name}` ist C, das hier nicht ausgeführt wird",
+    "schreibe die neue Zahl rechts in die Regel: A(x) --> A(x+1)",
   ],
   "cpfg-statements.start": [
     "`{name}` ist eine Anweisung, und hier wird keine ausgeführt",

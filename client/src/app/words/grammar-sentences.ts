@@ -49,12 +49,12 @@ export const SENTENCES = {
   ],
   "python.import": ["`{name}` is Python, which is not run here", "nothing is imported"],
   "python.loop": [
-    "`{name}` is Python, which is not run here",
+    "`{name}` is Python or C, which is not run here",
     "a rule acts on all modules at once; repeat by deriving further",
   ],
-  "python.if": ["`{name}` is Python, which is not run here", "write conditions into the rule: A(x) : x > 0 --> F"],
-  "python.else": ["`{name}` is Python, which is not run here", "write a rule for each case"],
-  "python.return": ["`{name}` is Python, which is not run here", "a rule is written A --> F"],
+  "python.if": ["`{name}` is Python or C, which is not run here", "write conditions into the rule: A(x) : x > 0 --> F"],
+  "python.else": ["`{name}` is Python or C, which is not run here", "write a rule for each case"],
+  "python.return": ["`{name}` is Python or C, which is not run here", "a rule is written A --> F"],
   "python.class": ["`{name}` is Python, which is not run here", "a grammar has no classes"],
   "python.print": ["`{name}` is Python, which is not run here", "a grammar prints nothing"],
   "python.global": ["`{name}` is Python, which is not run here", "definitions are numbers: R = 1.5"],
@@ -74,6 +74,41 @@ export const SENTENCES = {
     "`{name}` is a list or a text, and definitions are numbers",
     "give each number a name of its own, or make a curve of them: func: {name} 0 1 1 2",
   ],
+  "python.lambda": [
+    "`{name}` is Python, which is not run here",
+    "a grammar has no functions of its own; func: defines curves",
+  ],
+  "python.comprehension": [
+    "a list made by `for` is Python, which is not run here",
+    "a rule acts on all modules at once; repeat by deriving further",
+  ],
+  "python.list-here": [
+    "`[` begins a list of Python here, and parameters are numbers",
+    "give each number a name of its own, or make a curve of them: func: name 0 1 1 2",
+  ],
+  "python.text": ["a text in quotes is Python or C here, and parameters are numbers", "write a number: A(1)"],
+  "python.lists": [
+    "`{name}(…)` is a function of Python, which is not run here",
+    "a grammar has no lists; give each number a name of its own, or make a curve of them: func: name 0 1 1 2",
+  ],
+  "python.string": [
+    "`{name}(…)` makes a string in Python, which is not run here",
+    "write its modules behind the axiom or an arrow: axiom: F[+F]A",
+  ],
+  "python.chance": ["`{name}(…)` is a function of Python or C, which is not run here", "write {sign}"],
+  "python.statement": [
+    "`{name}` is Python, which is not run here",
+    "a grammar has no statements; definitions are numbers: R = 1.5",
+  ],
+  "c.statement": [
+    "`{name}` is C, which is not run here",
+    "a grammar has no statements; definitions are numbers: R = 1.5",
+  ],
+  "c.cast": [
+    "`{name}(…)` is a function of Python or C, which is not run here",
+    "numbers are not of kinds here; write trunc(x) to cut off what is behind the point",
+  ],
+  "c.step": ["`{name}` is C, which is not run here", "write the new number into the successor: A(x) --> A(x+1)"],
   "cpfg-statements.start": [
     "`{name}` is a statement, and none is run here",
     "a grammar has no statements; definitions are numbers: R = 1.5",

@@ -42,6 +42,30 @@ export const GRAMMARS = {
     "Nothing that stands now was made by this line.",
     "Von dieser Zeile steht gerade nichts.",
   ],
+  "grammars.space.draw": ["Draw its space", "Raum zeichnen"],
+  "grammars.space.again": ["Draw its space anew", "Raum neu zeichnen"],
+  "grammars.space.help": [
+    "The next outline on the picture is the space in which it may grow",
+    "Der nächste Umriss auf dem Bild ist der Raum, in dem sie wachsen darf",
+  ],
+  "grammars.space.how": [
+    "Draw an outline on the picture, from the foot of the plant around where it may grow.",
+    "Zeichne einen Umriss auf das Bild, vom Fuß der Pflanze um alles, wo sie wachsen darf.",
+  ],
+  "grammars.space.cancel": ["Cancel", "Abbrechen"],
+  "grammars.space.clear": ["Take the space away", "Raum wegnehmen"],
+  "grammars.space.seed-outside": [
+    "The seed stands outside of this space, so whatever asks inside(0) at its foot is told no. Draw from the foot upwards.",
+    "Der Same steht außerhalb dieses Raums: Was am Fuß inside(0) fragt, bekommt nein. Zeichne vom Fuß aufwärts.",
+  ],
+  "grammars.space.unasked": [
+    "A text that asks inside(0) grows within a space which you draw here.",
+    "Ein Text, der inside(0) fragt, wächst in einem Raum, den du hier zeichnest.",
+  ],
+  "grammars.space.in-vain": [
+    "A space is drawn, but this text does not ask inside(0).",
+    "Ein Raum ist gezeichnet, aber dieser Text fragt inside(0) nicht.",
+  ],
   "grammars.keys": ["Signs", "Zeichen"],
   "grammars.key": ["{sign} {does}", "{sign} {does}"],
   "grammars.reference": ["Short reference", "Kurzreferenz"],
@@ -156,7 +180,7 @@ export const SHIPPED_GRAMMARS: Readonly<Record<string, readonly [title: string, 
   ],
   "topiary-box": [
     "Formschnitt im Kasten",
-    "Ein Busch, der sich verzweigt, solange er in einem Kasten steht; was herauskommt, wird geschnitten, und Knospen darunter wachsen weiter.",
+    "Ein Busch, der sich in einem gezeichneten Raum verzweigt, oder in einem Kasten, wenn keiner gezeichnet ist; was herauskommt, wird geschnitten, und Knospen darunter wachsen weiter.",
   ],
   "light-seeker": [
     "Lichtsucher",

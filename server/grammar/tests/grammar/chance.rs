@@ -110,3 +110,24 @@ fn what_happens_in_one_branch_changes_no_chance_in_another() {
     // Another successor before the heir leaves the heir's chance alone as well.
     assert_eq!(trunk(text), trunk(&text.replace("F(1)[B(0)]A", "F(1)F(1)[B(0)][B(0)]A")));
 }
+
+#[test]
+fn without_one_laterals_rule_all_draws_elsewhere_are_as_they_were() {
+    let text = "axiom: A(0)\nA(x) --> F(1)[B(ran(1))][C(ran(1))]A(x+ran(1))\n\
+                B(y) --> F(ran(1))[E(ran(1))]B(y+ran(1))\n\
+                C(z) --> F(nran(1, 1))C(z+ran(1)) : 2\nC(z) --> D(ran(1)) : 1\nD(z) --> D(z)\nE(z) --> E(z)";
+    let without = text.replace("B(y) --> F(ran(1))[E(ran(1))]B(y+ran(1))\n", "");
+    assert_ne!(text, without);
+    // All words in brackets that do not begin with what B has made, and the trunk.
+    let elsewhere = |text: &str| {
+        let (grammar, derivation) = seeded(text, 23, 9);
+        let word = derivation.word().text(&grammar);
+        let is_of_b = |branch: &&str| branch.contains('B') || branch.contains('E');
+        let branches: Vec<String> =
+            word.split(['[', ']']).filter(|branch| !is_of_b(branch)).map(str::to_owned).collect();
+        let of_c = branches.iter().filter(|branch| branch.contains('C') || branch.contains('D')).count();
+        assert!(of_c >= 9, "{word}");
+        branches.into_iter().filter(|branch| branch.contains(['A', 'C', 'D'])).collect::<Vec<_>>()
+    };
+    assert_eq!(elsewhere(text), elsewhere(&without));
+}

@@ -25,6 +25,10 @@ impl Environment for Garden {
         body == 0 && stand.place.length() < 5.0
     }
 
+    fn has_body(&self, body: u32) -> bool {
+        body == 0
+    }
+
     fn vigor(&self, stand: &Stand) -> f64 {
         1.0 / f64::from(1 + stand.below)
     }
@@ -55,7 +59,10 @@ fn light_is_asked_where_a_module_stands() {
 fn branches_end_where_the_envelope_does() {
     let text = "axiom: A\nA : inside(0) --> F(1)A\nA : !inside(0) --> %";
     assert_eq!(word(text, 9, &Garden), "F(1)F(1)F(1)F(1)F(1)%");
-    assert_eq!(word(text, 3, &OpenSky), "%", "an envelope that was not drawn holds nothing");
+    assert_eq!(word(text, 3, &OpenSky), "F(1)F(1)F(1)A", "where none was drawn all space is its own");
+    let text = "axiom: A\nA --> B(exists(0), exists(1), inside(0), inside(1))\nB(a,b,c,d) --> B(a,b,c,d)";
+    assert_eq!(word(text, 1, &Garden), "B(1,0,1,0)");
+    assert_eq!(word(text, 1, &OpenSky), "B(0,0,1,0)");
 }
 
 #[test]

@@ -106,3 +106,19 @@ fn numbers_of_headers_are_in_their_ranges() {
     }
     read("derivation length: 10000\naxiom: A\nA --> F");
 }
+
+#[test]
+fn a_predecessor_has_up_to_sixty_four_parameters_with_its_contexts() {
+    let module = |name: char, from: usize, count: usize| {
+        let names: Vec<String> = (from..from + count).map(|at| format!("p{at}")).collect();
+        format!("{name}({})", names.join(","))
+    };
+    let rule = |more: usize| {
+        let left = [module('A', 0, 16), module('B', 16, 16)].concat();
+        let right = [module('D', 48, 16), module('E', 64, more)].concat();
+        let right = if more == 0 { module('D', 48, 16) } else { right };
+        format!("axiom: F\n{left} < {} > {right} --> F(p63)", module('C', 32, 16))
+    };
+    read(&rule(0));
+    refused(&rule(1), "parameter-count.contexts");
+}

@@ -186,3 +186,28 @@ fn nothing_drawn_is_a_seed() {
     assert_eq!(found.wood.nodes.len(), 1);
     assert_eq!(planted(&found).living_count(), 0);
 }
+
+#[test]
+fn looking_in_a_direction_is_a_frame_with_the_up_that_is_said() {
+    // What turns and pitches lead to afterwards shows the whole frame: left is up × heading.
+    let end = |turtle: &str| {
+        let found = drawn(&format!("axiom: F(1){turtle}F(1)"), 0);
+        (found.wood.nodes.last().expect("a line").end - Vec3::Y)
+            .to_array()
+            .map(|part| (part * 1000.0).round() + 0.0)
+    };
+    // To the east, with up upwards: left is the north.
+    assert_eq!(end("@R(1,0,0,0,1,0)"), [1000.0, 0.0, 0.0]);
+    assert_eq!(end("@R(1,0,0,0,1,0)+(90)"), [0.0, 0.0, -1000.0]);
+    assert_eq!(end("@R(1,0,0,0,1,0)^(90)"), [0.0, 1000.0, 0.0]);
+    assert_eq!(end("@R(1,0,0,0,1,0)&(90)"), [0.0, -1000.0, 0.0]);
+    // A length means nothing, and an up that leans is set upright on the heading.
+    assert_eq!(end("@R(5,0,0,3,2,0)^(90)"), [0.0, 1000.0, 0.0]);
+    // Without an up the turtle's own is kept as far as it can be.
+    assert_eq!(end("@R(1,0,0)^(90)"), [0.0, 0.0, 1000.0]);
+    // No direction at all, and an up along the heading, are nothing to turn to.
+    assert_eq!(end("@R(0,0,0)"), [0.0, 1000.0, 0.0]);
+    assert_eq!(end("@R(1,0,0,1,0,0)"), [1000.0, 0.0, 0.0]);
+    // After any other turns it is the same.
+    assert_eq!(end("+(33)&(12)/(70)@R(0,0,1,0,1,0)^(90)"), [0.0, 1000.0, 0.0]);
+}

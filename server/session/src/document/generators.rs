@@ -86,8 +86,10 @@ impl Generator for Generators {
             &Step::Age { chosen, until } => self.grow_older(scene, chosen, until, observer),
             Step::Write(write) => {
                 let before = scene.plant().metamer_count();
-                let written =
-                    self.grammars.write(scene, self.growth.parameters(), &self.state.written, write);
+                if write.asks_of_vigor(&self.state.written) {
+                    self.growth.look(scene);
+                }
+                let written = self.grammars.write(scene, &self.growth, &self.state.written, write);
                 let Wrote::Whole(written) = written else { return StepOutcome::default() };
                 self.state.written = written;
                 self.growth.follow(scene, &Change::Edited);

@@ -4,6 +4,7 @@
 //! Words are not kept: they follow from the text, its values, its seed and what surroundings answered. What is kept for
 //! each depth is which row each name of the word has, so that what goes on stays what it was.
 
+mod anew;
 mod commands;
 mod depths;
 mod origins;
@@ -48,6 +49,10 @@ pub(crate) struct Source {
     axiom_at: Place,
     program: Arc<Program>,
     asks: bool,
+    /// Whether what it asks for depends on what else it has written.
+    asks_of_wood: bool,
+    /// Whether it asks for vigor, which is read only where somebody wants to know it.
+    asks_of_vigor: bool,
 }
 
 impl PartialEq for Source {
@@ -70,6 +75,8 @@ pub(crate) struct Written {
     pub(super) answers: Vec<Arc<[f64]>>,
     /// The rows that names have, in order of the names.
     pub(super) rows: Vec<(u64, u32)>,
+    /// The rows whose axes it has ended itself, each with the axis that went on from it last, in order.
+    pub(super) ends: Vec<(u32, u32)>,
     /// The step of the plants that it led to.
     pub(super) step: u32,
     /// Whether others have changed the plants since the grammar began.
@@ -102,6 +109,12 @@ pub(crate) enum Write {
 }
 
 impl Write {
+    /// Whether it asks for vigor, with this in force.
+    pub(super) fn asks_of_vigor(&self, now: &InForce) -> bool {
+        let of_former = now.0.as_ref().is_some_and(|written| written.source.asks_of_vigor);
+        of_former || matches!(self, Self::Set { source, .. } if source.asks_of_vigor)
+    }
+
     /// Bytes of the text that it brings.
     fn text_bytes(&self) -> usize {
         match self {
@@ -133,7 +146,14 @@ impl From<EditError> for WriteError {
 impl InForce {
     pub(super) fn hash(&self, hash: &mut StableHash) {
         let Some(written) = &self.0 else { return };
-        let Source { text, values, seed, at, .. } = &*written.source;
+        let Source { text, values, seed, at, within, .. } = &*written.source;
+        if let Some((body, _)) = within {
+            for part in body.outline.iter().flat_map(|point| point.get().to_array()) {
+                hash.word(part.to_bits().into());
+            }
+            hash.vector(body.plane.origin());
+            hash.word(body.depth.get().to_bits().into());
+        }
         for chunk in text.as_bytes().chunks(8) {
             hash.word(chunk.iter().fold(0, |word, &byte| word << 8 | u64::from(byte)));
         }
@@ -143,6 +163,9 @@ impl InForce {
         for &(key, row) in &written.rows {
             hash.word(key);
             hash.word(row.into());
+        }
+        for &(row, axis) in &written.ends {
+            hash.word(u64::from(row) | u64::from(axis) << 32);
         }
     }
 }
@@ -185,6 +208,8 @@ impl Source {
             sliders: sliders_of(&grammar),
             axiom_at: grammar.axiom_place(),
             asks: grammar.asks_places(),
+            asks_of_wood: grammar.asks_of_wood(),
+            asks_of_vigor: grammar.asks_of_vigor(),
             program: Arc::new(program),
         })
     }

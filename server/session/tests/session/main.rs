@@ -18,6 +18,7 @@ mod flow;
 mod following;
 mod futures;
 mod fuzz;
+mod grammar_surroundings;
 mod grammars;
 mod guiding;
 mod handshake;

@@ -78,6 +78,13 @@ pub(crate) fn commands() -> Vec<Value> {
                 "plane": { "origin": [0, 0, 0], "right": [1, 0, 0], "up": [0, 1, 0] },
             },
         }),
+        json!({
+            "kind": "set_grammar_body", "gesture": 1,
+            "within": {
+                "outline": [[0, 0], [1, 0], [1, 1]], "depth": 0.5,
+                "plane": { "origin": [0, 0, 0], "right": [1, 0, 0], "up": [0, 1, 0] },
+            },
+        }),
         json!({ "kind": "derive", "steps": 2, "gesture": 1 }),
         json!({ "kind": "set_grammar_values", "values": [{ "name": "a", "value": 20 }], "gesture": 1 }),
         json!({ "kind": "go_to", "step": 1 }),

@@ -10,7 +10,7 @@ const told = (depth: number, earlier = 0, later = 0): GrammarInForce => ({
   seed: 1,
   sliders: [],
   values: [],
-  within: false,
+  within: null,
   depth,
   earlier,
   later,

@@ -21,7 +21,7 @@ const told = (text: string, values: Record<string, number> = {}): GrammarInForce
   seed: 1,
   sliders: [{ name: "a", from: 0, to: 90, value: 30 }],
   values: Object.entries(values).map(([name, value]) => ({ name, value })),
-  within: false,
+  within: null,
   depth: 5,
   earlier: 0,
   later: 0,

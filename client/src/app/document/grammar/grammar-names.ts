@@ -102,6 +102,7 @@ export const FUNCTIONS: ReadonlyMap<string, number> = new Map([
   ["towards_light_z", 0],
   ["free", 1],
   ["inside", 1],
+  ["exists", 1],
   ["vigor", 0],
   ["order", 0],
   ["below", 0],

@@ -9,15 +9,17 @@ import { Framing } from "./framing";
 import { checkGrammar, originsIn } from "./grammar-api";
 import { GrammarEditing } from "./grammar-editing";
 import { Origins } from "./origins";
+import { GrammarSpace } from "./space";
 
 /** All that a page does with grammars. */
 export interface Grammars {
   readonly editing: GrammarEditing;
   readonly depth: DepthControl;
   readonly origins: Origins;
+  readonly space: GrammarSpace;
 }
 
-const KINDS = ["set_grammar", "set_grammar_values", "derive", "go_to"] as const;
+const KINDS = ["set_grammar", "set_grammar_body", "set_grammar_values", "derive", "go_to"] as const;
 /** So far beside what stands there a grammar is planted, in internodes. */
 const ASIDE = 20;
 /** What has made nothing. */
@@ -104,7 +106,14 @@ export function grammarsOf(studio: Studio): Grammars {
   editing.typing.subscribe((typing) => {
     studio.grammar.writing.value = typing;
   });
-  const made = { editing, depth, origins };
+  const space = new GrammarSpace({
+    inForce,
+    outline: studio.outline,
+    chosen: studio.tools.chosen,
+    choose: (tool) => studio.tools.choose(tool),
+    submit,
+  });
+  const made = { editing, depth, origins, space };
   MADE.set(studio, made);
   return made;
 }

@@ -50,3 +50,8 @@ function hasProbability(text: string): boolean {
 export function titleOf(text: string): string | null {
   return /^[ \t]*(?:title|lsystem)[ \t]*:[ \t]*(\S.*)$/im.exec(text)?.[1]?.trim() ?? null;
 }
+
+/** Whether a text asks for a space that was drawn by hand. */
+export function asksSpace(text: string): boolean {
+  return /\b(?:inside|exists)\s*\(\s*0\s*\)/.test(text);
+}

@@ -20,6 +20,7 @@ export const LASSO: ToolDescriptor<LassoTool> = {
       bud: () => bud.row.peek(),
       base,
       copies,
+      taker: () => outline.taker,
       newGesture: next,
       depth: () => settings.lassoDepth.peek(),
       draw: (points, copies) => outline.draw(points, copies),

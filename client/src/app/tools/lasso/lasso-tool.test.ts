@@ -4,6 +4,7 @@ import { type Command, MAX_MESSAGE_BYTES } from "../../../wire/generated";
 import { copiesOf, OFF } from "../symmetry/symmetry";
 import { LassoTool } from "./lasso-tool";
 import type { Point2 } from "./outline";
+import type { OutlineTaker } from "./outline-trace";
 
 /** A view turned a quarter: a pixel is a tenth of an internode, to the right is −z, up is y, from pixel 1000. */
 function setUp() {
@@ -17,6 +18,7 @@ function setUp() {
     repeated: [] as readonly (readonly Point2[])[],
     outlines: [] as readonly (readonly Vec3[])[],
     symmetry: OFF,
+    taker: null as OutlineTaker | null,
   };
   const drawn: (readonly Point2[] | null)[] = [];
   const tool = new LassoTool({
@@ -32,6 +34,7 @@ function setUp() {
     bud: () => world.bud,
     depth: () => world.depth,
     base: () => [2, 0, 0],
+    taker: () => world.taker,
     copies: () => copiesOf(world.symmetry, { foot: [2, 0, -40], mirrorNormal: [0, 0, -1] }),
     newGesture: () => sent.length + 1,
     draw: (outline, repeated) => {

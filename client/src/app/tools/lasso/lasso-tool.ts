@@ -5,6 +5,7 @@ import type { BrushView } from "../../view/brush-view";
 import type { Copy } from "../symmetry/symmetry";
 import { PICK_TOLERANCE, type Tool, tidy } from "../tool";
 import { enclosedArea, type Point2, simplifiedTo } from "./outline";
+import type { OutlineTaker } from "./outline-trace";
 
 /** A smaller loop, in square pixels, is a slip of the finger. */
 const LEAST_AREA = 900;
@@ -30,6 +31,8 @@ export interface LassoOptions {
   readonly bud: () => number | null;
   /** Where an outline lies in depth if it begins beside every branch. */
   readonly base: (x: number, y: number) => Vec3;
+  /** Who gets the outline, if not the tree. */
+  readonly taker: () => OutlineTaker | null;
   /** What is drawn from a place on the canvas, and its repetitions. */
   readonly copies: (row: number | null, x: number, y: number) => readonly Copy[];
   /** A number no other gesture of this client has. */
@@ -60,10 +63,11 @@ export class LassoTool implements Tool {
   }
 
   begin(point: StrokePoint): void {
-    const { view, base, copies } = this.#options;
-    const picked = view.pick(point.x, point.y, PICK_TOLERANCE);
-    this.#through = picked?.point ?? base(point.x, point.y);
-    this.#copies = copies(picked?.row ?? null, point.x, point.y);
+    const { view, base, copies, taker } = this.#options;
+    const other = taker();
+    const picked = other ? null : view.pick(point.x, point.y, PICK_TOLERANCE);
+    this.#through = other?.through ?? picked?.point ?? base(point.x, point.y);
+    this.#copies = other ? [] : copies(picked?.row ?? null, point.x, point.y);
     this.#outline = [];
     this.move([point]);
   }
@@ -88,7 +92,7 @@ export class LassoTool implements Tool {
     if (!drawn) {
       return;
     }
-    const { view, bud, depth, submit, sent, tooSmall } = this.#options;
+    const { view, bud, depth, submit, sent, tooSmall, taker } = this.#options;
     const plane = view.drawingPlane(this.#through);
     const places = this.#placesOf(simplifiedTo(drawn, TOLERANCE, MAX_OUTLINE_POINTS));
     const outline = places.map((place) => onPlane(place, plane));
@@ -96,8 +100,13 @@ export class LassoTool implements Tool {
       tooSmall();
       return;
     }
-    const row = bud();
     const flat = depth() < 1 ? { depth: depth() } : {};
+    const other = taker();
+    if (other) {
+      other.take({ outline, plane, ...flat });
+      return;
+    }
+    const row = bud();
     const copies = this.#copies;
     const joined = copies.length > 1 ? { gesture: this.#options.newGesture() } : {};
     for (const copy of copies) {

@@ -6,6 +6,7 @@ import { DepthTab } from "./grammars/depth-tab";
 import { GrammarEditor } from "./grammars/grammar-editor";
 import { GrammarGrid } from "./grammars/grammar-grid";
 import { followKeyboard } from "./grammars/screen-keyboard";
+import { useSpaceShown } from "./grammars/space-field";
 import { TABS, tab } from "./grammars/tab";
 
 /** Plants that are written: grammars to pick from, the text of the one in force, its depth and sliders. */
@@ -13,6 +14,7 @@ export function GrammarsPanel({ studio }: { studio: Studio }) {
   const grammars = grammarsOf(studio);
   const shown = tab.value ?? (studio.grammar.inForce.value === null ? "pick" : "text");
   useEffect(() => followKeyboard(), []);
+  useSpaceShown(studio);
   return (
     <div class="grammars" data-tab={shown}>
       <div class="tabs three" role="tablist" aria-label={say("grammars.tabs")} onKeyDown={onTabKey}>

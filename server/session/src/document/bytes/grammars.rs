@@ -63,6 +63,10 @@ pub(super) fn write(out: &mut Writer, history: &History, futures: &Futures) {
         out.u32(written.step);
         out.u8(u8::from(written.is_edited));
         out.u32(written.begun);
+        out.list(&written.ends, |out, &(row, axis)| {
+            out.u32(row);
+            out.u32(axis);
+        });
     });
     out.list(&states, |out, &number| out.option(number));
 }
@@ -81,9 +85,9 @@ pub(super) fn read(
 }
 
 fn read_states(r: &mut Reader<'_>) -> Result<Vec<InForce>, DocumentError> {
-    r.up_to(1)?;
+    let version = r.up_to(2)?;
     let sources = r.list(read_source)?;
-    let all = r.list(|r| read_written(r, &sources))?;
+    let all = r.list(|r| read_written(r, &sources, version))?;
     r.list(|r| {
         let Some(number) = r.option()? else { return Ok(InForce(None)) };
         let written = all.get(number as usize).ok_or_else(|| damaged("a grammar is missing"))?;
@@ -103,7 +107,11 @@ fn read_source(r: &mut Reader<'_>) -> Result<Arc<Source>, DocumentError> {
     source.map(Arc::new).map_err(|problem| damaged(problem.message))
 }
 
-fn read_written(r: &mut Reader<'_>, sources: &[Arc<Source>]) -> Result<Arc<Written>, DocumentError> {
+fn read_written(
+    r: &mut Reader<'_>,
+    sources: &[Arc<Source>],
+    version: u16,
+) -> Result<Arc<Written>, DocumentError> {
     let source = sources.get(r.u32()? as usize).ok_or_else(|| damaged("the text of a grammar is missing"))?;
     let depth = r.u32()?;
     let answers = r.list(|r| Ok(r.list(Reader::f64)?.into()))?;
@@ -112,5 +120,10 @@ fn read_written(r: &mut Reader<'_>, sources: &[Arc<Source>]) -> Result<Arc<Writt
         return Err(damaged("the names of a grammar are out of order"));
     }
     let (step, is_edited, begun) = (r.u32()?, r.u8()? > 0, r.u32()?);
-    Ok(Arc::new(Written { source: Arc::clone(source), depth, answers, rows, step, is_edited, begun }))
+    // The first version does not say what grammars have ended themselves: all counts as ended by hands.
+    let ends = if version < 2 { Vec::new() } else { r.list(|r| Ok((r.row()?, r.u32()?)))? };
+    if !ends.is_sorted_by(|one, other| one.0 < other.0) {
+        return Err(damaged("what a grammar has ended is out of order"));
+    }
+    Ok(Arc::new(Written { source: Arc::clone(source), depth, answers, rows, ends, step, is_edited, begun }))
 }

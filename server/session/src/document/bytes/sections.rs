@@ -82,7 +82,7 @@ pub(super) const PARAMETERS: Kind = first(*b"PARA", "parameters", lengths::PARAM
 /// Programmes, which parameters belong to which, and the ages they have led to; none if it is not there.
 pub(super) const PROGRAMMES: Kind = first(*b"PROG", "programmes", lengths::PROGRAMMES);
 /// Grammars, and what they have written; none if it is not there.
-pub(super) const GRAMMARS: Kind = first(*b"GRAM", "grammars", lengths::GRAMMARS);
+pub(super) const GRAMMARS: Kind = Kind { version: 2, ..first(*b"GRAM", "grammars", lengths::GRAMMARS) };
 /// Every look that an operation holds, and the present one.
 pub(super) const LOOKS: Kind = first(*b"LOOK", "looks", lengths::LOOKS);
 /// Meshes, every set of obstacles that an operation holds, and the present one.

@@ -168,6 +168,18 @@ impl Document {
         self.rewrite(cause, Write::Set { source, depth: written.depth, is_new: false })
     }
 
+    /// Gives the grammar in force another body to ask for, or takes it away.
+    pub(in crate::document) fn set_grammar_body(
+        &mut self,
+        cause: Cause<'_>,
+        within: Option<&GrammarBody>,
+    ) -> Result<(), Problem> {
+        let written = self.require_grammar()?;
+        let Source { text, values, seed, at, .. } = &*written.source;
+        let source = Arc::new(Source::new(text, values.clone(), |_| *seed, *at, within)?);
+        self.rewrite(cause, Write::Set { source, depth: written.depth, is_new: false })
+    }
+
     /// After a deed was taken back or brought back, the grammar goes on from where the deeds in force have left it.
     pub(in crate::document) fn keep_grammar_to(&mut self, deed: usize, away: bool) {
         let is_grammar = |operation: &Operation| operation.kind == Kind::Grammar;
@@ -198,7 +210,9 @@ impl Document {
             if last.is_some_and(|last| Arc::ptr_eq(last, written)) {
                 continue;
             }
-            held += written.rows.len() + written.answers.iter().map(|answers| answers.len()).sum::<usize>();
+            held += written.rows.len()
+                + written.ends.len()
+                + written.answers.iter().map(|answers| answers.len()).sum::<usize>();
             if last.is_none_or(|last| !Arc::ptr_eq(&last.source, &written.source)) {
                 text += written.source.text.len();
             }

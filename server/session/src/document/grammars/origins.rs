@@ -32,7 +32,8 @@ impl Document {
         let scene = self.simulation.scene();
         let keys: Vec<u64> = written.rows.iter().map(|&(key, _)| key).collect();
         let options = options(scene, self.simulation.parameters());
-        let drawn = derivation.draw_on(&Asking::new(scene, Arc::clone(source)), options, &keys)?;
+        let asking = Asking::new(scene, self.simulation.generator().as_ref(), source);
+        let drawn = derivation.draw_on(&asking, options, &keys)?;
         let traced = derivation.origins();
         let plant = self.plant();
         let rule_of = |module: u64| {

@@ -1,26 +1,34 @@
 //! What a scene answers to grammars, and what it has answered.
 
 use std::{
-    cell::{Cell, RefCell},
+    cell::{Cell, OnceCell, RefCell},
     sync::Arc,
 };
 
 use espalier_grammar::{Environment, Stand};
-use espalier_growth::Scene;
+use espalier_growth::{Growth, Scene};
 use glam::{DVec3, Vec3};
 
 use super::Source;
 
+/// Wood farther from a place, in internodes, says nothing of the vigor there.
+const NEAR: f32 = 4.0;
+
 /// A scene that is asked, and notes what it answers.
 pub(super) struct Asking<'a> {
     scene: &'a Scene,
+    growth: &'a Growth,
     source: Arc<Source>,
+    /// The greatest vigor of the scene, once somebody has asked for vigor.
+    greatest: OnceCell<f32>,
     answers: RefCell<Vec<f64>>,
 }
 
 impl<'a> Asking<'a> {
-    pub(super) fn new(scene: &'a Scene, source: Arc<Source>) -> Self {
-        Self { scene, source, answers: RefCell::default() }
+    /// A scene, and the light and vigor that growth has read in it.
+    pub(super) fn new(scene: &'a Scene, growth: &'a Growth, source: &Arc<Source>) -> Self {
+        let source = Arc::clone(source);
+        Self { scene, growth, source, greatest: OnceCell::new(), answers: RefCell::default() }
     }
 
     /// What it has answered since this was asked last.
@@ -58,14 +66,29 @@ impl Environment for Asking<'_> {
     fn is_inside(&self, stand: &Stand, body: u32) -> bool {
         let place = self.place(stand);
         let is_inside = match body.checked_sub(1) {
-            None => self.source.within.as_ref().is_some_and(|(_, body)| body.contains(place)),
+            None => self.source.within.as_ref().is_none_or(|(_, body)| body.contains(place)),
             Some(number) => self.scene.is_in_obstacle(number as usize, place),
         };
         self.note(f64::from(u8::from(is_inside))) > 0.0
     }
 
+    fn has_body(&self, body: u32) -> bool {
+        let is_there = match body.checked_sub(1) {
+            None => self.source.within.is_some(),
+            Some(number) => (number as usize) < self.scene.obstacles().len(),
+        };
+        self.note(f64::from(u8::from(is_there))) > 0.0
+    }
+
     fn vigor(&self, stand: &Stand) -> f64 {
-        self.light(stand)
+        let greatest = *self.greatest.get_or_init(|| self.growth.greatest_vigor(self.scene));
+        let nearest = self.scene.nearest_node(self.place(stand), NEAR);
+        let share = match nearest {
+            Some(node) if greatest > 0.0 => self.growth.vigor_at(self.scene, node) / greatest,
+            Some(_) => 0.0,
+            None => 1.0,
+        };
+        self.note(share.into())
     }
 }
 
@@ -106,6 +129,10 @@ impl Environment for Told {
     }
 
     fn is_inside(&self, _: &Stand, _: u32) -> bool {
+        self.next() > 0.0
+    }
+
+    fn has_body(&self, _: u32) -> bool {
         self.next() > 0.0
     }
 

@@ -32,7 +32,7 @@ impl Document {
             seed: source.seed,
             sliders: source.sliders.clone(),
             values: values_of(source),
-            within: source.within.is_some(),
+            within: source.within.as_ref().map(|(body, _)| body.clone()),
             depth: written.depth,
             earlier,
             later,

@@ -3,10 +3,12 @@
 use std::{mem, sync::Arc};
 
 use espalier_grammar::{Derivation, Drawing, Progress, Stop, WoodOptions};
-use espalier_growth::{Drawn, Parameters, Rewriting, Rewritten, Scene};
+use espalier_growth::{Drawn, Growth, Rewriting, Rewritten, Scene};
 
 use super::{
-    InForce, LIMITS, Source, Write, WriteError, Written, options,
+    InForce, LIMITS, Source, Write, WriteError, Written,
+    anew::Anew,
+    options,
     surroundings::{Asking, Told},
 };
 
@@ -55,7 +57,17 @@ struct Writing {
     answers: Vec<Arc<[f64]>>,
     /// Answers in the step of derivation that is not at its end.
     asked: Vec<f64>,
+    /// Where it grows from its axiom on, if what it asks for would be in the way of itself.
+    anew: Option<Box<Anew>>,
     stage: Stage,
+}
+
+/// What a slice goes by.
+#[derive(Clone, Copy)]
+struct Around<'a> {
+    scene: &'a Scene,
+    growth: &'a Growth,
+    options: WoodOptions,
 }
 
 #[derive(Clone, Debug)]
@@ -65,6 +77,8 @@ enum Stage {
     /// That word is drawn again.
     Before(Derivation, Drawing),
     Deriving(Derivation),
+    /// The word is drawn where it grows anew, to be asked of in the next step.
+    Standing(Derivation, Drawing),
     Drawing(Derivation, Drawing),
     Whole(Derivation, espalier_grammar::Drawn),
     /// It ended early.
@@ -73,14 +87,8 @@ enum Stage {
 
 impl Grammars {
     /// Writes a slice of a step, the first one if none is on its way.
-    pub fn write(
-        &mut self,
-        scene: &mut Scene,
-        parameters: &Parameters,
-        now: &InForce,
-        write: &Write,
-    ) -> Wrote {
-        match self.go_on(scene, parameters, now.0.as_ref(), write) {
+    pub fn write(&mut self, scene: &mut Scene, growth: &Growth, now: &InForce, write: &Write) -> Wrote {
+        match self.go_on(scene, growth, now.0.as_ref(), write) {
             Ok(None) => Wrote::InPart,
             Ok(Some(written)) => {
                 self.refusal = None;
@@ -112,22 +120,22 @@ impl Grammars {
     fn go_on(
         &mut self,
         scene: &mut Scene,
-        parameters: &Parameters,
+        growth: &Growth,
         now: Option<&Arc<Written>>,
         write: &Write,
     ) -> Result<Option<Arc<Written>>, WriteError> {
         self.was_again = false;
-        let options = options(scene, parameters);
+        let around = Around { scene, growth, options: options(scene, growth.parameters()) };
         let mut writing = match self.writing.take() {
             Some(writing) => writing,
-            None => Box::new(self.begin(scene, options, now, write)?),
+            None => Box::new(self.begin(around, now, write)?),
         };
         self.was_again = matches!(writing.stage, Stage::Again(..));
-        if !writing.slice(scene, options)? {
+        if !writing.slice(around)? {
             self.writing = Some(writing);
             return Ok(None);
         }
-        let (written, moved, derivation) = writing.lay_down(scene, parameters, write)?;
+        let (written, moved, derivation) = writing.lay_down(scene, growth, write)?;
         self.moved = moved;
         self.at_hand = Some((Arc::clone(&written), Arc::new(derivation)));
         Ok(Some(written))
@@ -135,8 +143,7 @@ impl Grammars {
 
     fn begin(
         &mut self,
-        scene: &Scene,
-        options: WoodOptions,
+        around: Around<'_>,
         now: Option<&Arc<Written>>,
         write: &Write,
     ) -> Result<Writing, WriteError> {
@@ -147,7 +154,7 @@ impl Grammars {
             }
             Write::Set { source, is_new, .. } => (source, now.filter(|_| !is_new), false),
         };
-        let is_edited = former.is_some_and(|now| now.is_edited || now.step != scene.plant().step());
+        let is_edited = former.is_some_and(|now| now.is_edited || now.step != around.scene.plant().step());
         let mut writing = Writing {
             source: Arc::clone(source),
             former: former.cloned(),
@@ -160,12 +167,13 @@ impl Grammars {
             before: None,
             answers: former.filter(|_| goes_on).map(|now| now.answers.clone()).unwrap_or_default(),
             asked: Vec::new(),
+            anew: None,
             stage: Stage::Ended,
         };
         writing.stage = match former.filter(|_| goes_on || is_edited) {
-            None => Stage::Deriving(begun(source)?),
+            None => writing.after_before(None, around)?,
             Some(of) => match self.at_hand.take_if(|(at_hand, _)| Arc::ptr_eq(at_hand, of)) {
-                Some((_, derivation)) => writing.after_last(Arc::unwrap_or_clone(derivation), options)?,
+                Some((_, derivation)) => writing.after_last(Arc::unwrap_or_clone(derivation), around)?,
                 None => Stage::Again(begun(&of.source)?, 0),
             },
         };
@@ -188,6 +196,7 @@ impl Writing {
             Stage::Again(derivation, _)
             | Stage::Before(derivation, _)
             | Stage::Deriving(derivation)
+            | Stage::Standing(derivation, _)
             | Stage::Drawing(derivation, _)
             | Stage::Whole(derivation, _) => derivation.bytes(),
             Stage::Ended => 0,
@@ -195,23 +204,44 @@ impl Writing {
     }
 
     /// What comes when the word of what was written before is there.
-    fn after_last(&self, last: Derivation, options: WoodOptions) -> Result<Stage, Stop> {
+    fn after_last(&mut self, last: Derivation, around: Around<'_>) -> Result<Stage, Stop> {
         match self.keys().filter(|_| self.is_edited) {
             Some(keys) => {
-                let drawing = last.drawing_on(options, &keys);
+                let drawing = last.drawing_on(around.options, &keys);
                 Ok(Stage::Before(last, drawing))
             }
-            None => self.after_before(last),
+            None => self.after_before(Some(last), around),
         }
     }
 
-    fn after_before(&self, last: Derivation) -> Result<Stage, Stop> {
-        Ok(Stage::Deriving(if self.goes_on { last } else { begun(&self.source)? }))
+    /// What comes when it is known how that stands.
+    fn after_before(&mut self, last: Option<Derivation>, around: Around<'_>) -> Result<Stage, Stop> {
+        if let Some(last) = last.filter(|_| self.goes_on) {
+            return Ok(Stage::Deriving(last));
+        }
+        let axiom = begun(&self.source)?;
+        match self.former.as_ref().filter(|_| self.source.asks_of_wood && self.depth > 0) {
+            Some(former) => {
+                let anew = Box::new(Anew::new(around.scene, around.growth, &self.source, former));
+                let drawing = axiom.drawing_on(around.options, &anew.keys());
+                self.anew = Some(anew);
+                Ok(Stage::Standing(axiom, drawing))
+            }
+            None => Ok(Stage::Deriving(axiom)),
+        }
+    }
+
+    /// Whom the grammar asks.
+    fn asking<'a>(&'a self, around: Around<'a>) -> Asking<'a> {
+        match &self.anew {
+            Some(anew) => Asking::new(&anew.scene, &anew.growth, &self.source),
+            None => Asking::new(around.scene, around.growth, &self.source),
+        }
     }
 
     /// Works for a slice; whether all is derived and drawn. What derives again has slices of its own, for whether it is
     /// needed depends on what is at hand, and everything else is to come in the same slices.
-    fn slice(&mut self, scene: &Scene, options: WoodOptions) -> Result<bool, Stop> {
+    fn slice(&mut self, around: Around<'_>) -> Result<bool, WriteError> {
         let mut left = SLICE;
         let mut spend = |cost: u64| {
             left = left.saturating_sub(cost + 1);
@@ -229,40 +259,64 @@ impl Writing {
                     }
                     self.stage = match last.depth() < depth {
                         true => Stage::Again(last, told),
-                        false => self.after_last(last, options)?,
+                        false => self.after_last(last, around)?,
                     };
                     return Ok(false);
                 }
                 Stage::Before(last, mut drawing) => {
                     let source = self.former.as_ref().map_or(&self.source, |former| &former.source);
-                    let asking = Asking::new(scene, Arc::clone(source));
+                    let asking = Asking::new(around.scene, around.growth, source);
                     if draw(&mut drawing, &last, &asking, &mut spend)? {
                         self.before = Some(drawing.finish()?);
-                        self.after_before(last)?
+                        let next = self.after_before(Some(last), around)?;
+                        goes_on = spend(self.anew.as_ref().map_or(0, |anew| anew.cost()));
+                        next
                     } else {
                         goes_on = false;
                         Stage::Before(last, drawing)
                     }
                 }
                 Stage::Deriving(mut derivation) => {
-                    while goes_on && derivation.depth() < self.depth {
+                    // Where it grows anew it stands as it was derived before it is derived further.
+                    let until = match self.anew.as_ref().map(|anew| anew.depth) {
+                        Some(stands) => stands.map_or(0, |stands| stands + 1).min(self.depth),
+                        None => self.depth,
+                    };
+                    while goes_on && derivation.depth() < until {
                         let before = derivation.work();
-                        self.derive(&mut derivation, scene)?;
+                        self.derive(&mut derivation, around)?;
                         goes_on = spend(derivation.work() - before);
                     }
-                    if derivation.depth() < self.depth {
+                    match (&self.anew, self.keys()) {
+                        _ if derivation.depth() < until => Stage::Deriving(derivation),
+                        (Some(anew), _) if until < self.depth => {
+                            let drawing = derivation.drawing_on(around.options, &anew.keys());
+                            Stage::Standing(derivation, drawing)
+                        }
+                        (_, Some(keys)) => {
+                            let drawing = derivation.drawing_on(around.options, &keys);
+                            Stage::Drawing(derivation, drawing)
+                        }
+                        (_, None) => {
+                            let drawing = derivation.drawing(around.options);
+                            Stage::Drawing(derivation, drawing)
+                        }
+                    }
+                }
+                Stage::Standing(derivation, mut drawing) => {
+                    if draw(&mut drawing, &derivation, &self.asking(around), &mut spend)? {
+                        let drawn = drawing.finish()?;
+                        let anew = self.anew.as_mut().ok_or(Stop::Broken)?;
+                        anew.lay_down(&self.source, &drawn, derivation.depth())?;
+                        goes_on = spend(anew.cost());
                         Stage::Deriving(derivation)
                     } else {
-                        let drawing = match self.keys() {
-                            Some(keys) => derivation.drawing_on(options, &keys),
-                            None => derivation.drawing(options),
-                        };
-                        Stage::Drawing(derivation, drawing)
+                        goes_on = false;
+                        Stage::Standing(derivation, drawing)
                     }
                 }
                 Stage::Drawing(derivation, mut drawing) => {
-                    let asking = Asking::new(scene, Arc::clone(&self.source));
-                    if draw(&mut drawing, &derivation, &asking, &mut spend)? {
+                    if draw(&mut drawing, &derivation, &self.asking(around), &mut spend)? {
                         self.stage = Stage::Whole(derivation, drawing.finish()?);
                         return Ok(true);
                     }
@@ -273,7 +327,7 @@ impl Writing {
                     self.stage = whole;
                     return Ok(true);
                 }
-                Stage::Ended => return Err(Stop::Broken),
+                Stage::Ended => return Err(Stop::Broken.into()),
             };
             if !goes_on {
                 return Ok(false);
@@ -281,11 +335,12 @@ impl Writing {
         }
     }
 
-    fn derive(&mut self, derivation: &mut Derivation, scene: &Scene) -> Result<(), Stop> {
-        let asking = Asking::new(scene, Arc::clone(&self.source));
+    fn derive(&mut self, derivation: &mut Derivation, around: Around<'_>) -> Result<(), Stop> {
+        let asking = self.asking(around);
         let came = derivation.advance(&asking, PART)?;
+        let answers = asking.answers();
         if self.source.asks {
-            self.asked.extend_from_slice(&asking.answers());
+            self.asked.extend_from_slice(&answers);
             if came == Progress::Stepped {
                 self.answers.push(mem::take(&mut self.asked).into());
             }
@@ -308,7 +363,7 @@ impl Writing {
     fn lay_down(
         self,
         scene: &mut Scene,
-        parameters: &Parameters,
+        growth: &Growth,
         write: &Write,
     ) -> Result<(Arc<Written>, usize, Derivation), WriteError> {
         let Stage::Whole(derivation, drawn) = self.stage else { return Err(Stop::Broken.into()) };
@@ -317,12 +372,14 @@ impl Writing {
             now: Drawn { wood: &drawn.wood, keys: &drawn.keys },
             before: self.before.as_ref().map(|drawn| Drawn { wood: &drawn.wood, keys: &drawn.keys }),
             rows: former.map_or(&[], |now| now.rows.as_slice()),
+            ends: former.map_or(&[], |now| now.ends.as_slice()),
             at: self.source.at,
         };
         rewriting.check(scene)?;
         let begun = scene.plant().step();
         let is_edit = matches!(write, Write::Set { is_new: false, .. });
-        let Rewritten { rows, moved } = match is_edit {
+        let parameters = growth.parameters();
+        let Rewritten { rows, ends, moved } = match is_edit {
             true => scene.record_edit(|step| rewriting.write(step, parameters)),
             false => scene.record_growth(|step| rewriting.write(step, parameters)),
         }?;
@@ -330,6 +387,7 @@ impl Writing {
             depth: self.depth,
             answers: self.answers,
             rows,
+            ends,
             step: scene.plant().step(),
             is_edited: self.is_edited,
             begun: former.map_or(begun, |now| now.begun),

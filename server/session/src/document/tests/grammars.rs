@@ -325,6 +325,50 @@ fn a_body_is_filled_and_walls_are_known() {
 }
 
 #[test]
+fn gr9_what_a_space_cuts_comes_again_and_what_hands_cut_does_not() {
+    let text = "axiom: f(1)Q(-1)\nQ(v) : v < 0 --> Q(inside(0))\nf(l) > Q(v) : v == 1 --> F(l)\n\
+                f(l) > Q(v) : v == 0 --> *\nQ(v) : v == 0 --> %\n\
+                Q(v) : v == 1 --> [&(60)f(1)Q(-1)]/(137.5)[&(35)f(1)Q(-1)]f(1)Q(-1)\n";
+    let space = |half: f64, height: f64| {
+        let within = serde_json::from_value(serde_json::json!({
+            "outline": [[-half, -1.0], [half, -1.0], [half, height], [-half, height]],
+            "plane": { "origin": [0, 0, 0], "right": [1, 0, 0], "up": [0, 1, 0] },
+        }));
+        plain(Action::SetGrammarBody { within: Some(within.expect("it is a body")) })
+    };
+    let free = plain(Action::SetGrammarBody { within: None });
+    let mut document = Document::new(7);
+    apply(&mut document, &set(text, 12));
+    let whole = living(&document).len();
+    let mut narrow = None;
+    // As often as one likes, in a document that was saved in between.
+    for _ in 0..3 {
+        apply(&mut document, &space(2.5, 4.5));
+        let within = living(&document).len();
+        assert!(within > 20 && within < whole, "{within} of {whole}");
+        assert_eq!(*narrow.get_or_insert(within), within);
+        document = Document::from_bytes(&document.to_bytes()).expect("it was written");
+        apply(&mut document, &free);
+        assert_eq!(living(&document).len(), whole);
+        assert_eq!(checks::all(document.plant()), Ok(()));
+    }
+    // A hand cuts the trunk within the space, right above where a branch goes on.
+    let plant = document.plant();
+    let trunk = plant.metamers().axis(MetamerId::new(0));
+    let on_trunk = |&row: &u32| plant.metamers().axis(MetamerId::new(row as usize)) == trunk;
+    let third = living(&document).into_iter().filter(on_trunk).nth(2).expect("it has a trunk");
+    apply(&mut document, &plain(Action::Prune { rows: list(vec![third]) }));
+    let cut = living(&document).len();
+    assert!(cut > 20 && cut < whole, "{cut} of {whole}");
+    for _ in 0..2 {
+        apply(&mut document, &space(2.5, 4.5));
+        document = Document::from_bytes(&document.to_bytes()).expect("it was written");
+        apply(&mut document, &free);
+        assert_eq!(living(&document).len(), cut, "what was cut stays away, and all else comes again");
+    }
+}
+
+#[test]
 fn sliders_move_the_plant_in_one_step() {
     let mut document = Document::new(1);
     apply(&mut document, &set(shipped("barron-binary"), 5));

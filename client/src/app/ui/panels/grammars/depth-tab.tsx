@@ -9,6 +9,7 @@ import { endText } from "../../../words/grammar-problems";
 import { countText } from "../../../words/measure-text";
 import { say } from "../../../words/say";
 import { Slider } from "../../controls/slider";
+import { SpaceField } from "./space-field";
 
 const NOTHING: Sizes = { sizes: [], ends: null, depth: null };
 /** So many bars of sizes stand side by side at most. */
@@ -40,6 +41,7 @@ export function DepthTab({ studio, grammars }: DepthProps) {
         <ValueSlider key={slider.name} slider={slider} editing={editing} />
       ))}
       {inForce.sliders.length === 0 && <p class="quiet advice">{say("grammars.no-sliders")}</p>}
+      <SpaceField studio={studio} grammars={grammars} />
       {hasChance(inForce.text) && (
         <button
           type="button"

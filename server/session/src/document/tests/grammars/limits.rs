@@ -114,6 +114,36 @@ fn long_steps_are_written_in_slices() {
     assert_eq!((height(&document), depth(&document)), (1.0, 20));
 }
 
+/// The same, which asks how light it is at its foot, so that it is written anew in surroundings of its own.
+const ASKS: &str = "slider: a 1 9\na = 1\naxiom: F(a)CB\nB --> BB\nC : light() > 2 --> *\n";
+
+#[test]
+fn what_asks_for_light_is_written_anew_in_slices() {
+    let mut document = Document::new(3);
+    apply(&mut document, &set(ASKS, 20));
+    let planted = document.clone();
+    let stands = |document: &Document| (document.plant().hash(), document.plant().step(), depth(document));
+    let before = stands(&document);
+    // Stopped after any slice it leaves nothing.
+    for taken in 1..4 {
+        let mut stopped = document.clone();
+        stopped.begin(&who("ann"), &values(5, "a", 2.0)).expect("it can be begun");
+        for _ in 1..taken {
+            assert!(stopped.is_undecided() && stopped.advance(), "it takes more than {taken} slices");
+            assert_eq!(stands(&stopped), before);
+        }
+        stopped.stop_at(Some(stopped.steps_begun()));
+        while stopped.advance() {}
+        assert_eq!((stopped.take_outcome(), stands(&stopped)), (Ok(()), before));
+    }
+    let slices = in_slices(&mut document, &values(5, "a", 2.0));
+    assert!(slices > 3, "{slices}");
+    assert_eq!((height(&document), depth(&document)), (2.0, 20));
+    assert_eq!(checks::all(document.plant()), Ok(()));
+    apply(&mut document, &plain(Action::Undo {}));
+    assert_eq!(stands(&document), stands(&planted));
+}
+
 #[test]
 fn st1_a_long_step_ends_between_slices_and_leaves_nothing() {
     for drags in [false, true] {
