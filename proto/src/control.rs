@@ -142,6 +142,8 @@ tagged_enum! {
             /// The view.
             camera: Camera,
         },
+        /// Says whether the rows that this client holds are those of the server (`CK1`).
+        Check {},
         /// Is the server there?
         Ping {
             /// Comes back in the pong.
@@ -457,6 +459,17 @@ pub enum ServerMessage {
     ThreadsChanged {
         /// The threads.
         threads: Vec<u32>,
+    },
+    /// What the rows add up to, to whom has asked for a check (`CK1`).
+    Checksum {
+        /// The mesh delta up to which they are counted; 0 before the first.
+        sequence: u32,
+        /// How many rows there are.
+        rows: u32,
+        /// CRC-32 of all rows.
+        crc32: u32,
+        /// A hash of the plants, as 16 hexadecimal digits: `plant_hash` of the command line (`CK2`).
+        plant: String,
     },
     /// The answer to a ping.
     Pong {

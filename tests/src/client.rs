@@ -460,6 +460,7 @@ impl Client {
             | ServerMessage::Deed { .. }
             | ServerMessage::Branches { .. }
             | ServerMessage::Authors { .. }
+            | ServerMessage::Checksum { .. }
             | ServerMessage::Gathered { .. }
             | ServerMessage::Pins { .. }
             | ServerMessage::ThreadsChanged { .. } => {}

@@ -2339,7 +2339,7 @@ device?: number, } | { "type": "gather",
 /**
  * The view.
  */
-camera: Camera, } | { "type": "ping", 
+camera: Camera, } | { "type": "check", } | { "type": "ping", 
 /**
  * Comes back in the pong.
  */
@@ -2549,7 +2549,23 @@ pins: Array<Pin>, } | { "type": "threads_changed",
 /**
  * The threads.
  */
-threads: Array<number>, } | { "type": "pong", 
+threads: Array<number>, } | { "type": "checksum", 
+/**
+ * The mesh delta up to which they are counted; 0 before the first.
+ */
+sequence: number, 
+/**
+ * How many rows there are.
+ */
+rows: number, 
+/**
+ * CRC-32 of all rows.
+ */
+crc32: number, 
+/**
+ * A hash of the plants, as 16 hexadecimal digits: `plant_hash` of the command line (`CK2`).
+ */
+plant: string, } | { "type": "pong", 
 /**
  * The ping's.
  */

@@ -42,6 +42,8 @@ pub(crate) struct ConnectedClient {
     /// The branch of the design that it looks at.
     pub(crate) looked_at: Option<LookedAt>,
     pub(crate) presence: Presence,
+    /// Whether it waits to hear what its rows must add up to (`CK1`).
+    pub(crate) is_checking: bool,
 }
 
 /// The open bends that a client has seen (`BE5`).

@@ -7,6 +7,7 @@
 mod appearance;
 mod author;
 mod cause;
+mod checksum;
 mod clients;
 mod command_script;
 mod document;

@@ -3,6 +3,7 @@
 mod acts;
 mod bending;
 mod branches;
+mod checking;
 mod commands;
 mod delivery;
 mod greeting;
@@ -78,6 +79,8 @@ pub struct Session {
     timeline: Timeline,
     /// As clients have it.
     told_timeline: Timeline,
+    /// When rows may be added up again (`CK1`).
+    check_due: u64,
     widths: Vec<WidthConstraint>,
     design: Option<DesignInForce>,
     design_mark: DesignMark,
@@ -207,6 +210,7 @@ impl Session {
             appearance: *work.document.appearance(),
             scenery: Scenery::of(&work.document),
             told_timeline: timeline.clone(),
+            check_due: 0,
             timeline,
             widths: work.document.widths(),
             design: work.document.design_told(),
@@ -377,6 +381,7 @@ impl Session {
                     self.here(client, said, name.as_deref());
                 }
             }
+            Ok(ClientMessage::Check {}) => self.ask_to_check(client),
             Ok(ClientMessage::Ping { nonce }) => {
                 self.send(client, &ServerMessage::Pong { nonce, at: self.now });
             }

@@ -13,6 +13,7 @@ use espalier_proto::{
 
 use crate::{
     author::{LastCommand, note_last},
+    checksum::{self, Checksum},
     document::{Document, DrawnInVain, Switched},
     io::{ActId, ClientId, ReadDocument, ReadId},
     prediction::{PredictionRun, Question},
@@ -114,6 +115,8 @@ pub(crate) struct Report {
     pub(crate) documents: Vec<(ReadId, ReadDocument)>,
     /// A snapshot and the last entry it contains.
     pub(crate) snapshot: Option<(u64, Vec<u8>)>,
+    /// What the rows add up to.
+    pub(crate) checksum: Option<Checksum>,
 }
 
 /// The document and everything to be done to it. Owns all it needs: call [`Work::run`] on any thread.
@@ -136,6 +139,7 @@ pub struct Work {
     pub(crate) reads: Vec<ReadId>,
     pub(crate) questions: Vec<Question>,
     pub(crate) snapshot_wanted: bool,
+    pub(crate) checksum_wanted: bool,
     /// Whether anybody is in step and needs the delta.
     pub(crate) delta_wanted: bool,
     /// Whether a command is still being done.
@@ -186,6 +190,7 @@ impl Work {
             reads: Vec::new(),
             questions: Vec::new(),
             snapshot_wanted: false,
+            checksum_wanted: false,
             delta_wanted: false,
             busy,
             hold: None,
@@ -229,6 +234,14 @@ impl Work {
             let frame = self.catch_up(&held);
             self.report.catch_ups.push((client, frame));
         }
+        if std::mem::take(&mut self.checksum_wanted) {
+            self.report.checksum = Some(self.checksum());
+        }
+    }
+
+    fn checksum(&self) -> Checksum {
+        let (sequence, rows) = (self.sequence, self.table.rows() as u32);
+        Checksum { sequence, rows, crc32: checksum::crc32(&self.table), plant: self.document.plant().hash() }
     }
 
     /// What the slices since the last call brought about.
@@ -247,7 +260,10 @@ impl Work {
         let is_done = self.busy || !self.orders.is_empty();
         // What rests in the midst of a command cannot be read.
         let rests = self.hold.is_some();
-        !self.catch_ups.is_empty() || is_done && !rests || is_read && !(rests && self.busy)
+        !self.catch_ups.is_empty()
+            || self.checksum_wanted
+            || is_done && !rests
+            || is_read && !(rests && self.busy)
     }
 
     /// What the document takes of memory, in rows.

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { type Command, type DocumentState, type Parameters, PROTOCOL_VERSION, type Resume } from "../../wire/generated";
 import {
+  CHECK_EVERY,
   type ClientRecord,
   ConnectionCore,
   type Effect,
@@ -386,6 +387,41 @@ describe("frames", () => {
     const hello = core.effects().find((effect) => effect.kind === "send");
     expect(hello).toMatchObject({ message: { type: "hello" } });
     expect(hello).not.toHaveProperty("message.resume");
+  });
+});
+
+describe("checks", () => {
+  const checks = (effects: readonly Effect[]) =>
+    effects.filter((effect) => effect.kind === "send" && effect.message.type === "check").length;
+
+  it("CK1: asks after a resume, and after rows were loaded whole only when they change", () => {
+    const { core, connect, welcome } = setUp();
+    connect();
+    core.closed(10, 1006);
+    core.tick(core.deadline ?? 0);
+    core.opened(core.deadline ?? 0);
+    core.effects();
+    welcome(1000, 0, { resumed: true });
+    expect(checks(core.effects())).toBe(1);
+  });
+
+  it("CK1: asks in quiet moments, each minute in which frames came", () => {
+    const { core, connect } = setUp();
+    connect();
+    const quiet = (at: number) => {
+      core.tick(at);
+      const count = checks(core.effects());
+      core.message(at + 1, { type: "pong", nonce: 1, at: 0 });
+      core.effects();
+      return count;
+    };
+    expect(quiet(CHECK_EVERY + 1), "no frame came").toBe(0);
+    core.applied({ epoch: 7, sequence: 1, catchUp: true });
+    expect(quiet(2 * CHECK_EVERY)).toBe(1);
+    expect(quiet(2 * CHECK_EVERY + PING_AFTER + 2), "nothing has come since").toBe(0);
+    core.applied({ epoch: 7, sequence: 2, catchUp: false });
+    expect(quiet(2 * CHECK_EVERY + 3 * PING_AFTER), "that was less than a minute ago").toBe(0);
+    expect(quiet(3 * CHECK_EVERY + PING_AFTER)).toBe(1);
   });
 });
 

@@ -9,6 +9,7 @@ import {
 } from "../../wire/generated";
 import { Outbox, type OutboxRecord } from "./outbox";
 import type { PageMessage } from "./page-message";
+import type { RowSum } from "./row-store";
 
 /** Silence after which the server is asked whether it is there, in milliseconds. */
 export const PING_AFTER = 3000;
@@ -16,6 +17,8 @@ export const PING_AFTER = 3000;
 export const PONG_WITHIN = 5000;
 /** Both, while others are shown: what is shown of them must be true (`PS3`). */
 export const WATCHFUL = 2000;
+/** Rows that frames have changed are compared with the server's so often, when it is quiet (`CK1`). */
+export const CHECK_EVERY = 60_000;
 /** How long a socket may take to open and greet. */
 export const OPEN_WITHIN = 8000;
 const BACKOFF_FIRST = 250;
@@ -39,6 +42,7 @@ export type Effect =
   | { readonly kind: "close" }
   | { readonly kind: "send"; readonly message: ClientMessage }
   | { readonly kind: "forget-rows" }
+  | { readonly kind: "compare"; readonly sum: Checksum }
   | { readonly kind: "reload" }
   | { readonly kind: "rekeyed" }
   | { readonly kind: "message"; readonly message: PageMessage }
@@ -50,6 +54,9 @@ export type Told = Extract<
   ClientMessage,
   { type: "predict" | "look_at_branch" | "here" | "follow" | "gather" | "ping" }
 >;
+
+/** What rows must add up to (`CK1`). */
+export type Checksum = Extract<ServerMessage, { type: "checksum" }>;
 
 export interface CoreOptions {
   /** Draws a new client key. */
@@ -93,6 +100,9 @@ export class ConnectionCore {
   /** How many frames could not be read, each soon after the one before; and when the last of them came. */
   #garbled = 0;
   #garbledAt = 0;
+  /** Whether frames came since rows were compared, and when that was. */
+  #unchecked = false;
+  #checkedAt = 0;
   #effects: Effect[] = [];
   /** Whether others are shown. */
   watchful = false;
@@ -205,6 +215,9 @@ export class ConnectionCore {
       case "refused":
         this.#refuse(message.id, message.problem);
         break;
+      case "checksum":
+        this.#effects.push({ kind: "compare", sum: message });
+        break;
       default:
         this.#effects.push({ kind: "message", message });
     }
@@ -227,7 +240,15 @@ export class ConnectionCore {
   applied(frame: FrameHead): void {
     this.#sequence = frame.sequence;
     this.#resumable = true;
+    this.#unchecked = true;
     this.#send({ type: "received", sequence: frame.sequence });
+  }
+
+  /** What the rows add up to: where that differs from what the server says of the same frame, they are loaded anew. */
+  compared(now: number, sum: Checksum, own: RowSum): void {
+    if (sum.sequence === this.#sequence && (sum.rows !== own.rows || sum.crc32 !== own.crc32)) {
+      this.invalid(now);
+    }
   }
 
   /** Takes a frame that does not change rows; false if it belongs to another epoch and does not count. */
@@ -345,6 +366,15 @@ export class ConnectionCore {
     this.#deadline = now + (this.watchful ? WATCHFUL : PONG_WITHIN);
     this.#nonce += 1;
     this.#send({ type: "ping", nonce: this.#nonce });
+    if (this.#unchecked && now - this.#checkedAt >= CHECK_EVERY) {
+      this.#check(now);
+    }
+  }
+
+  #check(now: number): void {
+    this.#unchecked = false;
+    this.#checkedAt = now;
+    this.#send({ type: "check" });
   }
 
   /** The server is at it: it may take as long as it takes. */
@@ -391,6 +421,10 @@ export class ConnectionCore {
     this.#effects.push(...messages.map((message) => ({ kind: "message", message }) as const));
     for (const { id, command } of this.#outbox.pending) {
       this.#send({ type: "command", id, command });
+    }
+    if (welcome.resumed) {
+      // What is held is older than this connection.
+      this.#check(now);
     }
   }
 

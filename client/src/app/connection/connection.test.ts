@@ -41,6 +41,7 @@ function setUp() {
       clear: () => {
         cleared += 1;
       },
+      sum: () => ({ rows: applied.length, crc32: 7 }),
     },
     decode: async (bytes) => {
       const [sequence = 0, turns = 0, kind = 1, epoch = 1] = new Uint8Array(bytes);
@@ -134,6 +135,22 @@ describe("connection", () => {
     socket(0).frame(66, 0);
     await settle();
     expect(socket(0).closed).toBe(true);
+  });
+
+  it("CK1: compares its rows once all frames before the sum are applied", async () => {
+    const { socket, settle } = setUp();
+    socket(0).welcome();
+    socket(0).frame(1, 30);
+    socket(0).frame(2, 10);
+    socket(0).say({ type: "checksum", sequence: 2, rows: 2, crc32: 7, plant: "0" });
+    await settle();
+    expect(socket(0).closed, "they are the server's").toBe(false);
+    socket(0).say({ type: "checksum", sequence: 1, rows: 9, crc32: 9, plant: "0" });
+    await settle();
+    expect(socket(0).closed, "a sum of other rows says nothing").toBe(false);
+    socket(0).say({ type: "checksum", sequence: 2, rows: 2, crc32: 8, plant: "0" });
+    await settle();
+    expect(socket(0).closed, "and these are not").toBe(true);
   });
 
   it("drops frames of a socket that is gone", async () => {

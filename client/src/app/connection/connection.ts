@@ -3,6 +3,7 @@ import { FrameKind } from "../../wire/generated";
 import type { Clock } from "../page/clock";
 import {
   type AsideHead,
+  type Checksum,
   type ClientRecord,
   ConnectionCore,
   type FrameHead,
@@ -207,6 +208,17 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
     });
   }
 
+  /** Compares the rows with what they must add up to, once all frames before it are applied. */
+  #compare(sum: Checksum): void {
+    const socket = this.#socket;
+    this.#frames = this.#frames.then(() => {
+      if (this.#socket === socket && !this.#closed) {
+        this.#core.compared(this.#now(), sum, this.#options.rows.sum());
+        this.#settle();
+      }
+    });
+  }
+
   #drop(): void {
     const socket = this.#socket;
     this.#socket = null;
@@ -237,6 +249,9 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
         case "forget-rows":
           this.#options.rows.clear();
           events.rows();
+          break;
+        case "compare":
+          this.#compare(effect.sum);
           break;
         case "reload":
           events.reload();

@@ -1,7 +1,7 @@
 import type { ServerMessage } from "../../wire/generated";
 
 /** Messages of the server that the connection itself answers or keeps account of. */
-type ConnectionMessageType = "loading" | "welcome" | "acknowledged" | "refused";
+type ConnectionMessageType = "loading" | "welcome" | "acknowledged" | "refused" | "checksum";
 
 /** The others, which say what the page has to show. */
 export type PageMessage = Exclude<ServerMessage, { type: ConnectionMessageType }>;

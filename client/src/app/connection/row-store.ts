@@ -1,3 +1,4 @@
+import { checksumOf } from "../../scene/table/checksum";
 import type { TreeTable } from "../../scene/table/tree-table";
 import type { Frame } from "../../wire/frame";
 import type { Resume } from "../../wire/generated";
@@ -10,6 +11,13 @@ export interface RowStore<Frame> {
   apply(frame: Frame): void;
   /** Forgets every row. */
   clear(): void;
+  /** How many rows are held, and what they add up to (`CK1`). */
+  sum(): RowSum;
+}
+
+export interface RowSum {
+  readonly rows: number;
+  readonly crc32: number;
 }
 
 /** The table of rows as the connection sees it. */
@@ -21,5 +29,6 @@ export function rowStore(table: TreeTable): RowStore<Frame> {
         : undefined,
     apply: (frame) => table.apply(frame),
     clear: () => table.clear(),
+    sum: () => ({ rows: table.rows, crc32: checksumOf(table) }),
   };
 }

@@ -25,12 +25,16 @@ impl Session {
 
     /// The document came home from a slice of work.
     pub(super) fn worked(&mut self, mut work: Box<Work>) {
-        let Report { delta, catch_ups, answers, bends, runs, acts, documents, snapshot } = work.take_report();
+        let Report { delta, catch_ups, answers, bends, runs, acts, documents, snapshot, checksum } =
+            work.take_report();
         self.deliver(delta.as_ref(), work.sequence);
         self.newest = (work.sequence, work.table.rows() as u32);
         self.done = work.done_through();
         for (client, frame) in catch_ups {
             self.deliver_catch_up(client, &frame);
+        }
+        if let Some(checksum) = checksum {
+            self.tell_checksum(checksum);
         }
         self.take_bend_updates(bends);
         self.outputs.extend(runs.into_iter().map(|prediction| Output::Predict(Box::new(prediction))));
@@ -155,6 +159,7 @@ impl Session {
                 View::Stale(_) | View::Coming => {}
             }
         }
+        self.ask_for_checksum(&mut work);
         if work.is_needed() {
             self.outputs.push_back(Output::Work(work));
         } else {

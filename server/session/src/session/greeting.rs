@@ -91,6 +91,7 @@ impl Session {
                 prediction_view: PredictionView::default(),
                 looked_at: None,
                 presence,
+                is_checking: false,
             });
         }
         let welcome = ServerMessage::Welcome {

@@ -324,11 +324,12 @@ impl Session {
         let hello = upkeep.hellos.front().map(|(due, _)| *due);
         let absence = upkeep.absences.front().map(|(due, _)| *due);
         let memory = self.pausing.due.filter(|_| self.home.is_some());
-        let room = self.room_due();
-        let earliest = [state, timeline, widths, design, grammar, pause, hello, absence, memory, room]
-            .into_iter()
-            .flatten()
-            .min();
+        let (room, checksum) = (self.room_due(), self.checksum_due());
+        let earliest =
+            [state, timeline, widths, design, grammar, pause, hello, absence, memory, room, checksum]
+                .into_iter()
+                .flatten()
+                .min();
         if earliest != upkeep.wake_at {
             self.upkeep.wake_at = earliest;
             self.outputs.extend(earliest.map(Output::WakeAt));

@@ -7,7 +7,7 @@ use serde_json::json;
 use crate::world::{World, grow};
 
 /// Makes the tree change until a client that answers nothing is left behind; gives the next command id.
-fn leave_behind(world: &mut World, busy: u64, slow: u64) -> u32 {
+pub fn leave_behind(world: &mut World, busy: u64, slow: u64) -> u32 {
     world.peer_mut(slow).slow = true;
     world.settle();
     let mut id = 1;
