@@ -300,6 +300,8 @@ pub struct ExportProgress {
     /// About how many it will have.
     #[ts(type = "number")]
     pub expected: u64,
+    /// How many files are made before it.
+    pub ahead: u32,
 }
 
 /// A version of a tree.

@@ -94,10 +94,28 @@ pub struct FormatRow {
 
 impl FormatRow {
     /// What such a file of a document of so many bytes takes of memory while it is made.
-    pub fn weight(&self, bytes: usize) -> u64 {
+    pub fn weight(&self, bytes: usize, options: &ExportOptions) -> u64 {
+        match self.picture(options) {
+            Some((Size(width, height), _)) => memory::picture(bytes, width * height),
+            None => memory::export(bytes),
+        }
+    }
+
+    /// Pixels of all its pictures together; 0 where it is none.
+    pub fn pixels(&self, options: &ExportOptions) -> u64 {
+        let pixels = |(Size(width, height), frames): (Size, u16)| (width * height) as u64 * u64::from(frames);
+        self.picture(options).map_or(0, pixels)
+    }
+
+    /// How large a picture is, and how many of them one file has.
+    fn picture(&self, options: &ExportOptions) -> Option<(Size, u16)> {
         match self.format {
-            Format::Picture | Format::Sway => memory::picture(bytes),
-            _ => memory::export(bytes),
+            Format::Picture => Some((options.size.unwrap_or(PICTURE), options.frames())),
+            Format::Sway => {
+                let frames = options.frames.map_or(LOOP, |frames| frames.0);
+                Some((options.size.unwrap_or(MOVING), frames))
+            }
+            _ => None,
         }
     }
 }

@@ -85,7 +85,7 @@ impl DrawnPictures {
     ) -> Result<Png, DrawError> {
         let key = (tree, version, kind);
         let drawn = self.0.get_or_insert_async(&key, async {
-            let claim = memory.take_soon(Use::Export, memory::picture(document.bytes.len())).await?;
+            let claim = memory.take_soon(Use::Export, memory::picture(document.bytes.len(), 0)).await?;
             let drawn = pool.run(Class::Whole, person, move |_| {
                 let mut stored = Stored::read(&document.bytes)?;
                 let png = match kind {

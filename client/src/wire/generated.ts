@@ -2959,7 +2959,11 @@ written: number,
 /**
  * About how many it will have.
  */
-expected: number, };
+expected: number, 
+/**
+ * How many files are made before it.
+ */
+ahead: number, };
 
 export type TreeCollection = { 
 /**

@@ -62,6 +62,15 @@ fn cylinders_become_internodes_from_the_origin_up() {
 }
 
 #[test]
+fn points_may_be_commas_where_these_separate_nothing() {
+    for separator in [";", "\t"] {
+        let text = RTWIG.replace(',', separator).replace('.', ",");
+        let plant = planted(&wood(WoodFormat::Qsm, &text));
+        assert_eq!(plant.hash(), planted(&wood(WoodFormat::Qsm, RTWIG)).hash(), "{separator:?}");
+    }
+}
+
+#[test]
 fn internodes_are_as_long_as_the_pieces_of_the_file() {
     let length = |text: &str, options: WoodOptions| {
         let file = read_wood(WoodFormat::Qsm, text.as_bytes(), &options).expect("cylinders");

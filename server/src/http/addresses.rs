@@ -54,8 +54,6 @@ const MAX_UPLOADS: usize = 1;
 const UPLOAD_TIME: Duration = Duration::from_mins(10);
 /// Files read at once that become trees: a section of a document may unpack to 2 GB.
 const MAX_IMPORTS: usize = 1;
-/// Exports made at once: each holds a scene of its own.
-const MAX_EXPORTS: usize = 1;
 /// Pictures of species made at once: sessions grow on the same threads.
 const MAX_PICTURES: usize = 1;
 /// Turntables drawn at once, each of a dozen pictures.
@@ -187,7 +185,6 @@ pub(super) fn sockets() -> [SocketRoute; 2] {
 
 /// Files of any format, each of which takes as long as it takes.
 pub(super) fn downloads() -> Vec<Route> {
-    let exports = GlobalConcurrencyLimitLayer::new(MAX_EXPORTS);
     let download = |row: &'static FormatRow, path: &str, action, what: &str, answer: MethodRouter<Shared>| {
         let about = About::new(format!("{what}: {}.", row.what))
             .asks::<ExportOptions>()
@@ -196,7 +193,7 @@ pub(super) fn downloads() -> Vec<Route> {
         let address = format!("GET {path}/tree.{}", row.ending);
         // Whoever no longer waits closes the connection, and that ends the work.
         let time_limit = None;
-        let take = route(address, action, answer.layer(exports.clone()), about).noted(EXPORT);
+        let take = route(address, action, answer, about).noted(EXPORT);
         Route { time_limit, ..take }
     };
     let of_session = |row| {

@@ -57,6 +57,11 @@ impl About {
         self.asks.is_none()
     }
 
+    /// Whether what is asked for has revisions.
+    pub fn has_revisions(&self) -> bool {
+        self.is_revised
+    }
+
     /// Only these of the options.
     pub fn among(self, options: &'static [&'static str]) -> Self {
         Self { among: Some(options), ..self }

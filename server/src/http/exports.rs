@@ -22,7 +22,10 @@ use espalier_proto::{
     library::{ExportFormat, ExportProgress},
 };
 use futures_util::stream;
-use tokio::{sync::oneshot, task::spawn_blocking};
+use tokio::{
+    sync::{OwnedSemaphorePermit, oneshot},
+    task::spawn_blocking,
+};
 use tokio_util::sync::CancellationToken;
 
 use super::{
@@ -31,10 +34,11 @@ use super::{
     file_name, ranges,
     sessions::{open, saved_document, unreadable},
     trees,
+    turns::Place,
 };
 use crate::{
     document::{FORMATS, FileError, FormatRow, Stored},
-    export_options::{ExportOptions, NotOfFormat},
+    export_options::{ExportOptions, NotOfFormat, option},
     memory::Use,
     spool::Spool,
     store::Library,
@@ -42,6 +46,8 @@ use crate::{
 
 /// Bytes read from the disk at once.
 const PIECE: usize = 256 * 1024;
+/// Pixels of all pictures of a file together: nobody waits for hours for those of another.
+const MOST_DRAWN: u64 = 400_000_000;
 /// Characters of a ticket: so many that nobody guesses one.
 const TICKET: std::ops::RangeInclusive<usize> = 16..=64;
 
@@ -50,10 +56,12 @@ const TICKET: std::ops::RangeInclusive<usize> = 16..=64;
 pub struct Progresses(Arc<Mutex<BTreeMap<String, Arc<Progress>>>>);
 
 /// Bytes of a file that is being made.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Progress {
     written: Arc<AtomicU64>,
     expected: AtomicU64,
+    /// Where it stands among those that are to be made.
+    place: Place,
 }
 
 /// Takes a ticket back when the export is done or given up.
@@ -70,8 +78,8 @@ impl Progresses {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn hold(&self, ticket: Option<String>) -> Result<(Arc<Progress>, Option<Held>), Failure> {
-        let progress = Arc::new(Progress::default());
+    fn hold(&self, ticket: Option<String>, place: Place) -> Result<(Arc<Progress>, Option<Held>), Failure> {
+        let progress = Arc::new(Progress { written: Arc::default(), expected: AtomicU64::default(), place });
         let Some(ticket) = ticket else { return Ok((progress, None)) };
         if !TICKET.contains(&ticket.len()) || self.lock().contains_key(&ticket) {
             let allowed =
@@ -111,7 +119,8 @@ fn progress_of(shared: &Shared, ticket: &str) -> Result<Json<ExportProgress>, Fa
     })?;
     let written = found.written.load(Ordering::Relaxed);
     let expected = found.expected.load(Ordering::Relaxed).max(written);
-    Ok(Json(ExportProgress { written, expected }))
+    let ahead = u32::try_from(found.place.ahead()).unwrap_or(u32::MAX);
+    Ok(Json(ExportProgress { written, expected, ahead }))
 }
 
 /// A session's tree as a file (`EX2`).
@@ -123,12 +132,13 @@ pub(super) async fn take(
     row: &'static FormatRow,
 ) -> Result<Response, Failure> {
     let wanted = Wanted::of(&shared, row, options)?;
+    let turn = wanted.progress.place.turn().await?;
     let document = open(&shared, &session).await?.read().await?;
     let tree = match shared.store.tree_of(&session).await? {
         Some(tree) => shared.store.tree(&tree.id).await?.map(|tree| tree.name),
         None => None,
     };
-    wanted.sent(&shared, (&session, &tree.unwrap_or_default()), document.bytes, &asked).await
+    wanted.sent(&shared, turn, (&session, &tree.unwrap_or_default()), document.bytes, &asked).await
 }
 
 /// A version of a saved tree as a file (`EX4`).
@@ -140,9 +150,10 @@ pub(super) async fn take_version(
     row: &'static FormatRow,
 ) -> Result<Response, Failure> {
     let wanted = Wanted::of(&shared, row, options)?;
+    let turn = wanted.progress.place.turn().await?;
     let document = saved_document(&shared, &tree, number).await?;
     let name = name_of(&shared, &tree, number).await?;
-    wanted.sent(&shared, (&tree, &name), document.bytes, &asked).await
+    wanted.sent(&shared, turn, (&tree, &name), document.bytes, &asked).await
 }
 
 /// What files of a version are called: as the tree, with the number where it is not the newest.
@@ -162,7 +173,18 @@ struct Wanted {
 impl Wanted {
     fn of(shared: &Shared, row: &'static FormatRow, mut options: ExportOptions) -> Result<Self, Failure> {
         options.check(row.options).map_err(|error| not_of(row, &error))?;
-        let (progress, held) = shared.progresses.hold(options.ticket.take())?;
+        let pixels = row.pixels(&options);
+        if pixels > MOST_DRAWN {
+            let allowed = format!("so many pictures that all together have {MOST_DRAWN} pixels at most");
+            return Err(Problem::out_of_range(
+                option::FRAMES,
+                format!("too many for {pixels} pixels"),
+                allowed,
+            )
+            .into());
+        }
+        let place = shared.turns.come(pixels > 0);
+        let (progress, held) = shared.progresses.hold(options.ticket.take(), place)?;
         Ok(Self { row, options, progress, held })
     }
 
@@ -170,12 +192,13 @@ impl Wanted {
     async fn sent(
         self,
         shared: &Shared,
+        turn: OwnedSemaphorePermit,
         (name, tree): (&str, &str),
         bytes: impl AsRef<[u8]> + Send + 'static,
         asked: &HeaderMap,
     ) -> Result<Response, Failure> {
         let Self { row, options, progress, held } = self;
-        let claim = shared.memory.take_soon(Use::Export, row.weight(bytes.as_ref().len())).await?;
+        let claim = shared.memory.take_soon(Use::Export, row.weight(bytes.as_ref().len(), &options)).await?;
         // The same program makes the same file of the same document.
         let said = format!("{options:?}");
         let program = env!("CARGO_PKG_VERSION");
@@ -193,7 +216,7 @@ impl Wanted {
             let file = make(bytes.as_ref(), row, &options, &progress, |written| {
                 Ok(Spool::new(tempfile::tempfile()?, pool, stop, written))
             });
-            drop((bytes, held, claim));
+            drop((bytes, held, claim, progress, turn));
             // Fails when nobody waits any more.
             drop(made.send(file));
         });

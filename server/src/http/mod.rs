@@ -34,6 +34,7 @@ mod sessions;
 mod species;
 mod status;
 mod trees;
+mod turns;
 mod uploads;
 mod versions;
 
@@ -59,6 +60,7 @@ pub use self::{
     keys::{KEPT, UnderWay},
     proxies::Proxies,
     sessions::SessionsBegun,
+    turns::Turns,
 };
 use self::{
     addresses::{Route, downloads, methods, path_of, routes, sockets},
@@ -128,6 +130,8 @@ pub struct Shared {
     pub tidying: Arc<Notify>,
     /// How far exports are.
     pub progresses: Progresses,
+    /// Whose turn it is to have one made.
+    pub turns: Turns,
     /// Trees that are grown on request.
     pub jobs: Jobs,
     /// Requests with keys that are being done.
@@ -158,6 +162,10 @@ pub fn router(shared: Shared) -> Router {
             let answer = match about.asks_nothing() {
                 true => answer.layer(from_fn(failure::without_query)),
                 false => answer,
+            };
+            let answer = match about.has_revisions() {
+                true => answer,
+                false => answer.layer(from_fn(revision::none_here)),
             };
             let answer = match time_limit {
                 Some(limit) if takes_keys => keyed(answer, shown, limit),

@@ -1,12 +1,25 @@
 //! Revisions of trees, as `ETag` and `If-Match` have them.
 
 use axum::{
-    extract::FromRequestParts,
+    extract::{FromRequestParts, Request},
     http::{HeaderName, HeaderValue, header, request::Parts},
+    middleware::Next,
+    response::{IntoResponse, Response},
 };
 use espalier_proto::{Problem, Reason};
 
 use super::failure::Failure;
+
+/// Refuses a change that holds for one revision alone where nothing has revisions: it must not be made all the same.
+pub(super) async fn none_here(request: Request, next: Next) -> Response {
+    let holds_for = request.headers().get(header::IF_MATCH).filter(|value| *value != "*");
+    if holds_for.is_none() || request.method().is_safe() {
+        return next.run(request).await;
+    }
+    let sentence = "The request cannot be done: If-Match asks for a revision, and nothing here has one.";
+    let problem = Problem::new(Reason::Malformed, sentence).at(header::IF_MATCH.as_str(), "none, or *");
+    Failure::from(problem).into_response()
+}
 
 /// The header that names a revision.
 pub(super) fn tag(revision: u64) -> [(HeaderName, HeaderValue); 1] {

@@ -83,6 +83,7 @@ async fn shared() -> Shared {
         opening: Arc::default(),
         tidying: Arc::default(),
         progresses: Progresses::default(),
+        turns: Turns::default(),
         under_way: UnderWay::default(),
     }
 }

@@ -19,6 +19,8 @@ const EXPORTED_BYTE: u64 = 10;
 const PICTURE: u64 = 128 << 20;
 /// A byte of a document that is drawn: all its triangles at once.
 const DRAWN_BYTE: u64 = 30;
+/// A pixel of a picture: its samples and its colour.
+const PIXEL: u64 = 24;
 /// A byte of a model that is read: its triangles while they are simplified.
 const MODEL_BYTE: u64 = 4;
 
@@ -45,9 +47,10 @@ pub fn export(bytes: usize) -> u64 {
     EXPORT + (bytes as u64).saturating_mul(EXPORTED_BYTE)
 }
 
-/// A picture of a document of so many bytes.
-pub fn picture(bytes: usize) -> u64 {
-    PICTURE + (bytes as u64).saturating_mul(DRAWN_BYTE)
+/// A picture of so many pixels of a document of so many bytes.
+pub fn picture(bytes: usize, pixels: usize) -> u64 {
+    let drawn = (bytes as u64).saturating_mul(DRAWN_BYTE);
+    PICTURE + drawn + (pixels as u64).saturating_mul(PIXEL)
 }
 
 /// A file of so many bytes that is read.

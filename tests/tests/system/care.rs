@@ -56,6 +56,13 @@ async fn a_backup_made_while_people_draw_is_restored_as_it_was() {
     let again = care(&["backup", name(&copy)], &database);
     assert!(again.code == 1 && again.stderr.contains("--replace"), "{}", again.stderr);
     assert_eq!(care(&["backup", name(&copy), "--replace"], &database).code, 0);
+    let link = scratch.path("link.db");
+    std::os::unix::fs::symlink(&database, &link).expect("a link");
+    let log = scratch.path("trees.db-wal");
+    for itself in [&database, &link, &log] {
+        let refused = care(&["backup", name(itself), "--replace"], &database);
+        assert!(refused.code == 1 && refused.stderr.contains("is the database itself"), "{}", refused.stderr);
+    }
 
     grow(&mut client, 3).await;
     assert_ne!(client.table.form(), before);

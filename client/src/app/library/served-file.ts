@@ -38,6 +38,6 @@ export async function servedFile(
 async function tellProgress(path: string, tell: (progress: Progress) => void): Promise<void> {
   const progress = await ask<ExportProgress>("GET", path).catch(() => null);
   if (progress) {
-    tell({ bytes: progress.written, total: progress.expected, isMaking: true });
+    tell({ bytes: progress.written, total: progress.expected, isMaking: true, ahead: progress.ahead });
   }
 }

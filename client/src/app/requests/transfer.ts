@@ -6,6 +6,8 @@ export interface Progress {
   readonly total: number | null;
   /** Whether it is still made where it comes from. */
   readonly isMaking?: boolean;
+  /** How many others come before it there. */
+  readonly ahead?: number;
 }
 
 /** Something large on its way to or from the server, one at a time: shown while it lasts, and can be given up. */

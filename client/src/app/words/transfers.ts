@@ -1,6 +1,10 @@
 /** Files on their way. */
 export const TRANSFERS = {
   "transfers.export": ["Making the file…", "Die Datei entsteht…"],
+  "transfers.export.waits": [
+    "Waiting for files of others: {count} before yours",
+    "Wartet auf Dateien anderer: {count} vor deiner",
+  ],
   "transfers.export.making": ["Making the file, {percent} %", "Die Datei entsteht, {percent} %"],
   "transfers.export.moving": ["Loading the file, {megabytes} MB", "Die Datei wird geladen, {megabytes} MB"],
   "transfers.export.part": [

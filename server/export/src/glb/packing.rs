@@ -23,10 +23,15 @@ pub(super) fn vertices(bytes: &[u8], stride: usize) -> Result<Vec<u8>, ExportErr
         36 => packed::<36>(bytes),
         40 => packed::<40>(bytes),
         44 => packed::<44>(bytes),
+        48 => packed::<48>(bytes),
         52 => packed::<52>(bytes),
         60 => packed::<60>(bytes),
         64 => packed::<64>(bytes),
+        68 => packed::<68>(bytes),
         72 => packed::<72>(bytes),
+        76 => packed::<76>(bytes),
+        80 => packed::<80>(bytes),
+        88 => packed::<88>(bytes),
         _ => None,
     };
     packed.ok_or(ExportError::NoCompression)

@@ -177,6 +177,37 @@ fn quantised_wood_is_as_thick_as_the_other() {
     }
 }
 
+/// Whatever goes together is written: each mix of attributes has a stride of its own, which meshoptimizer must know.
+#[cfg(feature = "meshopt")]
+#[test]
+fn all_options_go_together_but_movement_and_instances() {
+    let plant = saplings::pole(12);
+    let mut strides = std::collections::BTreeSet::new();
+    for mix in 0..1u32 << 8 {
+        let has = |bit: u32| mix >> bit & 1 == 1;
+        let options = Model {
+            quantised: has(0),
+            compressed: has(1),
+            instanced: has(2),
+            hull: has(3),
+            by_limb: has(4),
+            lightmap: has(5).then_some(64),
+            sway: has(6).then_some(8),
+            wind_weights: has(7),
+            ..PLAIN
+        };
+        if options.instanced && (options.sway.is_some() || options.wind_weights) {
+            continue;
+        }
+        let file = model(&plant, &style(), &looks(), METRES, &options);
+        let file = file.unwrap_or_else(|error| panic!("{options:?}: {error}"));
+        let root = root(&file);
+        let views = root["bufferViews"].as_array().expect("views").iter();
+        strides.extend(views.filter_map(|view| view["byteStride"].as_u64()));
+    }
+    assert!(strides.len() > 8, "{strides:?}");
+}
+
 #[cfg(feature = "meshopt")]
 #[test]
 fn compressed_vertices_and_triangles_are_those_of_the_others() {

@@ -106,9 +106,19 @@ pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<Vec<Piece>, Fa
             let line = record.position().map(|position| Place::Line(position.line()));
             return Err(too_many(line, options));
         }
+        if delimiter != b',' {
+            record = with_points(&record);
+        }
         rows.push(table.row(&record, options.units, rows.len())?);
     }
     pieces(&rows)
+}
+
+/// A line whose numbers have points, which many programs write as commas where commas do not separate cells.
+fn with_points(record: &StringRecord) -> StringRecord {
+    let mut pointed: StringRecord = record.iter().map(|cell| cell.replace(',', ".")).collect();
+    pointed.set_position(record.position().cloned());
+    pointed
 }
 
 fn unreadable(error: &csv::Error) -> Fault {

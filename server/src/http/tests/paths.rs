@@ -197,6 +197,20 @@ async fn what_is_not_there_is_named_by_the_field_of_the_body() {
 }
 
 #[tokio::test]
+async fn lb2_what_has_no_revision_refuses_if_match() {
+    let (server, _) = server().await;
+    let change = json!({ "name": "Forest" });
+    for (expected, status) in [(Some("\"9\""), StatusCode::BAD_REQUEST), (Some("*"), StatusCode::OK)] {
+        let answer = ask(&server, &Method::PATCH, "/api/v1/collections/wood", &change, expected).await;
+        if status == StatusCode::OK {
+            assert_eq!(answer.status, status);
+        } else {
+            answer.assert(status, "if-match", "a collection");
+        }
+    }
+}
+
+#[tokio::test]
 async fn the_address_of_a_socket_says_that_it_is_one() {
     let (server, _) = server().await;
     for socket in sockets() {

@@ -18,7 +18,7 @@ use super::{
     super::{Damage, StoreError},
     identity,
     open::{self, OpenError, common_options, sentence},
-    place::Place,
+    place::{self, Place},
     sessions, trees,
 };
 
@@ -39,6 +39,9 @@ pub enum CareError {
     /// A file is in the way.
     #[error("There is a file {} already: give another name, or --replace.", .0.display())]
     Exists(PathBuf),
+    /// A copy would take the place of what is copied.
+    #[error("{} is the database itself, or belongs to it: give another name.", .0.display())]
+    Itself(PathBuf),
     /// A file cannot be written.
     #[error("The file {} cannot be written: {reason}.", path.display())]
     Write {
@@ -70,6 +73,9 @@ pub async fn backup(
     is_replacing: bool,
     mut progress: impl FnMut(u64, u64),
 ) -> Result<u64, CareError> {
+    if place::is_part_of(to, database) {
+        return Err(CareError::Itself(to.to_owned()));
+    }
     if to.exists() && !is_replacing {
         return Err(CareError::Exists(to.to_owned()));
     }

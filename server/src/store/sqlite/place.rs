@@ -104,6 +104,34 @@ fn lock_of(path: &Path) -> PathBuf {
     name.into()
 }
 
+/// How the names of files go on that lie beside a database for it.
+const BESIDE: [&str; 4] = ["-wal", "-shm", ".lock", ".reserve"];
+
+/// Whether a path leads to the database, under whatever name, or to a file that lies beside it for it.
+pub(super) fn is_part_of(path: &Path, database: &Path) -> bool {
+    let same = |other: &Path| match (fs::metadata(path), fs::metadata(other)) {
+        (Ok(one), Ok(other)) => is_same(&one, &other),
+        _ => false,
+    };
+    let beside = |suffix: &str| {
+        let mut name = database.as_os_str().to_owned();
+        name.push(suffix);
+        let name = PathBuf::from(name);
+        path == name || same(&name)
+    };
+    path == database || same(database) || BESIDE.iter().any(|suffix| beside(suffix))
+}
+
+#[cfg(unix)]
+fn is_same(one: &fs::Metadata, other: &fs::Metadata) -> bool {
+    identity(one) == identity(other)
+}
+
+#[cfg(not(unix))]
+fn is_same(_: &fs::Metadata, _: &fs::Metadata) -> bool {
+    false
+}
+
 fn try_lock(file: &File) -> Result<(), String> {
     match file.try_lock() {
         Ok(()) => Ok(()),

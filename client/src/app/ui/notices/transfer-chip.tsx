@@ -15,25 +15,27 @@ export function TransferChip({ transfer, name }: TransferChipProps) {
   if (!shown || progress === null) {
     return null;
   }
-  const { bytes, total, isMaking = false } = progress;
+  const { bytes, total, isMaking = false, ahead = 0 } = progress;
   // How much it will be is a guess while it is made.
   const percent = total ? Math.min(isMaking ? 99 : 100, Math.round((100 * bytes) / total)) : null;
   const figures = new Intl.NumberFormat(language.value, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
   const megabytes = (count: number) => figures.format(count / 1e6);
   const text =
-    bytes === 0
-      ? say(`transfers.${name}`)
-      : isMaking && name === "export"
-        ? say("transfers.export.making", { percent: percent ?? 0 })
-        : percent === 100
-          ? say(`transfers.${name}.read`)
-          : total === null && name !== "picture"
-            ? say(`transfers.${name}.moving`, { megabytes: megabytes(bytes) })
-            : say(`transfers.${name}.part`, {
-                done: megabytes(bytes),
-                megabytes: megabytes(total ?? 0),
-                percent: percent ?? 0,
-              });
+    ahead > 0
+      ? say("transfers.export.waits", { count: ahead })
+      : bytes === 0
+        ? say(`transfers.${name}`)
+        : isMaking && name === "export"
+          ? say("transfers.export.making", { percent: percent ?? 0 })
+          : percent === 100
+            ? say(`transfers.${name}.read`)
+            : total === null && name !== "picture"
+              ? say(`transfers.${name}.moving`, { megabytes: megabytes(bytes) })
+              : say(`transfers.${name}.part`, {
+                  done: megabytes(bytes),
+                  megabytes: megabytes(total ?? 0),
+                  percent: percent ?? 0,
+                });
   return (
     <p class="chip">
       {/* Where the duration is not known, the bar only moves. */}
