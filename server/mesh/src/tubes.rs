@@ -63,29 +63,27 @@ pub struct Bodies {
     courses: Arc<Courses>,
     smoothing: f32,
     grain: Grain,
-    /// Limbs that begin thinner are left out.
-    thinnest: f32,
+    /// Radius of the thinnest twigs.
+    twig: f32,
 }
 
 impl Bodies {
     /// All limbs that are drawn in such a grain, those that bear before those that are borne.
     pub fn of(plant: &Plant, style: &Style, look: &BarkLook, grain: Grain) -> Self {
         let courses = Arc::new(Courses::of(plant, style, look));
-        let thinnest = 0.5 * style.options().twig_diameter;
-        let all = Self { courses, smoothing: look.smoothing, grain, thinnest };
-        all.in_grain(grain)
+        Self { courses, smoothing: look.smoothing, grain, twig: 0.5 * style.options().twig_diameter }
     }
 
     /// The same wood in another grain.
     pub fn in_grain(&self, grain: Grain) -> Self {
-        let thinnest = self.thinnest / self.grain.thinnest.max(1.0) * grain.thinnest.max(1.0);
-        Self { courses: Arc::clone(&self.courses), grain, thinnest, ..*self }
+        Self { courses: Arc::clone(&self.courses), grain, ..*self }
     }
 
     /// The bodies, one for each limb.
     pub fn iter(&self) -> impl Iterator<Item = Body<'_>> {
         let thickest = |course: &Course| course.nodes.iter().map(|node| node.radius).fold(0.0, f32::max);
-        let courses = self.courses.all.iter().filter(move |course| thickest(course) >= self.thinnest);
+        let thinnest = self.twig * self.grain.thinnest;
+        let courses = self.courses.all.iter().filter(move |course| thickest(course) >= thinnest);
         courses.map(|course| Body { course, smoothing: self.smoothing, grain: self.grain })
     }
 
