@@ -369,6 +369,26 @@ fn gr9_what_a_space_cuts_comes_again_and_what_hands_cut_does_not() {
 }
 
 #[test]
+fn a_text_that_went_back_in_depth_comes_to_the_whole_plant_again() {
+    for (name, deep) in [("monopodial", 10), ("honda-maple", 9), ("barron-binary", 8)] {
+        let text = shipped(name);
+        let mut document = Document::new(7);
+        apply(&mut document, &set(text, deep));
+        let whole = document.metamers();
+        apply(&mut document, &set(text, deep / 2));
+        let half = document.metamers();
+        assert!(half < whole, "{name}: {half} of {whole}");
+        apply(&mut document, &derive(deep - deep / 2));
+        assert_eq!(document.metamers(), whole, "{name}, derived");
+        apply(&mut document, &set(text, deep / 2));
+        assert_eq!(document.metamers(), half, "{name}, half again");
+        apply(&mut document, &set(text, deep));
+        assert_eq!(document.metamers(), whole, "{name}, written");
+        assert_eq!(checks::all(document.plant()), Ok(()), "{name}");
+    }
+}
+
+#[test]
 fn sliders_move_the_plant_in_one_step() {
     let mut document = Document::new(1);
     apply(&mut document, &set(shipped("barron-binary"), 5));
