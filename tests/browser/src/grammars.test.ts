@@ -1,9 +1,10 @@
 import type { Locator } from "playwright-core";
 import { expect, test } from "vitest";
+import type { GrammarBody } from "../../../client/src/wire/generated";
 import { LANDSCAPE, PHONE, type Screen } from "./screens";
 import { until } from "./server";
 import type { Tablet } from "./tablet";
-import { way } from "./ways";
+import { loop, way } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
@@ -204,4 +205,107 @@ test("a file that is dropped on the page is opened and planted", async () => {
   });
   await tablet.until("it is planted", ({ metamers }) => metamers >= 27);
   await expect.poll(() => textOf(tablet)).toContain("F --> F[+F]F");
+});
+
+/** The ends of all internodes of a session's tree, in internodes; a seed is none. */
+async function ends(address: string): Promise<number[][]> {
+  const answer = await fetch(`${address.replace("/s/", "/api/v1/sessions/")}/tree.json`);
+  const { metamers, parameters } = (await answer.json()) as {
+    metamers: { parent: number | null; position: number[] }[];
+    parameters: { internode_length: number };
+  };
+  const grown = metamers.filter(({ parent }) => parent !== null);
+  return grown.map(({ position }) => position.map((metres) => metres / parameters.internode_length));
+}
+
+/** Whether a place lies in what is drawn on a plane, seen across it. */
+function surrounds({ outline, plane: { origin, right, up } }: GrammarBody, place: readonly number[]): boolean {
+  const along = (axis: readonly number[]) => axis.reduce((sum, part, i) => sum + part * (place[i]! - origin[i]!), 0);
+  const [x, y] = [along(right), along(up)];
+  return (
+    outline.filter(([x1, y1], i) => {
+      const [x2, y2] = outline[(i + 1) % outline.length]!;
+      return y1 > y !== y2 > y && x < x1 + ((y - y1) / (y2 - y1)) * (x2 - x1);
+    }).length %
+      2 ===
+    1
+  );
+}
+
+/** Grows as far as it may, and asks each place before it draws. */
+const FILLS = [
+  "axiom: f(1)Q(-1)",
+  "derivation length: 14",
+  "Q(v) : v < 0 --> Q(inside(0))",
+  "f(l) > Q(v) : v == 1 --> F(l)",
+  "f(l) > Q(v) : v == 0 --> *",
+  "Q(v) : v == 0 --> %",
+  "Q(v) : v == 1 --> [&(60)f(1)Q(-1)]/(137.5)[&(35)f(1)Q(-1)]f(1)Q(-1)",
+];
+
+test.each([
+  ["a tablet on its side", LANDSCAPE],
+  ["a tablet upright", UPRIGHT],
+] as const)("GR9 a space is drawn by hand and filled on %s", async (name, screen) => {
+  const { tablet, address } = await workshop.fresh(screen);
+  const { page } = tablet;
+  const shown = name.replaceAll(" ", "-");
+  const bodies: GrammarBody[] = [];
+  page.on("websocket", (socket) =>
+    socket.on("framesent", ({ payload }) => {
+      const said = String(payload);
+      const within = said.includes('"set_grammar_body"')
+        ? (JSON.parse(said) as { command?: { within?: GrammarBody } }).command?.within
+        : undefined;
+      if (within) bodies.push(within);
+    }),
+  );
+  await page.reload();
+  await tablet.untilReady();
+  await open(tablet, "Text");
+  await write(tablet, FILLS);
+  const free = await tablet.until("it is planted", ({ metamers, pending }) => metamers > 500 && pending === 0);
+  await open(tablet, "Depth");
+  await tablet.untilQuiet();
+
+  // A loop on the picture, from below the foot of the plant upwards.
+  await tablet.press(button(tablet, "Draw its space"));
+  await page.getByText(/^Draw an outline on the picture/).waitFor();
+  await tablet.showNow(`101-grammar-${shown}-space-ahead`);
+  const { x, y, width, height } = await tablet.boxOf(page.locator("main.workspace canvas"));
+  const centre = { x: x + 0.5 * width, y: y + 0.55 * height };
+  await tablet.swipe([loop(centre, { x: 0.12 * width, y: 0.27 * height })]);
+  const outline = page.locator(".grammar-space-outline path");
+  await expect.poll(() => outline.getAttribute("d")).toContain("L");
+  const filled = await tablet.until(
+    "the plant stays within it",
+    ({ metamers, pending }) => metamers < free.metamers && metamers > 20 && pending === 0,
+  );
+  await tablet.untilQuiet();
+  await tablet.show(`101-grammar-${shown}-space`);
+
+  // No internode ends outside of what was drawn.
+  expect(bodies).toHaveLength(1);
+  const grown = await ends(address);
+  expect(grown.length).toBeGreaterThan(20);
+  expect(grown.filter((end) => !surrounds(bodies[0]!, end))).toEqual([]);
+
+  // Taken away, all space is the plant's again; taken back, it is as it was.
+  await tablet.press(button(tablet, "Take the space away"));
+  const isFree = () =>
+    tablet.until("it is free", ({ metamers, pending }) => metamers === free.metamers && pending === 0);
+  await isFree();
+  await outline.waitFor({ state: "detached" });
+  await tablet.tap("Undo");
+  await tablet.until("the space is back", ({ metamers, pending }) => metamers === filled.metamers && pending === 0);
+  await outline.waitFor({ state: "attached" });
+
+  // The slider of depth goes back and forth through what was derived, with a finger.
+  const depth = page.getByRole("slider", { name: "Depth", exact: true });
+  await depth.scrollIntoViewIfNeeded();
+  await tablet.untilSettled();
+  const box = await tablet.boxOf(depth);
+  const at = (x: number) => ({ x: box.x + x * box.width, y: box.y + 0.5 * box.height });
+  await tablet.swipe([way(at(0.7), at(0.2), 8)]);
+  await tablet.until("it is less deep", ({ metamers, pending }) => metamers < filled.metamers && pending === 0);
 });
