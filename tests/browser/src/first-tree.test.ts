@@ -158,4 +158,5 @@ test.each(Object.entries(SCREENS))(
     expect(await grow(tablet, here, 1), "which grows on").toBeGreaterThan(first);
     await tablet.show(`library-scan-grown-${orientation}`);
   },
+  600_000,
 );
