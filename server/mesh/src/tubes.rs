@@ -209,11 +209,33 @@ impl Wood {
     }
 
     fn sweep(&mut self, course: &Course, smoothing: f32, grain: &Grain) -> Option<Sheet> {
-        let samples = samples(course, smoothing, grain.tolerance);
-        let [first, .., last] = &samples[..] else { return None };
+        let mut samples = samples(course, smoothing, grain.tolerance);
+        let before = self.marks();
+        loop {
+            let last = samples.len().checked_sub(1).filter(|&last| last > 0)?;
+            match self.sweep_through(&samples, course, grain) {
+                Ok(sheet) => return Some(sheet),
+                // Rings that differ much in width and direction may have skin between them that is turned over.
+                Err(ring) => {
+                    self.go_back(before);
+                    if last > 1 {
+                        samples.remove(if ring == last { ring - 1 } else { ring });
+                    } else {
+                        let along = (samples[1].point - samples[0].point).normalize_or(samples[0].tangent);
+                        samples.iter_mut().for_each(|sample| sample.tangent = along);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Sweeps a tube through at least two rings; gives the number of one that cannot stand on the one below.
+    fn sweep_through(&mut self, samples: &[Sample], course: &Course, grain: &Grain) -> Result<Sheet, usize> {
+        let (first, last) = (&samples[0], &samples[samples.len() - 1]);
+        let are_parallel = samples.len() == 2 && first.tangent == last.tangent;
         let thickest = course.nodes.iter().map(|node| node.radius).fold(0.0, f32::max);
         let across = rotation_minimising::normals(samples.iter().map(|sample| sample.tangent), course.normal);
-        let (slopes, rib_slopes) = (slopes(&samples, course.end), rib_slopes(&samples));
+        let (slopes, rib_slopes) = (slopes(samples, course.end), rib_slopes(samples));
         let rises = matches!(course.flare, Flare::Roots { .. });
         let tube = Tube::new(sides(thickest, grain), squares(thickest), rises);
         let foot = self.add_ring(&tube, first, across[0], [slopes[0], rib_slopes[0]], 0.0);
@@ -232,7 +254,9 @@ impl Wood {
             v += tube.tiles_along(way, 0.5 * (to.radius + from.radius));
             let slopes = [slopes[i + 1], rib_slopes[i + 1]];
             let ring = self.add_ring(&tube, to, across[i + 1], slopes, v);
-            self.join(&tube, below, ring);
+            if !self.join(&tube, below, ring) && !are_parallel {
+                return Err(i + 1);
+            }
             rings.push(ring);
             below = ring;
         }
@@ -248,7 +272,23 @@ impl Wood {
                 Closing::Face(top)
             }
         };
-        Some(Sheet { sides: tube.sides(), rings, foot: face, end })
+        Ok(Sheet { sides: tube.sides(), rings, foot: face, end })
+    }
+
+    /// How many vertices, indices and indices of cuts there are.
+    fn marks(&self) -> [usize; 3] {
+        [self.radii.len(), self.surface.indices.len(), self.cuts.len()]
+    }
+
+    /// Forgets what was added since.
+    fn go_back(&mut self, [vertices, indices, cuts]: [usize; 3]) {
+        self.surface.positions.truncate(vertices);
+        self.surface.normals.truncate(vertices);
+        self.surface.uvs.truncate(vertices);
+        self.surface.indices.truncate(indices);
+        self.cuts.truncate(cuts);
+        self.radii.truncate(vertices);
+        self.tangents.truncate(vertices);
     }
 
     /// Vertices so far.
@@ -293,11 +333,25 @@ impl Wood {
         first
     }
 
-    fn join(&mut self, tube: &Tube, below: u32, above: u32) {
+    /// Adds the skin between two rings, and says whether all of it faces the way its normals do.
+    fn join(&mut self, tube: &Tube, below: u32, above: u32) -> bool {
+        let mut faces_out = true;
         for side in 0..tube.sides() {
-            self.surface.triangle(below + side, below + side + 1, above + side + 1);
-            self.surface.triangle(below + side, above + side + 1, above + side);
+            for [a, b, c] in [
+                [below + side, below + side + 1, above + side + 1],
+                [below + side, above + side + 1, above + side],
+            ] {
+                self.surface.triangle(a, b, c);
+                faces_out &= self.faces_out([a, b, c]);
+            }
         }
+        faces_out
+    }
+
+    fn faces_out(&self, triangle: [u32; 3]) -> bool {
+        let [a, b, c] = triangle.map(|corner| self.surface.positions[corner as usize]);
+        let outward: Vec3 = triangle.iter().map(|&corner| self.surface.normals[corner as usize]).sum();
+        (b - a).cross(c - a).dot(outward) > 0.0
     }
 
     /// Closes the tip with a cone as high as it is wide.
