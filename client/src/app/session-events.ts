@@ -20,6 +20,7 @@ import { explained, plainWords } from "./problems/explained";
 import { type RefusalTargets, refused } from "./problems/refusals";
 import type { Together } from "./together/together";
 import type { SharedBends } from "./tools/bend/shared-bends";
+import type { StrokeTrail } from "./tools/brush/stroke-trail";
 import type { DrawnInVain } from "./tools/drawn-in-vain";
 import type { OutlineTrace } from "./tools/lasso/outline-trace";
 import { toolFor } from "./tools/tools";
@@ -36,6 +37,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly looks: LookDraft;
   readonly growth: GrowControl;
   readonly outline: OutlineTrace;
+  readonly trail: StrokeTrail;
   readonly widths: WidthList;
   readonly design: DesignSignal;
   readonly grammar: GrammarSignal;
@@ -73,6 +75,7 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
     done: ({ id }) => {
       page.finished.value = id;
       page.outline.done(id);
+      page.trail.done(id);
       page.growth.done(id);
     },
     parameters: ({ parameters }) => page.growing.receive(parameters),
@@ -94,7 +97,12 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
     },
     grammar: ({ grammar }) => page.grammar.receive(grammar),
     deed: ({ deed }) => page.undo.done(deed),
-    hint: ({ hint }) => page.drawnInVain.show(hint),
+    hint: ({ hint }) => {
+      page.drawnInVain.show(hint);
+      if (hint.stroke !== undefined) {
+        page.trail.inVain(hint.stroke);
+      }
+    },
     people: (people) => {
       page.together.people.value = people;
     },
@@ -154,6 +162,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
       page.undo.forget();
       page.tools.abandon();
       page.outline.clear();
+      page.trail.leave();
     },
     lost: () => {
       page.bends.clear();
@@ -184,6 +193,7 @@ function forget(page: SessionTargets, { isReplay, isSame }: Opening): void {
   page.bud.release();
   page.tools.clear();
   page.outline.clear();
+  page.trail.clear();
   page.bends.clear();
   page.together.forget();
   page.rights.leave(isReplay ? "viewer" : null);
@@ -208,6 +218,7 @@ function forget(page: SessionTargets, { isReplay, isSame }: Opening): void {
 function followRows(page: SessionTargets): void {
   page.rows.value = page.table.rows;
   page.revision.value += 1;
+  page.trail.grown(page.table);
   page.branches.held.keep();
   page.tools.changed();
   if (!page.bud.keep()) {

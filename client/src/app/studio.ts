@@ -32,6 +32,7 @@ import { sessionEvents } from "./session-events";
 import { Together } from "./together/together";
 import { SharedBends } from "./tools/bend/shared-bends";
 import { BranchWork } from "./tools/branch/branch-work";
+import { StrokeTrail } from "./tools/brush/stroke-trail";
 import { chooseBud } from "./tools/bud-choice";
 import { ChosenBud } from "./tools/chosen-bud";
 import { DrawnInVain } from "./tools/drawn-in-vain";
@@ -114,6 +115,7 @@ export class Studio {
   readonly serverTime = new ServerTime((nonce) => this.link.tell({ type: "ping", nonce }), browserClock);
   readonly bud = new ChosenBud(this.table);
   readonly outline = new OutlineTrace();
+  readonly trail = new StrokeTrail();
   readonly drawnInVain = new DrawnInVain(browserClock);
   readonly widths = new WidthList();
   readonly design = new DesignSignal();
@@ -190,6 +192,7 @@ export class Studio {
     obstacles: this.obstacles,
     branch: this.branches.held,
     outline: this.outline,
+    trail: this.trail,
     widths: this.widths,
     bends: this.bends,
     submit: (command) => this.submit(command),

@@ -15,6 +15,7 @@ import type { Key, Text } from "../words/say";
 import type { SharedBends } from "./bend/shared-bends";
 import type { BranchWork } from "./branch/branch-work";
 import type { HeldBranch } from "./branch/held-branch";
+import type { StrokeTrail } from "./brush/stroke-trail";
 import type { ChosenBud } from "./chosen-bud";
 import type { OutlineTrace } from "./lasso/outline-trace";
 import type { Copy } from "./symmetry/symmetry";
@@ -124,6 +125,7 @@ export interface Workshop {
   readonly obstacles: ObstacleList;
   readonly branch: HeldBranch;
   readonly outline: OutlineTrace;
+  readonly trail: StrokeTrail;
   readonly widths: WidthList;
   readonly bends: SharedBends;
   readonly submit: (command: Command) => void;

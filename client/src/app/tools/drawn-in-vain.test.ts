@@ -45,11 +45,16 @@ describe("what was drawn in vain", () => {
 
   it("SG2: is what the server hints at", () => {
     const show = vi.fn();
-    const page = { drawnInVain: { show, clear: vi.fn() } } as Partial<SessionTargets> as SessionTargets;
+    const trail = { inVain: vi.fn() };
+    const page = {
+      drawnInVain: { show, clear: vi.fn() },
+      trail,
+    } as unknown as Partial<SessionTargets> as SessionTargets;
     const handlers: MessageHandlers = messageHandlers(page);
     for (const hint of [stroke, stuck, lasso]) {
       handle(handlers, { type: "hint", hint });
       expect(show).toHaveBeenLastCalledWith(hint);
     }
+    expect(trail.inVain.mock.calls, "its ghost is told as well").toEqual([[stroke.stroke], [stuck.stroke]]);
   });
 });

@@ -28,6 +28,8 @@ export interface Tool {
   cutAt?(x: number, y: number): boolean;
   /** Where it would put something into the scene; null for nowhere. */
   readonly coming?: ReadonlySignal<Vec3 | null>;
+  /** What it has asked the server to put there, by the numbers of commands; some of it may be there already. */
+  readonly planted?: ReadonlySignal<readonly { readonly place: Vec3; readonly command: number }[]>;
   /** Releases what is marked, as Escape does while nothing is in progress; false if there was nothing. */
   release?(): boolean;
 }

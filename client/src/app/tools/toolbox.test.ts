@@ -13,6 +13,7 @@ import { loadSettings } from "../page/settings";
 import { Toasts } from "../page/toasts";
 import { SharedBends } from "./bend/shared-bends";
 import type { HeldBranch } from "./branch/held-branch";
+import { StrokeTrail } from "./brush/stroke-trail";
 import { ChosenBud } from "./chosen-bud";
 import { OutlineTrace } from "./lasso/outline-trace";
 import { Toolbox } from "./toolbox";
@@ -60,6 +61,7 @@ function setUp(table = new TreeTable()) {
   const [outline, widths, bends] = [new OutlineTrace(), new WidthList(), new SharedBends()];
   const tools = new Toolbox({
     outline,
+    trail: new StrokeTrail(),
     widths,
     bends,
     table,

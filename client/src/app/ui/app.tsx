@@ -15,6 +15,7 @@ import { Status } from "./notices/status";
 import { BudMarker, HoldRing } from "./overlays/bud-marker";
 import { OutlineOverlay } from "./overlays/outline-overlay";
 import { Seedlings } from "./overlays/seedling";
+import { StrokeGhosts } from "./overlays/stroke-ghost";
 import { Panel } from "./panels/panel";
 import type { Part } from "./part";
 import { PartView } from "./part-view";
@@ -117,6 +118,7 @@ function Workspace({ studio }: { studio: Studio }) {
       <canvas id="workspace" ref={canvas} aria-label={say("notices.workspace")} role="img" />
       <Seedlings studio={studio} />
       {repeats && SymmetryMark && <SymmetryMark studio={studio} />}
+      <StrokeGhosts studio={studio} />
       <OutlineOverlay studio={studio} />
       <BudMarker studio={studio} />
       {tool?.views.Marks && <tool.views.Marks tool={tool.made} page={studio} />}

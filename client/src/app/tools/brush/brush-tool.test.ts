@@ -21,6 +21,17 @@ function setUp() {
     turned: 0,
   };
   const shown: { point: Vec3; points: readonly Vec3[]; radius: number }[] = [];
+  const ghosts: { ended: number | null; places: Vec3[] }[] = [];
+  const trail = {
+    begin: (stroke: number) => {
+      ghosts[stroke] = { ended: null, places: [] };
+    },
+    add: (stroke: number, position: Vec3) => ghosts[stroke]!.places.push(position),
+    end: (stroke: number, command: number) => {
+      ghosts[stroke]!.ended = command;
+    },
+    leave: () => ghosts.splice(0),
+  };
   const tool = new BrushTool({
     view: {
       pointOnPlane: (x, y, through) => {
@@ -34,7 +45,8 @@ function setUp() {
       hideBrush: () => shown.splice(0),
     },
     submit: (command) => sent.push(command),
-    newStroke: () => sent.length + 1,
+    next: () => sent.length + 1,
+    trail,
     unsettledMoves: () => world.unsettled,
     radius: () => world.radius,
     pressureWidens: () => world.pressure,
@@ -45,7 +57,7 @@ function setUp() {
   });
   const samples = (): StrokeSample[] =>
     sent.flatMap((command) => (command.kind === "stroke_move" ? command.samples : []));
-  return { tool, sent, world, shown, samples };
+  return { tool, sent, world, shown, samples, ghosts };
 }
 
 const at = (x: number, y: number, pressure: number | null = null) => ({ x, y, pressure });
@@ -128,6 +140,27 @@ describe("brush tool", () => {
     expect(kinds(sent)).toEqual(["stroke_begin"]);
     tool.tick();
     expect(sent[1]).toMatchObject({ samples: [0, 1, 2, 3].map((x) => ({ position: [x, 10, 2] })) });
+  });
+
+  it("shows where it is before anything is sent, each copy of it, until the command that ends it", () => {
+    const { tool, sent, world, ghosts } = setUp();
+    world.symmetry = { kind: "around", around: 2, mirrored: false };
+    world.unsettled = 99;
+    tool.begin(at(30, 990));
+    tool.move([at(50, 980)]);
+    expect(kinds(sent)).toEqual(["stroke_begin", "stroke_begin"]);
+    expect(ghosts.filter(Boolean).map(({ places }) => places.at(-1)!.map(Math.round))).toEqual([
+      [5, 2, 2],
+      [-5, 2, -2],
+    ]);
+    tool.end();
+    expect(ghosts.filter(Boolean).map(({ ended }) => ended && sent[ended - 1]?.kind)).toEqual([
+      "stroke_end",
+      "stroke_end",
+    ]);
+    tool.begin(at(30, 990));
+    tool.abandon();
+    expect(ghosts).toEqual([]);
   });
 
   it("a resting brush keeps sowing", () => {

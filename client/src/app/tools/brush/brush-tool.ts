@@ -7,6 +7,7 @@ import type { Copy } from "../symmetry/symmetry";
 import { PICK_TOLERANCE, type Tool, tidy, withinReach } from "../tool";
 import { MAX_RADIUS } from "./brush-radius";
 import { SampleQueue } from "./sample-queue";
+import type { StrokeTrail } from "./stroke-trail";
 
 /** Messages that may be in progress; beyond it places gather for the next one. */
 const MAX_UNSETTLED = 8;
@@ -14,8 +15,10 @@ const MAX_UNSETTLED = 8;
 export interface BrushOptions {
   readonly view: BrushView;
   readonly submit: (command: Command) => void;
-  /** A number no other stroke of this client has. */
-  readonly newStroke: () => number;
+  /** The number the next command gets; a stroke goes by that of its first. */
+  readonly next: () => number;
+  /** What shows strokes until they have grown. */
+  readonly trail: Pick<StrokeTrail, "begin" | "add" | "end" | "leave">;
   /** How many `stroke_move` the server has not yet answered. */
   readonly unsettledMoves: () => number;
   readonly radius: () => number;
@@ -57,12 +60,13 @@ export class BrushTool implements Tool {
 
   begin(point: StrokePoint): void {
     this.end();
-    const { newStroke, submit } = this.#options;
+    const { next, submit, trail } = this.#options;
     const { through, copies } = this.#begins(point.x, point.y);
     const bud = this.#options.bud();
     // Strokes that overlap in time are one operation (`CM5`).
     const begun = copies.map((copy) => {
-      const number = newStroke();
+      const number = next();
+      trail.begin(number);
       submit({ kind: "stroke_begin", stroke: number, ...(bud === null ? {} : { bud }) });
       return { ...copy, number };
     });
@@ -110,6 +114,7 @@ export class BrushTool implements Tool {
       this.#send(stroke);
     }
     for (const { number } of stroke.copies) {
+      this.#options.trail.end(number, this.#options.next());
       this.#options.submit({ kind: "stroke_end", stroke: number });
     }
     this.#stroke = null;
@@ -126,6 +131,7 @@ export class BrushTool implements Tool {
   abandon(): void {
     this.#stroke = null;
     this.#options.view.hideBrush();
+    this.#options.trail.leave();
   }
 
   /** Shows where a stroke beginning here would lie. */
@@ -147,7 +153,7 @@ export class BrushTool implements Tool {
   }
 
   /** Notes where the brush is under the finger, as the camera stands now, unless it is there already. */
-  #sample({ finger, through, samples, pressure }: Stroke): void {
+  #sample({ finger, through, samples, pressure, copies }: Stroke): void {
     const place = this.#options.view.pointOnPlane(finger.x, finger.y, through);
     if (!place) {
       return;
@@ -157,6 +163,9 @@ export class BrushTool implements Tool {
     const { latest } = samples;
     if (latest?.radius !== radius || position.some((value, axis) => value !== latest.position[axis])) {
       samples.add({ position, radius });
+      for (const copy of copies) {
+        this.#options.trail.add(copy.number, withinReach(copy.place(position)), radius);
+      }
     }
   }
 

@@ -16,11 +16,12 @@ export const BRUSH: ToolDescriptor<BrushTool> = {
   isSymmetric: true,
   hint: ({ settings, empty }) =>
     empty && !settings.hasDrawn.value ? ["Draw upward from the seedling", "Zeichne vom Sämling nach oben"] : null,
-  make: ({ view, submit, next, unsettledMoves, settings, bud, base, copies }) =>
+  make: ({ view, submit, next, unsettledMoves, settings, bud, base, copies, trail }) =>
     new BrushTool({
       view,
       submit,
-      newStroke: next,
+      next,
+      trail,
       unsettledMoves,
       radius: () => settings.radius.peek(),
       pressureWidens: () => settings.pressureWidens.peek(),

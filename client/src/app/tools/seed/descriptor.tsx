@@ -12,10 +12,11 @@ export const SEED: ToolDescriptor<SeedTool> = {
   serves: "plant",
   keepsObstacles: true,
   hint: () => ["Tap the ground to plant a seed", "Tippe auf den Boden, um einen Samen zu setzen"],
-  make: ({ view, submit, say }) =>
+  make: ({ view, submit, next, say }) =>
     new SeedTool({
       groundAt: (x, y) => view.pointOnLevel(x, y, [0, 0, 0]),
       submit,
+      next,
       missed: () => say("tools.ground-missed"),
     }),
   later: () => import("./later"),

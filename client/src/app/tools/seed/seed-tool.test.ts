@@ -9,6 +9,7 @@ function setUp() {
   const tool = new SeedTool({
     groundAt: (x, y) => (y > 500 ? [x / 10, 0, y / 10] : null),
     submit: (command) => sent.push(command),
+    next: () => sent.length + 1,
     missed: () => calls.push("missed"),
   });
   return { tool, sent, calls, shown: () => tool.coming.value };
@@ -26,6 +27,22 @@ describe("seed tool", () => {
     tool.end();
     expect(sent).toEqual([{ kind: "plant_seed", position: [20, 0, 80] }]);
     expect([calls, shown()]).toEqual([[], null]);
+  });
+
+  it("shows what it has planted until it is refused, or given up", () => {
+    const { tool, sent } = setUp();
+    for (const x of [100, 200]) {
+      tool.begin(at(x, 600));
+      tool.end();
+    }
+    expect(tool.planted.value).toEqual([
+      { place: [10, 0, 60], command: 1 },
+      { place: [20, 0, 60], command: 2 },
+    ]);
+    tool.refused(sent[0]!);
+    expect(tool.planted.value.map(({ command }) => command)).toEqual([2]);
+    tool.abandon();
+    expect(tool.planted.value).toEqual([]);
   });
 
   it("plants nothing in the sky", () => {

@@ -8,14 +8,27 @@ export interface SeedOptions {
   /** Where the ground is under a pixel; null where there is sky, or ground too far off to aim at. */
   readonly groundAt: (x: number, y: number) => Vec3 | null;
   readonly submit: (command: Command) => void;
+  /** The number the next command gets. */
+  readonly next: () => number;
   /** The finger lifted where there is no ground. */
   readonly missed: () => void;
 }
+
+/** A seed that the server was asked for. */
+export interface Planted {
+  readonly place: Vec3;
+  readonly command: number;
+}
+
+/** Seeds that are kept of those asked for. */
+const MOST_PLANTED = 40;
 
 /** Plants a seed where the finger lifts. */
 export class SeedTool implements Tool {
   /** Where the seed would lie; null for nowhere. */
   readonly coming = signal<Vec3 | null>(null);
+  /** What was planted last, there yet or not. */
+  readonly planted = signal<readonly Planted[]>([]);
   #options: SeedOptions;
   #active = false;
 
@@ -40,17 +53,26 @@ export class SeedTool implements Tool {
       return;
     }
     const place = this.coming.peek();
-    this.abandon();
+    this.#lift();
     if (place) {
-      this.#options.submit({ kind: "plant_seed", position: withinReach(place) });
+      const position = withinReach(place);
+      const planted = { place: position, command: this.#options.next() };
+      this.planted.value = [...this.planted.peek(), planted].slice(-MOST_PLANTED);
+      this.#options.submit({ kind: "plant_seed", position });
     } else {
       this.#options.missed();
     }
   }
 
   abandon(): void {
-    this.#active = false;
-    this.leave();
+    this.#lift();
+    this.planted.value = [];
+  }
+
+  refused(command: Command): void {
+    if (command.kind === "plant_seed") {
+      this.planted.value = this.planted.peek().filter(({ place }) => `${place}` !== `${command.position}`);
+    }
   }
 
   hover(x: number, y: number): void {
@@ -59,5 +81,10 @@ export class SeedTool implements Tool {
 
   leave(): void {
     this.coming.value = null;
+  }
+
+  #lift(): void {
+    this.#active = false;
+    this.leave();
   }
 }

@@ -10,14 +10,20 @@ const LEAST_PIXELS = 42;
 /** A thousand sprouts on the page would be slower than the forest they become. */
 const MOST_SHOWN = 60;
 
-/** A sprout for each seed that has not grown yet, since the mesh shows nothing of it; and for one about to be planted. */
+/** A sprout for each seed that has not grown yet, since the mesh shows nothing of it; and for what is about to be planted, or was and is not there yet. */
 export function Seedlings({ studio }: { studio: Studio }) {
   const bed = useRef<HTMLDivElement>(null);
   // Each frame of rows may have sown seeds, or let them grow.
   const revision = studio.revision.value;
   const waiting = useMemo(() => seedsToGrow(studio.table, MOST_SHOWN), [studio, revision]);
-  const coming = studio.tools.toolFor("plant")?.coming?.value;
-  const places: readonly Vec3[] = coming ? [...waiting, coming] : waiting;
+  const tool = studio.tools.toolFor("plant");
+  const coming = tool?.coming?.value;
+  const finished = studio.finished.value;
+  const planted = (tool?.planted?.value ?? []).filter(
+    ({ place, command }) => command > finished && !waiting.some((other) => isSame(place, other)),
+  );
+  const ghosts = [...planted.map(({ place }) => place), ...(coming ? [coming] : [])];
+  const places: readonly Vec3[] = [...waiting, ...ghosts];
   useAnimationFrames(places.length > 0, () => {
     const project = studio.stage.projector();
     places.forEach((place, i) => {
@@ -35,10 +41,15 @@ export function Seedlings({ studio }: { studio: Studio }) {
   return (
     <div ref={bed}>
       {places.map((place, i) => (
-        <Sprout key={i < waiting.length ? place.join() : "coming"} coming={i >= waiting.length} />
+        <Sprout key={i < waiting.length ? place.join() : `coming-${i - waiting.length}`} coming={i >= waiting.length} />
       ))}
     </div>
   );
+}
+
+/** Whether a seed lies where it was asked for; places of rows are rounded. */
+function isSame(a: Vec3, b: Vec3): boolean {
+  return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < 0.1;
 }
 
 function Sprout({ coming }: { coming: boolean }) {
