@@ -20,17 +20,18 @@ export function behindCrowns({ parent, middle, dragArea }: Wood, along: Vec3): F
   const shares = new Float64Array(parent.length).fill(1);
   // Of the rows that take something of the wind: which they are, and where along, across and upward of it.
   const rows = new Int32Array(parent.length);
-  const places = axes.map(() => new Float64Array(parent.length));
+  const places = axes.map(() => new Float64Array(parent.length)) as [Float64Array, Float64Array, Float64Array];
+  const [first, second, third] = places;
+  const [a, b, c] = axes as readonly [Vec3, Vec3, Vec3];
   let count = 0;
   for (let row = 0; row < parent.length; row += 1) {
     if (dragArea[row]! <= 0) continue;
     const x = middle[3 * row]!;
     const y = middle[3 * row + 1]!;
     const z = middle[3 * row + 2]!;
-    for (let axis = 0; axis < 3; axis += 1) {
-      const to = axes[axis]!;
-      places[axis]![count] = to[0] * x + to[1] * y + to[2] * z;
-    }
+    first[count] = a[0] * x + a[1] * y + a[2] * z;
+    second[count] = b[0] * x + b[1] * y + b[2] * z;
+    third[count] = c[0] * x + c[1] * y + c[2] * z;
     rows[count] = row;
     count += 1;
   }

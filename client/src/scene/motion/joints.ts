@@ -1,7 +1,7 @@
 import { type Mode, RIGID, Stations } from "./frequency";
 import { type Limbs, limbsOf, type MotionRows, NONE } from "./limbs";
 import { JOINT, RIDE, ridesOf } from "./rides";
-import { type Shape, shapeOf } from "./shapes";
+import { Shapes } from "./shapes";
 import { dampingByCompany } from "./siblings";
 import { type Borne, borneBy, spreadOf } from "./statics";
 import { type Scale, type Wood, woodOf } from "./wood";
@@ -91,14 +91,14 @@ function jointsIn(rows: MotionRows, limbs: Limbs, wood: Wood, suppleness: number
     area: real(),
     lowest: whole(),
   };
-  const shapes: Shape[] = [];
-  for (const [joint, limb] of chosen.entries()) {
+  const shapes = new Shapes(limbs, wood, drag);
+  for (let joint = 0; joint < count; joint += 1) {
+    const limb = chosen[joint]!;
     const first = limbs.first[limb]!;
     const bearer = limbs.bearer[limb]!;
     const parent = bearer === NONE ? NONE : carriers[bearer]!;
     const softness = suppleness / plants.softer[plantOf[limb]!]!;
-    const shape = shapeOf(wood, drag, limbs.rows.subarray(limbs.begin[limb]!, limbs.begin[limb + 1]!));
-    shapes.push(shape);
+    const { compliance } = shapes.find(limb);
     made.first[joint] = first;
     made.node[joint] = limbs.node[limb]!;
     made.parent[joint] = parent;
@@ -106,13 +106,13 @@ function jointsIn(rows: MotionRows, limbs: Limbs, wood: Wood, suppleness: number
     made.frequency[joint] = Math.sqrt(modes.rate[limb]! / softness) / TAU;
     made.drag[joint] = modes.drag[limb]!;
     made.softness[joint] = softness;
-    for (let e = 0; e < 9; e += 1) made.compliance[9 * joint + e] = shape.compliance[e]! * softness;
+    for (let e = 0; e < 9; e += 1) made.compliance[9 * joint + e] = compliance[e]! * softness;
     for (let a = 0; a < 3; a += 1) made.centre[3 * joint + a] = drag.moment[3 * first + a]! / drag.weight[first]!;
     made.area[joint] = drag.weight[first]!;
     made.lowest[joint] = first;
   }
   dampingByCompany(made.damping, made.frequency, (joint) => limbs.bearer[chosen[joint]!]!);
-  const rides = ridesOf(limbs, wood, jointOfLimb, shapes);
+  const rides = ridesOf(limbs, wood, jointOfLimb, shapes.weights);
   findLowest(made.lowest, wood, rides);
   return { ...made, rides };
 }
@@ -144,15 +144,21 @@ function modesOf(limbs: Limbs, wood: Wood, drag: Borne): Modes {
     const own = weights[row]!;
     const beyond = onward === NONE ? 0 : of.weight[onward]!;
     const weight = Math.max(of.weight[row]! - own - beyond, 0);
-    let squares = 0;
-    let moments = 0;
-    let heights = 0;
-    for (let at = 3 * row, a = 0; a < 3; at += 1, a += 1) {
-      const moment = of.moment[at]! - own * middle[at]! - (onward === NONE ? 0 : of.moment[3 * onward + a]!);
-      squares += middle[at]! * middle[at]!;
-      moments += place[at]! * moment;
-      heights += place[at]! * place[at]!;
-    }
+    const at = 3 * row;
+    const next = 3 * onward;
+    const mx = middle[at]!;
+    const my = middle[at + 1]!;
+    const mz = middle[at + 2]!;
+    const x = place[at]!;
+    const y = place[at + 1]!;
+    const z = place[at + 2]!;
+    const { moment } = of;
+    const momentX = moment[at]! - own * mx - (onward === NONE ? 0 : moment[next]!);
+    const momentY = moment[at + 1]! - own * my - (onward === NONE ? 0 : moment[next + 1]!);
+    const momentZ = moment[at + 2]! - own * mz - (onward === NONE ? 0 : moment[next + 2]!);
+    const squares = mx * mx + my * my + mz * mz;
+    const moments = x * momentX + y * momentY + z * momentZ;
+    const heights = x * x + y * y + z * z;
     const aboutOrigin = Math.max(spread[row]! - own * squares - (onward === NONE ? 0 : spread[onward]!), 0);
     // Steiner, from the origin to the node.
     const aboutNode = aboutOrigin - 2 * moments + weight * heights;

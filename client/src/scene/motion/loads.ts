@@ -31,25 +31,35 @@ export type Loading = Readonly<Record<keyof Loads, number>>;
 export function loadsOf(grown: Grown, { leaves }: MotionRows, scale: Scale): Loads {
   const { wood } = grown;
   const leafLength = scale.leafSize * scale.internodeLength;
-  const areas = Float64Array.from(leaves, (count) => count * LEAF_FORM * leafLength * leafLength);
+  const areas = new Float64Array(leaves.length);
+  const films = new Float64Array(leaves.length);
+  for (let row = 0; row < leaves.length; row += 1) {
+    areas[row] = leaves[row]! * LEAF_FORM * leafLength * leafLength;
+    films[row] = wood.length[row]! > 0 ? FILM * areas[row]! : 0;
+  }
   const under = (weights: Float64Array) => sagOf(grown, turnsUnder(wood, weights, -GRAVITY));
   return {
     sag: under(wood.mass),
     snow: under(snowOn(wood, areas)),
-    rain: under(areas.map((area, row) => (wood.length[row]! > 0 ? FILM * area : 0))),
+    rain: under(films),
   };
 }
 
 /** The mass of a metre of snow on what each row has to hold it, kg. */
 function snowOn({ length, way, dragArea }: Wood, leafAreas: Float64Array): Float64Array {
-  return leafAreas.map((leaves, row) => {
+  const snow = new Float64Array(leafAreas.length);
+  for (let row = 0; row < snow.length; row += 1) {
     const long = length[row]!;
-    if (long <= 0) return 0;
-    const level = Math.hypot(way[3 * row]!, way[3 * row + 2]!) / long;
+    if (long <= 0) continue;
+    const x = way[3 * row]!;
+    const z = way[3 * row + 2]!;
+    const level = Math.sqrt(x * x + z * z) / long;
     const holds = Math.min(1, Math.max(0, (level - SLIDES) / (HOLDS - SLIDES)));
+    const leaves = leafAreas[row]!;
     const wood = Math.max(0, dragArea[row]! - LEAF_DRAG * leaves);
-    return SNOW_DENSITY * (wood * level * holds + LEVEL * leaves);
-  });
+    snow[row] = SNOW_DENSITY * (wood * level * holds + LEVEL * leaves);
+  }
+  return snow;
 }
 
 /** How much each joint turns under all of it; null where there is nothing. */

@@ -44,7 +44,7 @@ export function movingOf({ limbs, wood, joints }: Grown, loads: Loads, internode
     if (limb === NONE || joints.rides[from] === NONE) continue;
     const parent = wood.parent[row]!;
     const below = ROW_NUMBERS * parent;
-    if (rows[below + PHASE]! >= 0) rows.copyWithin(to + PIVOT, below + PIVOT, below + PIVOT + 4);
+    if (rows[below + PHASE]! >= 0) for (let a = PIVOT; a < ROW_NUMBERS; a += 1) rows[to + a] = rows[below + a]!;
     else if (limbs.first[limb] === row && !isJoint(joints, row)) {
       for (let a = 0; a < 3; a += 1) rows[to + PIVOT + a] = wood.place[3 * parent + a]! * per;
       rows[to + PHASE] = leafHash(row) / 2 ** 32;

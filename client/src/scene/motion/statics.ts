@@ -77,15 +77,41 @@ export function addBend(out: Float64Array, wood: Wood, borne: Borne, weights: Fl
 
 /** How the nodes of all rows turn under loads along y, each the row's weight times `force`: x y z for each row, in radians. */
 export function turnsUnder(wood: Wood, weights: Float64Array, force: number): Float64Array {
-  const borne = borneBy(wood, weights);
-  const turns = new Float64Array(wood.place.length);
-  const bend = new Float64Array(9);
-  for (let row = 0; row < weights.length; row += 1) {
-    const node = wood.parent[row]!;
+  const { parent, middle, way, length, softness } = wood;
+  const count = weights.length;
+  const weight = weights.slice();
+  // A load along y has no moment that its own height would be a part of.
+  const momentX = new Float64Array(count);
+  const momentZ = new Float64Array(count);
+  for (let row = 0; row < count; row += 1) {
+    momentX[row] = weights[row]! * middle[3 * row]!;
+    momentZ[row] = weights[row]! * middle[3 * row + 2]!;
+  }
+  for (let row = count - 1; row >= 0; row -= 1) {
+    const node = parent[row]!;
     if (node < 0) continue;
-    bend.fill(0);
-    addBend(bend, wood, borne, weights, row);
-    for (let a = 0; a < 3; a += 1) turns[3 * row + a] = turns[3 * node + a]! + bend[3 + a]! * force;
+    weight[node]! += weight[row]!;
+    momentX[node]! += momentX[row]!;
+    momentZ[node]! += momentZ[row]!;
+  }
+  const turns = new Float64Array(3 * count);
+  for (let row = 0; row < count; row += 1) {
+    const node = parent[row]!;
+    if (node < 0) continue;
+    const at = 3 * row;
+    const sixth = weights[row]! / 6;
+    const lx = momentX[row]! - weight[row]! * middle[at]! + sixth * way[at]!;
+    const lz = momentZ[row]! - weight[row]! * middle[at + 2]! + sixth * way[at + 2]!;
+    const long = length[row]!;
+    const ax = long > 0 ? way[at]! / long : 0;
+    const ay = long > 0 ? way[at + 1]! / long : 0;
+    const az = long > 0 ? way[at + 2]! / long : 0;
+    // As in `addBend`, of its second column.
+    const along = (TWIST - 1) * (az * lx - ax * lz);
+    const soft = softness[row]!;
+    turns[at] = turns[3 * node]! + soft * (along * ax - lz) * force;
+    turns[at + 1] = turns[3 * node + 1]! + soft * (along * ay) * force;
+    turns[at + 2] = turns[3 * node + 2]! + soft * (lx + along * az) * force;
   }
   return turns;
 }
