@@ -13,7 +13,7 @@ import { stepRadius } from "./tools/brush/brush-radius";
 import { stepBack } from "./tools/step-back";
 import { nextKind } from "./tools/symmetry/symmetry";
 import { symmetryText } from "./tools/symmetry/symmetry-text";
-import { SLOWNESS, WIND } from "./ui/parts";
+import { SHOWN_SWITCH, SLOWNESS, WIND } from "./ui/parts";
 import { PictureLoss } from "./view/picture-loss";
 import { say } from "./words/say";
 
@@ -66,7 +66,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
     }
   });
   const stopThorough = effect(() => viewport.setThorough(studio.settings.thorough.value));
-  const stopDrawMode = effect(() => studio.stage.setDrawMode(studio.drawMode.value));
+  const stopDrawMode = effect(() => studio.stage.show(studio.drawMode.value, studio.settings.shown.value));
   const stopFollowing = effect(() => {
     if (studio.document.value) {
       studio.stage.follow();
@@ -118,6 +118,7 @@ function followKeys(studio: Studio): ReturnType<typeof listenToKeys> {
     drawMode: (direction) => {
       studio.drawMode.value = nextDrawMode(studio.drawMode.peek(), direction);
     },
+    shown: (name) => void SHOWN_SWITCH.load().then(() => SHOWN_SWITCH.content.peek()?.(studio, name)),
     bare: () => {
       studio.layout.bare.value = !studio.layout.bare.peek();
     },

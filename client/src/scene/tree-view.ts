@@ -3,6 +3,7 @@ import type { Appearance } from "../wire/generated";
 import { Foliage } from "./foliage/foliage";
 import type { Materials, Uniforms } from "./materials";
 import type { DrawMode, Legend } from "./mode/draw-mode";
+import { type Shown, USUAL } from "./mode/shown";
 import { SkeletonLines } from "./mode/skeleton-lines";
 import { TraitTexture } from "./mode/trait-texture";
 import { Overlays } from "./overlay/overlays";
@@ -37,6 +38,7 @@ export class TreeView {
   private readonly foliage: Foliage;
   private readonly skeleton: SkeletonLines;
   private mode: DrawMode = "lit";
+  private shown: Shown = USUAL;
   private tableChanged = true;
   private overlaysChanged = false;
 
@@ -137,10 +139,18 @@ export class TreeView {
     this.foliage.upload(this.table);
   }
 
-  setMode(mode: DrawMode): void {
+  /** What is shown of it, and how. */
+  show(mode: DrawMode, shown: Shown): void {
     this.mode = mode;
+    this.shown = shown;
     this.traits.show(mode);
-    for (const { material } of this.solids()) material.wireframe = mode === "wireframe";
+    for (const { material } of this.solids()) material.wireframe = this.net;
+    this.skeleton.over(mode !== "skeleton");
+  }
+
+  /** Whether triangles are drawn as their edges. */
+  private get net(): boolean {
+    return this.mode === "wireframe" || this.shown.wireframe;
   }
 
   /** Takes over what changed, to be seen from there; says whether rows did. */
@@ -241,8 +251,8 @@ export class TreeView {
     const bare = this.mode === "skeleton";
     this.solid.visible = !bare;
     this.casters.visible = !bare;
-    this.skeleton.show(this.table, bare);
-    if (this.mode !== "wireframe") return;
+    this.skeleton.show(this.table, bare || this.shown.skeleton);
+    if (!this.net) return;
     // three.js makes the lines of triangles only where there is an attribute of this name.
     for (const { geometry } of this.solids()) {
       const any = Object.values(geometry.attributes).find((attribute) => !("isInstancedBufferAttribute" in attribute));

@@ -4,6 +4,7 @@ import { type Pick, pickBranch } from "./camera/picking";
 import { type PictureSize, pixelsPerInternode } from "./camera/sight";
 import { ViewCamera } from "./camera/view-camera";
 import type { DrawMode, Legend } from "./mode/draw-mode";
+import type { Shown } from "./mode/shown";
 import type { Air, AirStage } from "./motion/air";
 import type { DrawnObstacle } from "./obstacle-meshes";
 import type { GhostPlacement } from "./overlay/ghost";
@@ -164,8 +165,8 @@ export class Viewport {
   }
 
   /** What is shown of the tree. */
-  setDrawMode(mode: DrawMode): void {
-    this.world.setMode(mode);
+  show(mode: DrawMode, shown: Shown): void {
+    this.world.show(mode, shown);
     this.stir();
   }
 
@@ -319,7 +320,7 @@ export class Viewport {
     const { thumbnail } = await import("./rendering/still-pictures");
     if (this.lost || this.posing) return undefined;
     const url = thumbnail(this.sitting, width, height);
-    if (this.world.mode !== "lit") this.stir();
+    if (this.world.unusual) this.stir();
     return await url;
   }
 
@@ -510,9 +511,10 @@ export class Viewport {
     const fineness = this.fineness(height, quality);
     this.eye.set(...fineness.eye, fineness.pixels);
     this.world.uniforms.uSamples!.value = samples;
-    this.world.uniforms.uShadowTaps!.value = quality.detailed ? 3 : 1;
+    const taps = quality.detailed ? 3 : 1;
+    this.world.uniforms.uShadowTaps!.value = this.world.shown.shadow ? taps : 0;
     this.world.environment.reach(distance);
-    this.world.finer?.detail(fineness, this.camera.sight.camera, resting);
+    this.world.finer?.detail(fineness, this.camera.sight.camera, resting && this.world.grassy);
     return this.world.tree.detail(fineness, resting);
   }
 

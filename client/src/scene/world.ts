@@ -1,4 +1,4 @@
-import { type Mesh, Scene, type WebGLRenderer } from "three";
+import { type Mesh, Scene, Vector3, type WebGLRenderer } from "three";
 import { type Appearance, DEFAULT_APPEARANCE } from "../wire/generated";
 import { BrushShell } from "./brush-shell";
 import { union } from "./camera/camera-rig";
@@ -10,6 +10,7 @@ import { ShadowDue } from "./light/shadow-due";
 import { Sun } from "./light/sun";
 import { type Materials, makeMaterials, type Uniforms } from "./materials";
 import type { DrawMode } from "./mode/draw-mode";
+import { type Shown, USUAL } from "./mode/shown";
 import { NoiseTextures } from "./noise-texture";
 import { type DrawnObstacle, ObstacleMeshes } from "./obstacle-meshes";
 import { Ghost } from "./overlay/ghost";
@@ -31,6 +32,7 @@ export class World {
   readonly ghost: Ghost;
   readonly shadow = new ShadowDue();
   mode: DrawMode = "lit";
+  shown: Shown = USUAL;
   /** What the first picture does without; null until it is loaded. */
   finer: Finer | null = null;
   appearance: Appearance = DEFAULT_APPEARANCE;
@@ -47,6 +49,7 @@ export class World {
       ...seen,
       uTime: { value: 0 },
       uLeafSize: { value: 0.7 },
+      uShown: { value: new Vector3(1, 1, 1) },
       uNoise: { value: this.noise.space },
       uFlatNoise: { value: this.noise.plane },
     };
@@ -105,12 +108,26 @@ export class World {
     this.shadow.stale = true;
   }
 
-  /** What is shown of the tree. */
-  setMode(mode: DrawMode): void {
+  /** What is shown of the tree, and how. */
+  show(mode: DrawMode, shown: Shown): void {
     this.mode = mode;
-    this.tree.setMode(mode);
-    this.environment.setNeutral(mode !== "lit");
+    this.shown = shown;
+    const { light, smooth, texture, background } = shown;
+    this.uniforms.uShown!.value.set(Number(light), Number(smooth), Number(texture));
+    this.tree.show(mode, shown);
+    this.environment.setNeutral(mode !== "lit" || !background);
     this.shadow.stale = true;
+  }
+
+  /** Whether anything is drawn in another way than usual. */
+  get unusual(): boolean {
+    return this.mode !== "lit" || this.shown !== USUAL;
+  }
+
+  /** Whether what is seen of the ground has grass on it. */
+  get grassy(): boolean {
+    const { light, texture, background } = this.shown;
+    return this.mode === "lit" && light && texture && background;
   }
 
   /** Length of a leaf in internodes; false if it is the same as before. */
@@ -147,6 +164,7 @@ export class World {
 
   /** Draws the shadow map, with a share of its texels along each side. */
   drawShadow(renderer: WebGLRenderer, share = 1): void {
+    if (!this.shown.shadow) return;
     this.sun.render(renderer, this.extent(), this.environment.towardsLight, share);
   }
 

@@ -1,3 +1,4 @@
+import { SHOWN_NAMES } from "../../scene/mode/shown";
 import { PARAMETERS } from "../../wire/generated-tables";
 import { type Group, SECTIONS, WIDGETS } from "../document/growth/growth-parameters";
 import type { PanelName, SheetName } from "../page/layout";
@@ -113,6 +114,7 @@ const KEYS: readonly (readonly [Key, () => string])[] = [
   ["help.key.undo", () => say("help.keys.undo")],
   ["help.key.fit", () => "F"],
   ["help.key.draw-mode", () => "D"],
+  ["help.key.shown", () => `1 – ${SHOWN_NAMES.length}  0`],
   ["help.key.wind", () => "A"],
   ["help.key.hide", () => "H"],
   ["help.key.escape", () => say("help.keys.escape")],

@@ -131,6 +131,22 @@ describe("letters", () => {
     ]);
   });
 
+  it("digits switch parts of the picture, 0 all of them back", () => {
+    const { done, press } = setUp();
+    press("1");
+    press("7");
+    press("0");
+    press("1", { repeat: true });
+    press("1", { altKey: true });
+    press("1", {}, new Input("number"));
+    press("8");
+    expect(done).toEqual([
+      ["shown", "light"],
+      ["shown", "skeleton"],
+      ["shown", null],
+    ]);
+  });
+
   it("H hides everything, or brings it back", () => {
     const { done, press } = setUp();
     press("h");

@@ -1,3 +1,4 @@
+import { type ShownName, shownOfKey } from "../../scene/mode/shown";
 import { type ToolName, toolOfKey } from "../tools/tools";
 
 /** What the keyboard can do. */
@@ -10,6 +11,8 @@ export interface KeyActions {
   bare(): void;
   /** Shows the tree in the next way there is, or the one before. */
   drawMode(direction: -1 | 1): void;
+  /** Switches a part of how the picture is drawn, or all of them back. */
+  shown(name: ShownName | null): void;
   tool(tool: ToolName): void;
   escape(): void;
   widen(notches: number): void;
@@ -110,8 +113,13 @@ export function listenToKeys(actions: KeyActions): { panHeld(): boolean; stop():
         break;
       default: {
         const tool = toolOfKey(key);
+        const shown = shownOfKey(key);
         if (tool) {
           actions.tool(tool);
+        } else if (shown || key === "0") {
+          if (!event.repeat && !event.altKey) {
+            actions.shown(shown);
+          }
         } else {
           travel(event, actions);
         }

@@ -1,4 +1,5 @@
 import { effect, type Signal, signal } from "@preact/signals";
+import { asShown, type Shown, USUAL } from "../../scene/mode/shown";
 import { BOUNDS } from "../../wire/generated";
 import { type ExportChoice, FIRST_CHOICE, isExportChoice } from "../library/export-choice";
 import { areUnsavedTrees, isSavedState, type SavedState, type UnsavedTree } from "../library/unsaved-tree";
@@ -46,6 +47,8 @@ export interface Settings {
   readonly slownessRead: Signal<boolean>;
   /** Whether the picture at rest is the whole one also where that takes long. */
   readonly thorough: Signal<boolean>;
+  /** What is shown of the picture. */
+  readonly shown: Signal<Shown>;
   /** What was downloaded last. */
   readonly exportChoice: Signal<ExportChoice>;
   /** The session to come back to. */
@@ -83,11 +86,19 @@ export function loadSettings(store: Storage): Settings {
     treeNames: kept<Readonly<Record<string, string>>>(store, "tree-names", {}, isNames),
     slownessRead: kept(store, "slowness-read", false, (value) => typeof value === "boolean"),
     thorough: kept(store, "whole-picture", false, (value) => typeof value === "boolean"),
+    shown: keptShown(store),
     exportChoice: kept<ExportChoice>(store, "export", FIRST_CHOICE, isExportChoice),
     lastSession: kept<string | null>(store, "session", null, (value) => typeof value === "string"),
     unsavedTrees: kept<readonly UnsavedTree[]>(store, "unsaved", [], areUnsavedTrees),
     savedState: kept<SavedState | null>(store, "saved", null, isSavedState),
   };
+}
+
+/** What was added to the table since it was kept is as usual. */
+function keptShown(store: Storage): Signal<Shown> {
+  const setting = kept<Shown>(store, "shown", USUAL, (value) => typeof value === "object" && value !== null);
+  setting.value = asShown(setting.peek());
+  return setting;
 }
 
 /** Whether a value that was kept is a number between bounds. */

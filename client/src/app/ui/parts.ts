@@ -119,6 +119,9 @@ export const SLOWNESS = new Part(
 /** The draw modes, once their menu is opened. */
 export const DRAW_MODE_LIST = new Part(async () => (await import("./bars/draw-mode-list")).DrawModeList);
 
+/** What switches parts of the picture by key. */
+export const SHOWN_SWITCH = new Part(async () => (await import("./bars/switch-shown")).switchShown);
+
 /** What a draw mode shows, while the tree is not simply lit. */
 export const DRAW_MODE_LEGEND = new Part(async () => (await import("./bars/draw-mode-legend")).DrawModeLegend);
 
@@ -155,6 +158,7 @@ const ALL: readonly Part<unknown>[] = [
   CHIPS,
   TIMELINE,
   DRAW_MODE_LIST,
+  SHOWN_SWITCH,
   DRAW_MODE_LEGEND,
   PREDICTION,
   ...Object.values(TOOL_PARTS),

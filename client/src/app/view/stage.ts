@@ -3,6 +3,7 @@ import { RADIANS_PER_PIXEL } from "../../scene/camera/camera-rig";
 import type { PictureSize } from "../../scene/camera/sight";
 import type { View } from "../../scene/camera/view";
 import type { DrawMode, Legend } from "../../scene/mode/draw-mode";
+import { isUsual, type Shown, USUAL } from "../../scene/mode/shown";
 import type { Air, AirStage } from "../../scene/motion/air";
 import type { TreeTable } from "../../scene/table/tree-table";
 import type { Vec3 } from "../../scene/vector";
@@ -49,6 +50,7 @@ export class Stage {
   /** What a picture made later begins with. */
   #appearance: Appearance | null = null;
   #mode: DrawMode = "lit";
+  #shown: Shown = USUAL;
   /** What it is to show once it is made. */
   #look: View | null = null;
   #holds = new Holds((held) => {
@@ -80,7 +82,7 @@ export class Stage {
     if (this.#appearance) {
       view.setAppearance(this.#appearance);
     }
-    view.setDrawMode(this.#mode);
+    view.show(this.#mode, this.#shown);
     view.hold(this.#holds.held);
     if (this.#table.rows > 0) {
       view.changed();
@@ -160,9 +162,10 @@ export class Stage {
   }
 
   /** What is shown of the tree. */
-  setDrawMode(mode: DrawMode): void {
+  show(mode: DrawMode, shown: Shown): void {
     this.#mode = mode;
-    this.#view?.setDrawMode(mode);
+    this.#shown = isUsual(shown) ? USUAL : shown;
+    this.#view?.show(mode, this.#shown);
   }
 
   /** What the draw mode's colours mean, as the tree is now. */

@@ -162,12 +162,12 @@ export const HELP = {
   ],
   "help.topic.draw-modes": ["Draw modes", "Darstellungen"],
   "help.topic.draw-modes.text": [
-    "Lit, skeleton, wireframe, or false colours for light, vigor, age and order",
-    "Im Licht, als Skelett, als Drahtgitter, oder Falschfarben für Licht, Kraft, Alter und Ordnung",
+    "Lit, skeleton, wireframe, or false colours for light, vigor, age and order; beside them lighting, smoothness, texture, shadows, sky and ground, edges and axes, each switched by itself",
+    "Im Licht, als Skelett, als Drahtgitter, oder Falschfarben für Licht, Kraft, Alter und Ordnung; daneben Beleuchtung, Rundung, Textur, Schatten, Himmel und Boden, Kanten und Achsen, jedes für sich geschaltet",
   ],
   "help.topic.draw-modes.words": [
-    "exposure legend colours way of drawing heat map x-ray view mode",
-    "Belichtung Legende Farben Ansicht Wärmebild Röntgen Ansicht",
+    "exposure legend colours way of drawing heat map x-ray view mode flat unlit shading texture background shadow toggle",
+    "Belichtung Legende Farben Ansicht Wärmebild Röntgen flach ohne Licht Schattierung Textur Hintergrund Schatten schalten",
   ],
   "help.topic.species": ["Species", "Arten"],
   "help.topic.species.text": [
@@ -366,6 +366,7 @@ export const HELP = {
   "help.key.turn": ["Turn the tree, where no branch is held", "Den Baum drehen, wenn kein Ast gefasst ist"],
   "help.key.fit": ["Show the whole tree", "Ganzen Baum zeigen"],
   "help.key.draw-mode": ["Draw it in another way", "Anders darstellen"],
+  "help.key.shown": ["Switch a part of the picture, all back", "Einen Teil des Bildes schalten, alle zurück"],
   "help.key.wind": ["Hold what the wind moves, let it go", "Anhalten, was der Wind bewegt, loslassen"],
   "help.key.hide": ["Hide everything, bring it back", "Alles ausblenden, wieder einblenden"],
   "help.key.undo": ["Undo, with Shift redo", "Rückgängig, mit Umschalt wiederholen"],

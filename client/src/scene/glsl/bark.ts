@@ -70,6 +70,11 @@ Bark aged(vec4 shares, vec4 relief, float radius) {
 Bark distantBark(float radius) {
   return aged(textureLod(uBarkColours, vec2(0.5), 20.0), textureLod(uBarkRelief, vec2(0.5), 20.0), radius);
 }
+/** What has no pattern: bark as it is on the whole, and the wood of a cut end. */
+Bark plainBark(vec4 place) {
+  Bark bark = distantBark(place.z);
+  return Bark(place.w >= 0.0 ? vec3(0.40, 0.27, 0.15) : bark.albedo, vec2(0.0), 1.0, 0.5);
+}
 /** Sawn or broken wood: rings, rays, and a rim of bark. */
 vec3 cutWood(float inward, float turn) {
   float rings = 0.5 + 0.5 * sin(55.0 * sqrt(inward) + 1.5 * sin(6.2831853 * turn));

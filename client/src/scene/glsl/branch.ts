@@ -304,15 +304,16 @@ void main() {
   // The strip stands for a round twig: its normal turns from one side over the eye to the other.
   vec3 front = normalize(sight - lengthwise * dot(sight, lengthwise));
   float across = clamp(vBark.x, -1.0, 1.0);
-  vec3 smoothed = normalize(vNormal * across + front * sqrt(1.0 - across * across));
+  vec3 smoothed = uShown.y > 0.5 ? normalize(vNormal * across + front * sqrt(1.0 - across * across)) : front;
   Bark bark = distantBark(vBark.z);
   vec3 normal = smoothed;
 #else
-  vec3 smoothed = normalize(vNormal);
-  Bark bark = barkAt(vBark, vBearing);
+  bool rounded = uShown.y > 0.5;
+  vec3 smoothed = rounded ? normalize(vNormal) : facet(vWorld, sight);
+  Bark bark = uShown.z > 0.5 ? barkAt(vBark, vBearing) : plainBark(vBark);
   vec3 crosswise = cross(smoothed, lengthwise);
   crosswise /= max(length(crosswise), 1e-3);
-  vec3 normal = normalize(smoothed - crosswise * bark.slope.x - cross(crosswise, smoothed) * bark.slope.y);
+  vec3 normal = rounded ? normalize(smoothed - crosswise * bark.slope.x - cross(crosswise, smoothed) * bark.slope.y) : smoothed;
 #endif
   vec3 albedo = bark.albedo;
 ${wood.covered}
@@ -321,7 +322,7 @@ ${wood.covered}
   float facing = dot(normal, uSun);
   float sun = facing > 0.0 ? sunlit(vWorld, smoothed, 1.0) * smoothstep(-0.1, 0.2, dot(smoothed, uSun)) : 0.0;
   // What the trunk stands on climbs its foot, and the ground keeps the sky from it.
-  if (vWorld.y < 0.65) {
+  if (vWorld.y < 0.65 && uShown.z > 0.5) {
     float rim = smoothstep(0.4, 0.0, vWorld.y - 0.25 * noise(vWorld * 3.0));
     albedo = mix(albedo, AT_FOOT[uGround].rgb, rim * AT_FOOT[uGround].a);
   }

@@ -102,13 +102,14 @@ uniform sampler2DShadow uShadow;
 uniform float uShadowTexel;
 uniform float uShadowSize; // of a texel, in internodes
 uniform float uShadowBias;
-uniform int uShadowTaps; // 1, or 3 along each side of a square that softens edges
+uniform int uShadowTaps; // 1, or 3 along each side of a square that softens edges; 0 for no shadows
 uniform vec3 uSunColour;
 uniform vec3 uSkyColour;
 uniform vec3 uHorizonColour;
 uniform vec3 uAirColour; // of air that is far away
 uniform float uExposure;
 uniform float uVivid; // how much of colours is seen
+uniform vec3 uShown; // 1 where it is: light, rounded surfaces, what is painted on them
 #define SUN_COLOUR uSunColour
 #define SKY_COLOUR uSkyColour
 #define HORIZON_COLOUR uHorizonColour
@@ -116,6 +117,7 @@ uniform float uVivid; // how much of colours is seen
 
 /** How much of the sun comes to a place, which lies a little before what it lights. */
 float sunAt(vec3 place, float softness) {
+  if (uShadowTaps == 0) return 1.0;
   vec4 at = uSunFromWorld * vec4(place, 1.0);
   vec3 p = at.xyz * 0.5 + 0.5;
   if (p.x <= 0.0 || p.y <= 0.0 || p.x >= 1.0 || p.y >= 1.0) return 1.0;
@@ -130,6 +132,7 @@ float sunAt(vec3 place, float softness) {
 }
 /** How much comes to the leaves around a place: whether a part of the crown lies in the sun as a whole. */
 float sunAround(vec3 place) {
+  if (uShadowTaps == 0) return 1.0;
   const float REACH = 1.7; // internodes
   vec3 p = (uSunFromWorld * vec4(place + uSun * 0.8, 1.0)).xyz * 0.5 + 0.5;
   if (p.x <= 0.0 || p.y <= 0.0 || p.x >= 1.0 || p.y >= 1.0) return 1.0;
@@ -161,6 +164,16 @@ uniform vec2 uAir; // distance up to which it is clear, and how much it takes of
 /** Air between the eye and what it sees: what is far behind the trees pales as the land does. */
 vec3 hazed(vec3 colour, float distance) {
   return mix(AIR_COLOUR, colour, exp(-max(0.0, distance - uAir.x) * uAir.y));
+}
+/** A colour as it is, without light. */
+vec3 unlit(vec3 albedo) {
+  return pow(clamp(albedo * 1.2, 0.0, 1.0), vec3(0.4545));
+}
+/** Where the very triangle looks, on the side of the eye. */
+vec3 facet(vec3 world, vec3 sight) {
+  vec3 face = cross(dFdx(world), dFdy(world));
+  face = dot(face, face) > 0.0 ? normalize(face) : sight;
+  return dot(face, sight) < 0.0 ? -face : face;
 }
 /** Light as a film takes it, after AgX (T. Sobotka) in the polynomial form of B. Wrensch: bright greens stay green, and nothing burns out. */
 vec3 finished(vec3 colour) {

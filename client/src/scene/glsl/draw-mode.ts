@@ -22,9 +22,9 @@ vec3 onRamp(float trait) {
 }
 /** A finished colour, or what the draw mode has in its place; \`facing\` is how far the surface looks at the eye. */
 vec3 shownAs(vec3 lit, vec3 albedo, float trait, float facing) {
-  if (uMode == 0) return lit;
-  if (uMode <= ${WIREFRAME}) return pow(clamp(albedo * 1.2, 0.0, 1.0), vec3(0.4545));
+  if (uMode == 0 && uShown.x > 0.5) return lit;
+  if (uMode <= ${WIREFRAME}) return unlit(albedo);
   // Shaded just enough to tell form from form: a colour must still be found in the legend.
-  return onRamp(trait) * mix(0.72, 1.0, clamp(facing, 0.0, 1.0));
+  return onRamp(trait) * mix(1.0, mix(0.72, 1.0, clamp(facing, 0.0, 1.0)), uShown.x);
 }
 `;

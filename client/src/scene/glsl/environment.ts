@@ -146,12 +146,12 @@ void main() {
   vec3 eye = cameraPosition - vWorld;
   float away = length(eye);
   vec2 feet = aroundFeet(vWorld.xz, noise(vWorld.xz * 1.7, 12.0) - 0.5);
-  float open = feet.x;
+  float open = uShadowTaps == 0 ? 1.0 : feet.x;
   float sun = groundSun(vWorld);
   float rim = smoothstep(0.10, 0.97, length(vWorld.xz) / uGroundReach);
   bool studio = uSkyParts.w > 0.5;
   if (uGround == PLAIN) {
-    open *= underCrown(vWorld.xz);
+    if (uShadowTaps > 0) open *= underCrown(vWorld.xz);
     // Paper that goes on into the backdrop: nothing shows but what keeps light from it.
     vec3 most = SUN_COLOUR * uSun.y + SKY_COLOUR;
     vec3 lit = (SUN_COLOUR * uSun.y * sun + SKY_COLOUR * open) / max(most, 1e-3);
@@ -164,8 +164,11 @@ void main() {
     return;
   }
   Surface surface = surfaceAt(vWorld, eye, feet.y, open);
+  if (uShown.z < 0.5) surface = Surface(MEAN[uGround], UP);
+  if (uShadowTaps == 0) open = 1.0;
   vec3 lit = surface.albedo * (ambient(surface.normal) * open + SUN_COLOUR * facingSun(surface.normal) * sun * mix(0.7, 1.0, open));
   vec3 seen = finished(studio ? hazed(lit, away) : inAir(mix(lit, farGround(), rim), away));
+  if (uShown.x < 0.5) seen = mix(unlit(surface.albedo), seen, rim);
   colour = vec4(dithered(studio ? mix(seen, paper(0.0), rim) : seen), 1.0);
 }
 `;

@@ -344,9 +344,11 @@ in vec2 vLight;
 in float vTrait;
 out vec4 colour;
 const vec3 TWIG = vec3(0.150, 0.095, 0.055);
+const vec4 FLAT_BLADE = vec4(128.0 / 255.0, 128.0 / 255.0, 0.0, 0.0);
 
 void main() {
   vec4 painted = texture(PAINTED, vPicture, SHARPER);
+  vec3 face = facet(vWorld, normalize(cameraPosition - vWorld));
 #ifdef SPRIG
   // Of a leaf that is hardly a pixel long there is no edge to be seen.
   float there = clamp(1.6 * (painted.a - 0.5) + 0.5, 0.0, 1.0);
@@ -359,6 +361,10 @@ void main() {
   if (there < leastAt(vPicture, vWorld)) discard;
 #endif
   vec4 relief = texture(RELIEF, vPicture, FINER);
+  if (uShown.z < 0.5) {
+    painted = vec4(0.5, 0.0, painted.ba);
+    relief = FLAT_BLADE;
+  }
   vec3 eye = cameraPosition - vWorld;
   float away = length(eye);
   vec3 sight = eye / max(away, 1e-4);
@@ -367,6 +373,7 @@ void main() {
   vec2 slope = (relief.xy * 255.0 - 128.0) / 127.0;
   vec3 normal = normalize(up + slope.x * vSide.w * side + slope.y * cross(up, side));
   if (dot(up, sight) < 0.0) normal = -normal;
+  if (uShown.y < 0.5) normal = face;
 
   vec3 albedo = mix(vMiddle, vMargin, relief.a);
   vec3 second = mix(albedo * 1.15 + vec3(0.035, 0.035, 0.006), albedo * vec3(1.30, 1.35, 0.95), uLeafForm.y);

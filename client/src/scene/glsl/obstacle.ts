@@ -56,11 +56,11 @@ void main() {
   vec3 normal = length(vNormal) > 1e-4 ? normalize(vNormal) : face;
   normal *= dot(normal, face) < 0.0 ? -1.0 : 1.0;
   // Corner normals that are averaged over an edge say nothing of either side.
-  normal = normalize(mix(face, normal, smoothstep(0.80, 0.90, dot(face, normal))));
+  normal = normalize(mix(face, normal, uShown.y * smoothstep(0.80, 0.90, dot(face, normal))));
   float pixel = 0.5 * (length(dFdx(vWorld)) + length(dFdy(vWorld)));
-  float height = relief(vOwn, pixel);
+  float height = uShown.z > 0.5 ? relief(vOwn, pixel) : 0.0;
   normal = raised(normal, vWorld, height);
-  float stain = noise(vOwn * 0.13 + 2.0) * 0.6 + noise(vOwn * 0.35) * 0.4;
+  float stain = uShown.z > 0.5 ? noise(vOwn * 0.13 + 2.0) * 0.6 + noise(vOwn * 0.35) * 0.4 : 0.5;
   // What lies low is darker: dust and wet stay there.
   vec3 albedo = vec3(0.335, 0.275, 0.225) * (0.84 + 0.32 * stain) * clamp(1.0 + 1.7 * height, 0.7, 1.25);
 #ifdef PLANE
@@ -82,6 +82,6 @@ void main() {
   float sun = facing > 0.0 ? sunlit(vPlace, face, 1.4) * smoothstep(0.0, 0.1, dot(face, uSun)) : 0.0;
   vec3 lit = albedo * ((0.72 * ambient(normal) + 0.28 * ambient(vec3(0.0, 1.0, 0.0))) * open + SUN_COLOUR * max(facing, 0.0) * sun);
   lit += edge * vec3(0.9, 0.3, 0.16);
-  colour = vec4(finished(hazed(lit, away)), opacity);
+  colour = vec4(uShown.x > 0.5 ? finished(hazed(lit, away)) : unlit(albedo), opacity);
 }
 `;

@@ -127,9 +127,14 @@ const vec3 STALK = vec3(0.130, 0.130, 0.045);
 
 void main() {
   vec4 painted = texture(u${name}Colour, vPicture);
+  vec3 face = facet(vWorld, normalize(cameraPosition - vWorld));
   float there = cut(painted.a);
   if (there < leastAt(vPicture, vWorld)) discard;
   vec4 relief = texture(u${name}Relief, vPicture);
+  if (uShown.z < 0.5) {
+    painted = vec4(0.5, 0.0, painted.ba);
+    relief = vec4(128.0 / 255.0, 128.0 / 255.0, 0.0, 0.0);
+  }
   vec3 eye = cameraPosition - vWorld;
   float away = length(eye);
   vec3 sight = eye / max(away, 1e-4);
@@ -140,6 +145,7 @@ void main() {
   float steep = sqrt(max(0.05, 1.0 - min(0.95, dot(slope, slope))));
   vec3 normal = normalize(up * steep + slope.x * vSide.w * side + slope.y * lengthwise);
   if (dot(up, sight) < 0.0) normal = -normal;
+  if (uShown.y < 0.5) normal = face;
   vec3 albedo = mix(vMiddle, u${name}Second, painted.g) * painted.r * 2.0;
   albedo = mix(albedo, STALK * painted.r * 2.0, relief.b);
   if (vLight < 0.0) albedo = condemned(albedo);

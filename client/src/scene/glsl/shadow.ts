@@ -48,6 +48,7 @@ uniform sampler2D uShade;
 uniform vec2 uShadeScale; // texels an internode is wide, and \`uShadeFar\`
 uniform float uSunSpread;
 float groundSun(vec3 world) {
+  if (uShadowTaps == 0) return 1.0;
   vec2 at = (uSunFromWorld * vec4(world, 1.0)).xy * 0.5 + 0.5;
   vec2 edge = smoothstep(vec2(0.0), vec2(0.03), at) * smoothstep(vec2(0.0), vec2(0.03), 1.0 - at);
   float inside = edge.x * edge.y;

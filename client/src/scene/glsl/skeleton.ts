@@ -47,9 +47,10 @@ void main() {
 export const SKELETON_FRAGMENT = /* glsl */ `precision highp float;
 in float vAcross;
 in float vStrength;
+uniform vec3 uInk;
 out vec4 colour;
 void main() {
   float cover = clamp(vStrength - abs(vAcross), 0.0, 1.0);
-  colour = vec4(vec3(0.16, 0.13, 0.11), cover);
+  colour = vec4(uInk, cover);
 }
 `;

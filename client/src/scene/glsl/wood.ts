@@ -59,13 +59,13 @@ ${SELF_SHADE}
   covered: /* glsl */ `
   vec4 crown = crownAt(vWorld + smoothed * min(1.4 * vBark.z + 0.3, 3.0));
 #ifndef RIBBON
-  if (vBark.w < 0.0) albedo = overgrown(albedo, smoothed, vBark.z, abs(vLight), bark);
+  if (vBark.w < 0.0 && uShown.z > 0.5) albedo = overgrown(albedo, smoothed, vBark.z, abs(vLight), bark);
 #endif
 `,
   lit: /* glsl */ `
   float open = mix(1.0, bark.cavity, 0.6);
 #ifndef RIBBON
-  if (sun > 0.0 && uShadowTaps > 1) sun *= mix(0.35, 1.0, ridged(crosswise, cross(crosswise, smoothed), smoothed, bark.height));
+  if (sun > 0.0 && uShadowTaps > 1 && uShown.z > 0.5) sun *= mix(0.35, 1.0, ridged(crosswise, cross(crosswise, smoothed), smoothed, bark.height));
 #endif
   // Light that has come into a furrow goes from side to side in it: its ground is dark, and never black.
   float within = mix(0.26, 1.0, bark.cavity);

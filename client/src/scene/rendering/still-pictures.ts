@@ -3,6 +3,7 @@ import { fitted } from "../camera/camera-rig";
 import type { CameraView } from "../camera/camera-view";
 import type { PictureSize } from "../camera/sight";
 import type { ViewCamera } from "../camera/view-camera";
+import { USUAL } from "../mode/shown";
 import type { Vec3 } from "../vector";
 import type { World } from "../world";
 import { pictureInTiles, type Tile } from "./picture-tiles";
@@ -28,15 +29,15 @@ export async function thumbnail(sitting: Sitting, width: number, height: number)
   const view = fitted(world.table.bounds(), width / height, camera.rig.view.yaw);
   const passing = [world.brush.mesh, world.ghost.group].filter(({ visible }) => visible);
   for (const object of passing) object.visible = false;
-  const { mode } = world;
-  if (mode !== "lit") world.setMode("lit");
+  const { mode, shown, unusual } = world;
+  if (unusual) world.show("lit", USUAL);
   sync();
   camera.sight.aim(view, camera.rig.eye(view), width / height);
   refine(height, PICTURE_SAMPLES, QUALITIES[1], view.distance);
   if (world.shadow.isDue) world.drawShadow(renderer);
   const picture = encodePicture(renderer, width, height, () => drawScene(sitting));
   for (const object of passing) object.visible = true;
-  if (mode !== "lit") world.setMode(mode);
+  if (unusual) world.show(mode, shown);
   return picture;
 }
 

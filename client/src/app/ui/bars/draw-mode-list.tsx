@@ -1,20 +1,65 @@
+import type { Signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { DRAW_MODES, type DrawMode, TRAITS } from "../../../scene/mode/draw-mode";
 import { css } from "../../../scene/mode/ramps";
+import { isUsual, keyOf, SHOWN_NAMES, type Shown, switched, USUAL } from "../../../scene/mode/shown";
 import { say } from "../../words/say";
 
-/** The draw modes to choose from. */
-export function DrawModeList({ mode, choose }: { mode: DrawMode; choose: (mode: DrawMode) => void }) {
+interface DrawModeListProps {
+  readonly mode: DrawMode;
+  readonly choose: (mode: DrawMode) => void;
+  readonly shown: Signal<Shown>;
+}
+
+/** The draw modes to choose from, and what of any of them is left out. */
+export function DrawModeList({ mode, choose, shown }: DrawModeListProps) {
   return (
-    <ul class="panel menu draw-modes" aria-label={say("drawmode.menu")}>
-      {DRAW_MODES.map((name) => (
+    <div class="panel menu draw-modes">
+      <ul aria-label={say("drawmode.menu")}>
+        {DRAW_MODES.map((name) => (
+          <li key={name}>
+            <button type="button" aria-pressed={name === mode} onClick={() => choose(name)}>
+              <DrawModePicture mode={name} />
+              {say(`drawmode.${name}`)}
+            </button>
+          </li>
+        ))}
+      </ul>
+      <Switches shown={shown} />
+    </div>
+  );
+}
+
+function Switches({ shown }: Pick<DrawModeListProps, "shown">) {
+  return (
+    <ul class="shown" aria-label={say("shown.menu")}>
+      {SHOWN_NAMES.map((name) => (
         <li key={name}>
-          <button type="button" aria-pressed={name === mode} onClick={() => choose(name)}>
-            <DrawModePicture mode={name} />
-            {say(`drawmode.${name}`)}
-          </button>
+          <label title={say("shown.key", { what: say(`shown.${name}`), key: keyOf(name) })}>
+            <input
+              type="checkbox"
+              aria-label={say(`shown.${name}`)}
+              checked={shown.value[name]}
+              onChange={() => {
+                shown.value = switched(shown.peek(), name);
+              }}
+            />
+            <span>{say(`shown.${name}`)}</span>
+            <kbd>{keyOf(name)}</kbd>
+          </label>
         </li>
       ))}
+      <li>
+        <button
+          type="button"
+          disabled={isUsual(shown.value)}
+          onClick={() => {
+            shown.value = USUAL;
+          }}
+        >
+          {say("shown.reset")}
+        </button>
+      </li>
     </ul>
   );
 }

@@ -1,11 +1,12 @@
 import { useRef, useState } from "preact/hooks";
+import { isUsual } from "../../../scene/mode/shown";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 import { Icon } from "../icons";
 import { DRAW_MODE_LIST } from "../parts";
 import { useDismissal } from "../use-dismissal";
 
-/** Chooses what is shown of the tree: how it looks, how it is built, or a number that each part has. */
+/** Chooses what is shown of the tree: how it looks, how it is built, or a number that each part has; and what of the picture is left out. */
 export function DrawModeMenu({ studio }: { studio: Studio }) {
   const host = useRef<HTMLDivElement>(null);
   const [open, setOpen] = useState(false);
@@ -21,7 +22,7 @@ export function DrawModeMenu({ studio }: { studio: Studio }) {
         aria-label={say("drawmode.menu")}
         title={say("drawmode.menu.title")}
         aria-expanded={open}
-        aria-pressed={mode !== "lit"}
+        aria-pressed={mode !== "lit" || !isUsual(studio.settings.shown.value)}
         onClick={() => {
           setOpen(!open);
           void DRAW_MODE_LIST.open();
@@ -32,6 +33,7 @@ export function DrawModeMenu({ studio }: { studio: Studio }) {
       {open && List && (
         <List
           mode={mode}
+          shown={studio.settings.shown}
           choose={(name) => {
             setOpen(false);
             studio.drawMode.value = name;
