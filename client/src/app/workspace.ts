@@ -46,6 +46,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
     studio.hindrance.value = "no-webgl";
     return () => {};
   }
+  viewport.onPaintLost(() => studio.toasts.show(say("notices.paint-lost")));
   studio.stage.attach(viewport, canvas);
   studio.branches.attach(viewport);
   studio.tools.attach(viewport);

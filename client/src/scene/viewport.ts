@@ -221,6 +221,14 @@ export class Viewport {
       : pickBranch(this.table, sight, x, y, tolerancePixels, drawn);
   }
 
+  /** Calls it once no texture can be painted. */
+  onPaintLost(lost: () => void): void {
+    this.world.paintLost = () => {
+      lost();
+      this.loop.invalidate();
+    };
+  }
+
   /** Has something move the tree from now on. */
   enliven(make: (stage: AirStage) => Air): Air {
     const { renderer, world, loop } = this;

@@ -37,6 +37,8 @@ export class World {
   finer: Finer | null = null;
   appearance: Appearance = DEFAULT_APPEARANCE;
   readonly materials: Materials;
+  /** Told when no texture can be painted, and the tree stays plain. */
+  paintLost: () => void = () => {};
   private readonly noise = new NoiseTextures();
 
   /** `seen` are the uniforms of how it is looked at; `painted` is called when a texture has been painted, with what had been ordered. */
@@ -53,7 +55,7 @@ export class World {
       uNoise: { value: this.noise.space },
       uFlatNoise: { value: this.noise.plane },
     };
-    this.painter = new Painter(painted);
+    this.painter = new Painter(painted, undefined, () => this.paintLost());
     this.sun = new Sun(this.uniforms);
     this.materials = makeMaterials(this.uniforms);
     this.tree = new TreeView(table, this.materials, this.uniforms, this.painter);
@@ -78,12 +80,12 @@ export class World {
 
   /** Whether something finer is still being made, or not yet shown. */
   get unfinished(): boolean {
-    return this.tree.unfinished || this.finer?.unfinished === true;
+    return (!this.painter.lost && this.tree.unfinished) || this.finer?.unfinished === true;
   }
 
   /** Whether something finer is being made that a picture for others waits for. */
   get awaited(): boolean {
-    return this.tree.awaited || this.finer?.awaited === true;
+    return (!this.painter.lost && this.tree.awaited) || this.finer?.awaited === true;
   }
 
   /** Shows what is finer in place of what is coarse; says whether shaders are others from now on. */

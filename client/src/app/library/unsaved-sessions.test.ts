@@ -33,6 +33,13 @@ describe("unsaved sessions", () => {
     expect(fetch).toHaveBeenCalledWith("/api/v1/sessions?saved=false&limit=100", expect.anything());
   });
 
+  it("LB11: has the server draw what no device remembers, unless it is large", async () => {
+    const large = { ...OAK, session: "wood", metamers: 400_000 };
+    answer(200, { sessions: [{ ...OAK, session: "a b" }, large] });
+    const pictures = (await unsavedSessions("machine", [])).map(({ thumbnail }) => thumbnail);
+    expect(pictures).toEqual(["/api/v1/sessions/a%20b/tree.png?size=240x240", undefined]);
+  });
+
   it("LB11: who has logged in sees their own", async () => {
     const fetch = answer(200, { sessions: [] });
     await unsavedSessions("login", []);

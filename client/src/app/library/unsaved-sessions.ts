@@ -5,6 +5,10 @@ import type { UnsavedTree } from "./unsaved-tree";
 /** So many are listed. */
 const MOST = 100;
 
+/** The server draws a tree of so many metamers at most for its card, and so many pixels along each side. */
+const DRAWN = 30_000;
+const SIDE = 240;
+
 /** A tree that was left and not saved, as the server lists it. */
 export interface LeftTree extends UnsavedTree {
   /** What the tree of the library is called that it goes on with. */
@@ -35,7 +39,15 @@ export async function forgetSession(session: string): Promise<void> {
 function leftTree(listed: ListedSession, remembered: readonly UnsavedTree[]): LeftTree {
   const { session, metamers, used_at: left, people, tree } = listed;
   const picture = remembered.find((other) => other.session === session)?.thumbnail;
-  const thumbnail =
-    picture ?? (tree && `/api/v1/trees/${encodeURIComponent(tree.id)}/versions/${tree.version}/thumbnail`);
+  const thumbnail = picture ?? (tree ? pictureOfTree(tree) : pictureOfSession(session, metamers));
   return { session, metamers, left, people, ...(tree && { of: tree.name }), ...(thumbnail && { thumbnail }) };
+}
+
+function pictureOfTree({ id, version }: NonNullable<ListedSession["tree"]>): string {
+  return `/api/v1/trees/${encodeURIComponent(id)}/versions/${version}/thumbnail`;
+}
+
+/** What no device remembers the server draws; of a large tree that takes others' time, and a drawing stands for it. */
+function pictureOfSession(session: string, metamers: number): string | undefined {
+  return metamers > DRAWN ? undefined : `/api/v1/sessions/${encodeURIComponent(session)}/tree.png?size=${SIDE}x${SIDE}`;
 }

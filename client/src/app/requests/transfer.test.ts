@@ -1,4 +1,4 @@
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 import { Exports } from "../library/exports";
 import { bytesOf } from "./bytes-of";
 import { type Progress, Transfer } from "./transfer";
@@ -71,6 +71,22 @@ describe("transfer", () => {
       { bytes: 3, total: 8 },
       { bytes: 8, total: 8 },
     ]);
+  });
+
+  it("a large answer is handed on while it comes, and is whole in the end", async () => {
+    const made: number[] = [];
+    class Counted extends Blob {
+      constructor(parts: BlobPart[], options?: BlobPropertyBag) {
+        super(parts, options);
+        made.push(parts.filter((part) => part instanceof Uint8Array).length);
+      }
+    }
+    vi.stubGlobal("Blob", Counted);
+    const words = ["oak", "beech", "elm", "ash", "larch", "yew"];
+    const blob = await bytesOf(answer(words, {}), () => {}, 8);
+    vi.unstubAllGlobals();
+    expect(await blob.text()).toBe(words.join(""));
+    expect(made, "pieces of eight letters or more, and the rest").toEqual([2, 3, 1]);
   });
 
   it("of a compressed answer nobody knows the length", async () => {

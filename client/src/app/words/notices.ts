@@ -26,6 +26,10 @@ export const NOTICES = {
     "Du bist eingeladen, die Bäume dieser Bibliothek anzusehen, nicht zu zeichnen.",
   ],
   "notices.only-look.way": ["Open the library", "Bibliothek öffnen"],
+  "notices.paint-lost": [
+    "What paints bark and leaves could not be loaded; until the page is reloaded they stay plain.",
+    "Was Rinde und Blätter malt, ließ sich nicht laden; bis die Seite neu geladen wird, bleiben sie schlicht.",
+  ],
   "notices.looking-only": ["You may look, not draw", "Du darfst ansehen, nicht zeichnen"],
   "notices.version": ["This page is of another version", "Diese Seite hat eine andere Version"],
   "notices.version.text": [

@@ -91,4 +91,21 @@ describe("a painter", () => {
     expect(worker.terminated).toBe(true);
     expect((await painted)[0]!.relief).toHaveLength(1);
   });
+
+  it("says once that nothing can be painted, and paints nothing more", async () => {
+    const failed = vi.fn();
+    const load = vi.fn(() => Promise.reject(new Error("gone")));
+    const start = () => {
+      throw new Error("none here");
+    };
+    const painter = new Painter(undefined, start, failed, load);
+    const done = vi.fn();
+    painter.order(bark("papery"), done);
+    painter.order(bark("smooth"), done);
+    await vi.waitFor(() => expect(failed).toHaveBeenCalledOnce());
+    expect(painter.lost).toBe(true);
+    painter.order(bark("furrowed"), done);
+    await Promise.resolve();
+    expect([load.mock.calls.length, failed.mock.calls.length, done.mock.calls.length]).toEqual([1, 1, 0]);
+  });
 });

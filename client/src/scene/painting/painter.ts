@@ -23,15 +23,19 @@ export class Painter {
   begun = false;
   private worker: PaintWorker | null = null;
   private broken = false;
+  /** Whether nothing can be painted: neither the worker nor what paints on the page could be loaded. */
+  lost = false;
   private current: Job | null = null;
   private waiting: Job[] = [];
   /** What was painted on the page for a painter that has been disposed of meanwhile is dropped. */
   private disposed = false;
 
-  /** `painted` is called after each finished picture, with what had been ordered. */
+  /** `painted` is called after each finished picture, with what had been ordered; `failed` once nothing can be painted at all. */
   constructor(
     private readonly painted: (order: Order) => void = () => {},
     private readonly start: () => PaintWorker = startWorker,
+    private readonly failed: () => void = () => {},
+    private readonly load: () => Promise<Pick<typeof import("./paint"), "paint">> = () => import("./paint"),
   ) {}
 
   /** Orders a picture; the result cancels the order. */
@@ -56,7 +60,7 @@ export class Painter {
   }
 
   private next(): void {
-    if (this.current || this.waiting.length === 0) return;
+    if (this.lost || this.current || this.waiting.length === 0) return;
     this.current = this.waiting.shift()!;
     const { order } = this.current;
     if (!this.broken && !this.worker) this.worker = this.started();
@@ -65,8 +69,16 @@ export class Painter {
   }
 
   private async paintHere(order: Order): Promise<void> {
-    const { paint } = await import("./paint");
-    if (!this.disposed) this.finish(paint(order));
+    const loaded = await this.load().catch(() => null);
+    if (this.disposed) return;
+    if (loaded) {
+      this.finish(loaded.paint(order));
+      return;
+    }
+    this.lost = true;
+    this.current = null;
+    this.waiting = [];
+    this.failed();
   }
 
   private finish(painted: Levels[]): void {

@@ -1,8 +1,6 @@
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { MoreIcon } from "../../icons";
-
-/** So far from the edges of the page a menu stands, in pixels. */
-const EDGE = 8;
+import { placeBeside } from "./menu-place";
 
 export interface Deed {
   readonly label: string;
@@ -24,7 +22,7 @@ export function CardMenu({ label, deeds }: CardMenuProps) {
   useLayoutEffect(() => {
     if (open && list.current && button.current) {
       list.current.showPopover();
-      place(list.current, button.current.getBoundingClientRect());
+      place(list.current, button.current);
       list.current.querySelector("button")?.focus();
     }
   }, [open]);
@@ -88,10 +86,14 @@ export function only(may: boolean, ...deeds: readonly Deed[]): readonly Deed[] {
   return may ? deeds : [];
 }
 
-/** Below its button where there is room, else above; always on the page. */
-function place(list: HTMLElement, button: DOMRect): void {
-  const { width, height } = list.getBoundingClientRect();
-  const below = button.bottom + height <= innerHeight - EDGE;
-  list.style.left = `${Math.max(EDGE, Math.min(button.right - width, innerWidth - width - EDGE))}px`;
-  list.style.top = `${Math.max(EDGE, below ? button.bottom : Math.min(button.top, innerHeight - EDGE) - height)}px`;
+function place(list: HTMLElement, button: HTMLElement): void {
+  const card = button.closest("li") ?? button;
+  const { left, top } = placeBeside(
+    list.getBoundingClientRect(),
+    button.getBoundingClientRect(),
+    card.getBoundingClientRect(),
+    { width: innerWidth, height: innerHeight },
+  );
+  list.style.left = `${left}px`;
+  list.style.top = `${top}px`;
 }
