@@ -3,7 +3,7 @@ import { PHONE, SMALL } from "./screens";
 import { until } from "./server";
 import type { Tablet } from "./tablet";
 import { press } from "./visits";
-import { middle } from "./ways";
+import { middle, way } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();
@@ -81,6 +81,20 @@ test("a tree is saved as the next version of its own, with a note, and versions 
   const compared = page.getByRole("region", { name: "Compare" });
   await compared.getByText(`+${more - metamers} metamers between them`).waitFor();
   expect(await compared.locator("img").count()).toBe(2);
+  await compared.getByRole("row", { name: /^Note none A limb to the left$/ }).waitFor();
+  await compared.getByRole("row", { name: new RegExp(`^Metamers ${metamers} ${more}$`) }).waitFor();
+  // Both are seen from one place, and turned together by a finger on either.
+  const views = () =>
+    compared.locator("img").evaluateAll((pictures) => {
+      const asked = pictures.map((picture) => new URL((picture as HTMLImageElement).src));
+      return asked.map(({ pathname, search }) => (pathname.endsWith("/tree.png") ? search : ""));
+    });
+  await expect.poll(async () => new Set(await views()).size === 1 && (await views())[0] !== "").toBe(true);
+  const [front] = await views();
+  const first = await tablet.boxOf(compared.locator(".comparison-picture").first());
+  const on = (across: number) => ({ x: first.x + across * first.width, y: first.y + first.height / 2 });
+  await tablet.swipe([way(on(0.3), on(0.75), 8)]);
+  await expect.poll(async () => new Set(await views()).size === 1 && (await views())[0] !== front).toBe(true);
   await tablet.show("versions-compared");
   await page.getByRole("button", { name: "All versions" }).tap();
   await choose(tablet, "version 1", "Edit note");

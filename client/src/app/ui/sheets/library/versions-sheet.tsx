@@ -65,7 +65,7 @@ function Versions({ studio, tree }: { readonly studio: Studio; readonly tree: Sa
         )}
       </div>
       {comparing && newer && older ? (
-        <Comparison older={older} newer={newer} deeds={deeds} />
+        <Comparison studio={studio} tree={tree.id} older={older} newer={newer} deeds={deeds} />
       ) : (
         <>
           {versions.length > 1 && pair.length < PAIR && <p class="quiet">{say("library.compare.how")}</p>}
