@@ -90,6 +90,14 @@ pub(crate) fn header(line: &str) -> Option<(Header, usize)> {
     (is_definition(line) && !line.contains(ARROW)).then_some((Header::Assignment, 0))
 }
 
+/// The name of the header that a line begins with but for its colon, and what would stand behind that.
+pub(crate) fn header_without_colon(line: &str) -> Option<(Header, &str, &str)> {
+    HEADERS.iter().find_map(|&(name, _, header)| {
+        let (name, rest) = line.split_at(begins_with(line, name)?);
+        rest.starts_with([' ', '\t']).then_some((header, name, rest.trim()))
+    })
+}
+
 /// How many bytes of a line are a name, in small or capital letters, with any blanks between its words.
 fn begins_with(line: &str, name: &str) -> Option<usize> {
     let mut at = 0;
@@ -257,6 +265,16 @@ impl Parser<'_> {
         }
         self.report.forget(mark);
         self.depth = 0;
+        let number = self.source.slice(body).trim_end().strip_suffix(';');
+        if let Some(value) = number.filter(|value| value.trim_end().parse::<f64>().is_ok()) {
+            let values: [(_, &dyn Display); 2] = [("name", &name), ("value", &value.trim_end())];
+            self.report.error(
+                Span::new(start + value.len(), start + value.len() + 1),
+                wording::MACRO_SEMICOLON,
+                values,
+            );
+            return Err(Lost);
+        }
         if self.is_defined(&name) {
             self.report.error(place, wording::DEFINED_TWICE, [("name", &name)]);
             return Err(Lost);

@@ -7,7 +7,7 @@ use crate::{
     expression::Lost,
     foreign::foreign,
     grammar::{Checked, Curve, Define, Grammar, Heading, MAX_TEXT, Module, Rule, SliderRow},
-    headers::{Header, header, is_definition_line},
+    headers::{Header, header, header_without_colon, is_definition_line},
     review::review,
     source::{ARROW, Source, Span},
     symbols::{Symbol, Symbols},
@@ -195,6 +195,12 @@ impl<'a> Parser<'a> {
             return Ok(());
         }
         let span = Span::new(self.at, self.end);
+        if let Some((header, name, rest)) = header_without_colon(rest) {
+            self.seen.push(header);
+            let place = Span::new(self.at, self.at + name.len());
+            self.report.error(place, wording::NO_COLON, [("name", &name as &dyn Display), ("rest", &rest)]);
+            return Err(Lost);
+        }
         let has_arrow = ["->", "→", "⟶", "=>"].iter().any(|arrow| rest.contains(arrow));
         self.report.error(span, if has_arrow { wording::NO_RULE_ARROW } else { wording::NO_RULE }, []);
         Err(Lost)

@@ -76,7 +76,8 @@ wordings! {
     MISSING_EXPRESSION: "no-expression.missing", "a number or a name is missing here";
     BAD_NUMBER: "bad-number", "it is no number";
     ASSIGNMENT: "assignment", "`=` compares nothing" => "write ==";
-    UNKNOWN_NAME: "unknown-name.here", "`{name}` is no parameter of this rule and is not defined";
+    UNKNOWN_NAME: "unknown-name.here", "`{name}` is no parameter of this rule and is not defined"
+        => "define it on a line of its own: {name} = 1";
     UNKNOWN_NAME_NEAR: "unknown-name.near", "`{name}` is no parameter of this rule and is not defined"
         => "did you mean {near}?";
     NAME_OF_FUNCTION: "unknown-name.function", "`{name}` is no parameter of this rule and is not defined"
@@ -168,6 +169,7 @@ wordings! {
         => "give each number a name of its own, or make a curve of them: func: name 0 1 1 2";
     C_DIRECTIVE: "c.directive", "`{name}` is a statement, and none is run here"
         => "of C's directives only #define NAME VALUE is read";
+    MACRO_SEMICOLON: "c.semicolon", "`;` would be part of what `{name}` stands for" => "write #define {name} {value}";
     MACRO_PARAMETERS: "c.macro", "`{name}(…)` is a macro with parameters, which is not read"
         => "write what it stands for into the rules, or make a rule of it";
     MACRO_DEPTH: "c.macro-depth", "`{name}` stands for itself" => "a macro cannot hold its own name";
@@ -179,6 +181,7 @@ wordings! {
 
     NO_RULE: "no-rule.line", "it is neither a rule nor a header" => "a rule is written A --> F";
     NO_RULE_ARROW: "no-rule.arrow", "it is neither a rule nor a header" => "rules have the arrow -->";
+    NO_COLON: "no-rule.colon", "`{name}` is a header, and its colon is missing" => "write {name}: {rest}";
     NO_AXIOM: "no-axiom", "it has no axiom" => "write axiom: F";
     NO_NAME: "no-name.here", "a name is missing here";
     NO_PARAMETER_NAME: "no-name.parameter", "a predecessor has names as parameters"

@@ -19,7 +19,10 @@ export const GERMAN = {
   "no-expression.missing": ["hier fehlt eine Zahl oder ein Name"],
   "bad-number": ["das ist keine Zahl"],
   assignment: ["`=` vergleicht nicht", "schreibe =="],
-  "unknown-name.here": ["`{name}` ist kein Parameter dieser Regel und nirgends festgelegt"],
+  "unknown-name.here": [
+    "`{name}` ist kein Parameter dieser Regel und nirgends festgelegt",
+    "lege es in einer eigenen Zeile fest: {name} = 1",
+  ],
   "unknown-name.near": ["`{name}` ist kein Parameter dieser Regel und nirgends festgelegt", "meinst du {near}?"],
   "unknown-name.function": ["`{name}` ist kein Parameter dieser Regel und nirgends festgelegt", "schreibe {name}(…)"],
   "unknown-name.modules": ["`{name}` steht für Module, nicht für eine Zahl"],
@@ -171,6 +174,7 @@ export const GERMAN = {
     "`{name}` ist eine Anweisung, und hier wird keine ausgeführt",
     "von den Anweisungen des C-Präprozessors wird nur #define NAME WERT gelesen",
   ],
+  "c.semicolon": ["`;` wäre ein Teil dessen, wofür `{name}` steht", "schreibe #define {name} {value}"],
   "c.macro": [
     "`{name}(…)` ist ein Makro mit Parametern, das hier nicht gelesen wird",
     "schreibe, wofür es steht, in die Regeln, oder mach eine Regel daraus",
@@ -185,6 +189,7 @@ export const GERMAN = {
   header: ["mit `{name}` allein beginnt keine Kopfzeile", "schreibe derivation length: 10"],
   "no-rule.line": ["das ist weder eine Regel noch eine Kopfzeile", "eine Regel schreibt man A --> F"],
   "no-rule.arrow": ["das ist weder eine Regel noch eine Kopfzeile", "Regeln haben den Pfeil -->"],
+  "no-rule.colon": ["`{name}` ist eine Kopfzeile, und ihr Doppelpunkt fehlt", "schreibe {name}: {rest}"],
   "no-axiom": ["das Axiom fehlt", "schreibe axiom: F"],
   "no-name.here": ["hier fehlt ein Name"],
   "no-name.parameter": ["links sind die Parameter Namen", "vergleiche in der Bedingung: A(x) : x == 1 --> F"],

@@ -19,7 +19,10 @@ export const SENTENCES = {
   "no-expression.missing": ["a number or a name is missing here", null],
   "bad-number": ["it is no number", null],
   assignment: ["`=` compares nothing", "write =="],
-  "unknown-name.here": ["`{name}` is no parameter of this rule and is not defined", null],
+  "unknown-name.here": [
+    "`{name}` is no parameter of this rule and is not defined",
+    "define it on a line of its own: {name} = 1",
+  ],
   "unknown-name.near": ["`{name}` is no parameter of this rule and is not defined", "did you mean {near}?"],
   "unknown-name.function": ["`{name}` is no parameter of this rule and is not defined", "write {name}(…)"],
   "unknown-name.modules": ["`{name}` is defined as modules, not as a number", null],
@@ -141,6 +144,7 @@ export const SENTENCES = {
     "give each number a name of its own, or make a curve of them: func: name 0 1 1 2",
   ],
   "c.directive": ["`{name}` is a statement, and none is run here", "of C's directives only #define NAME VALUE is read"],
+  "c.semicolon": ["`;` would be part of what `{name}` stands for", "write #define {name} {value}"],
   "c.macro": [
     "`{name}(…)` is a macro with parameters, which is not read",
     "write what it stands for into the rules, or make a rule of it",
@@ -155,6 +159,7 @@ export const SENTENCES = {
   header: ["`{name}` begins no header by itself", "write derivation length: 10"],
   "no-rule.line": ["it is neither a rule nor a header", "a rule is written A --> F"],
   "no-rule.arrow": ["it is neither a rule nor a header", "rules have the arrow -->"],
+  "no-rule.colon": ["`{name}` is a header, and its colon is missing", "write {name}: {rest}"],
   "no-axiom": ["it has no axiom", "write axiom: F"],
   "no-name.here": ["a name is missing here", null],
   "no-name.parameter": ["a predecessor has names as parameters", "compare in the condition: A(x) : x == 1 --> F"],

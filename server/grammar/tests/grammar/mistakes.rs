@@ -34,6 +34,9 @@ fn each_mistake_is_told_at_its_place() {
         ("axiom: F\nF(x, x) --> F(x)", ("twice", 2, 6, 1)),
         ("axiom: F\nF(3) --> F", ("no-name", 2, 3, 1)),
         ("axiom: F\nF -> FF", ("no-rule", 2, 1, 7)),
+        ("axiom: F\nangle 30", ("no-rule", 2, 1, 5)),
+        ("axiom: F\nderivation length 30", ("no-rule", 2, 1, 17)),
+        ("axiom: F\n#define a 30;", ("c", 2, 13, 1)),
         ("axiom: F\nF --> F --> F", ("two-arrows", 2, 9, 3)),
         ("axiom: F\nF G --> F", ("predecessor", 2, 3, 2)),
         ("axiom: F\nspikem --> F", ("predecessor", 2, 1, 6)),
@@ -87,6 +90,9 @@ fn what_is_near_is_offered() {
     assert_eq!(hint("axiom: F(sqr(4))").as_deref(), Some("did you mean sqrt?"));
     assert_eq!(hint("angel = 3\naxiom: F(angle)").as_deref(), Some("did you mean angel?"));
     assert_eq!(hint("axiom: F\nF -> G").as_deref(), Some("rules have the arrow -->"));
+    assert_eq!(hint("axiom F[+F] G").as_deref(), Some("write axiom: F[+F] G"));
+    assert_eq!(hint("axiom: F\n#define a 30;").as_deref(), Some("write #define a 30"));
+    assert_eq!(hint("axiom: F(k)").as_deref(), Some("define it on a line of its own: k = 1"));
     assert_eq!(told("axiom: F(light)"), [], "a function without parameters needs no parentheses");
 }
 
