@@ -97,6 +97,12 @@ export class Air {
     this.stage.invalidate();
   }
 
+  /** Has programs and joints made before a wind blows. */
+  warm(scale: Scale): void {
+    this.scale = scale;
+    this.prepare(performance.now());
+  }
+
   /** Holds everything where it is, or lets it go. */
   hold(held: boolean): void {
     if (held === (this.held !== null)) return;

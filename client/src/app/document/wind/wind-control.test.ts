@@ -8,13 +8,14 @@ import { WindControl } from "./wind-control";
 import { PRESET_NAMES, presetOf, WIND_PRESETS } from "./wind-presets";
 
 function page({ calmly = false } = {}) {
-  const told = { made: 0, settings: null as AirSettings | null, leaves: 0, touched: false, held: false };
+  const told = { made: 0, settings: null as AirSettings | null, leaves: 0, touched: false, held: false, warm: false };
   const [touched, leaves] = [signal(false), signal<LeafKind>("ovate")];
   const settings = signal<AirSettings>(CALM);
   const air = {
     set: (settings: AirSettings, _: unknown, leaves: number) => Object.assign(told, { settings, leaves }),
     touch: (touched: boolean) => Object.assign(told, { touched }),
     hold: (held: boolean) => Object.assign(told, { held }),
+    warm: () => Object.assign(told, { warm: true }),
   } as unknown as Air;
   const put = (patch: Partial<AirSettings>) => {
     settings.value = { ...settings.peek(), ...patch };
@@ -46,6 +47,15 @@ describe("the wind on a page", () => {
     wind.set({ speed: 6 });
     expect(told.made).toBe(1);
     expect(told.settings).toEqual({ ...CALM, turbulence: 1, speed: 6 });
+  });
+
+  it("is made ready where somebody is about to set one, and blows no sooner for that", () => {
+    const { wind, told } = page();
+    wind.getReady();
+    wind.getReady();
+    expect([told.made, told.warm, told.settings]).toEqual([1, true, null]);
+    wind.set({ speed: 5 });
+    expect([told.made, told.settings!.speed]).toEqual([1, 5]);
   });
 
   it("is the one that others set", () => {

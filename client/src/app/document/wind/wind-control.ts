@@ -35,12 +35,12 @@ export class WindControl {
   readonly settings: ReadonlySignal<AirSettings>;
   readonly #page: WindPage;
   readonly #stop: () => void;
+  #air: Air | null = null;
 
   constructor(page: WindPage) {
     this.mode = signal<WindMode>(page.calmly ? "still" : "moving");
     this.#page = page;
     this.settings = page.settings;
-    let air: Air | null = null;
     this.#stop = effect(() => {
       const settings = page.settings.value;
       const mode = this.mode.value;
@@ -48,12 +48,20 @@ export class WindControl {
       const touched = page.touched();
       const leaves = FLUTTER[page.leaves()] ?? 1;
       // Nothing is loaded or made for a page on which no wind has blown.
-      if (air === null && blows(settings)) air = page.enliven(page.air);
+      if (this.#air === null && blows(settings)) this.#air = page.enliven(page.air);
       const scale: Scale = { internodeLength, leafSize };
-      air?.set(mode === "still" ? CALM : settings, scale, leaves);
-      air?.touch(touched);
-      air?.hold(mode === "held");
+      this.#air?.set(mode === "still" ? CALM : settings, scale, leaves);
+      this.#air?.touch(touched);
+      this.#air?.hold(mode === "held");
     });
+  }
+
+  /** Has all made that wind takes, because somebody is about to set one: it is seen at once then. */
+  getReady(): void {
+    this.#air ??= this.#page.enliven(this.#page.air);
+    const { internode_length: internodeLength, leaf_size: leafSize } =
+      this.#page.parameters.peek() ?? DEFAULT_PARAMETERS;
+    this.#air?.warm({ internodeLength, leafSize });
   }
 
   /** Sets some of the numbers, while a control still moves. */

@@ -1,3 +1,4 @@
+import { useEffect } from "preact/hooks";
 import { type AirName, CALM, stirs } from "../../../scene/motion/air-settings";
 import type { WindMode } from "../../document/wind/wind-control";
 import { windOf } from "../../document/wind/wind-of";
@@ -22,6 +23,7 @@ export function WindPanel({ studio }: { studio: Studio }) {
   const settings = wind.settings.value;
   const preset = presetOf(settings);
   const mode = wind.mode.value;
+  useEffect(() => wind.getReady(), [wind]);
   return (
     <>
       <Section name="wind.air" title={say("wind.air")} open>
