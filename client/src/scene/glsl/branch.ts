@@ -310,7 +310,8 @@ void main() {
 #else
   bool rounded = uShown.y > 0.5;
   vec3 smoothed = rounded ? normalize(vNormal) : facet(vWorld, sight);
-  Bark bark = uShown.z > 0.5 ? barkAt(vBark, vBearing) : plainBark(vBark);
+  Bark bark = plainBark(vBark);
+  if (uShown.z > 0.5) bark = barkAt(vBark, vBearing);
   vec3 crosswise = cross(smoothed, lengthwise);
   crosswise /= max(length(crosswise), 1e-3);
   vec3 normal = rounded ? normalize(smoothed - crosswise * bark.slope.x - cross(crosswise, smoothed) * bark.slope.y) : smoothed;
