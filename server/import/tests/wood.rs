@@ -164,6 +164,12 @@ fn bad_cylinders_are_named_by_line_and_column() {
         ),
         ("../../etc/passwd".into(), FaultKind::Malformed, Place::Line(1), "are not those of a QSM"),
         (String::new(), FaultKind::Malformed, Place::Line(1), "it has no columns"),
+        (
+            RTWIG.replacen("branch_order", " radius", 1),
+            FaultKind::Malformed,
+            Place::Cell(1, 13),
+            "there are two columns `radius`",
+        ),
         (RTWIG.replace("0.02,0.5", "1e30,0.5"), FaultKind::OutOfRange, Place::Cell(3, 10), "up to 100 m"),
         (ALONG.replace("0,0,1,0.3,", "0,0,0,0.3,"), FaultKind::OutOfRange, Place::Cell(2, 4), "axis is 0"),
     ];

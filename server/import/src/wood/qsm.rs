@@ -26,6 +26,15 @@ struct Dialect {
     order: &'static str,
 }
 
+impl Dialect {
+    /// Whether a column of this name is read.
+    fn reads(&self, name: &str) -> bool {
+        let vectors = [self.start, self.axis, self.end].into_iter().flatten();
+        let plain = [self.parent, self.radius, self.length, self.branch, self.order].into_iter();
+        vectors.chain(plain).chain(self.id).any(|column| column == name)
+    }
+}
+
 const DIALECTS: [Dialect; 5] = [
     Dialect {
         name: "TreeQSM",
@@ -166,8 +175,8 @@ struct Row {
 
 impl Table {
     fn of(head: &StringRecord) -> Result<Self, Fault> {
-        let tables = DIALECTS.iter().filter_map(|dialect| Self::by(dialect, head));
-        tables.into_iter().next().ok_or_else(|| {
+        let mut tables = DIALECTS.iter().filter_map(|dialect| Self::by(dialect, head));
+        let table = tables.next().ok_or_else(|| {
             if head.iter().all(|name| name.trim().is_empty()) {
                 return malformed(Some(Place::Line(1)), "it has no columns; the first line must name them");
             }
@@ -175,7 +184,16 @@ impl Table {
             let found: Vec<_> = head.iter().take(12).map(|name| format!("`{}`", excerpt(name))).collect();
             let what = format!("its columns are not those of a QSM by {names}: {}", found.join(", "));
             malformed(Some(Place::Line(1)), what)
-        })
+        })?;
+        // Which of two columns is meant nobody can say.
+        for (at, name) in head.iter().enumerate() {
+            let is_second = head.iter().take(at).any(|other| other.trim() == name.trim());
+            if is_second && table.dialect.reads(name.trim()) {
+                let what = format!("there are two columns `{}`", excerpt(name.trim()));
+                return Err(malformed(Some(Place::Cell(1, at as u64 + 1)), what));
+            }
+        }
+        Ok(table)
     }
 
     fn by(dialect: &'static Dialect, head: &StringRecord) -> Option<Self> {
