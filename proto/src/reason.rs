@@ -65,6 +65,8 @@ reasons! {
         ObjDamaged,
         /// A text is no grammar; `cause` says where and why.
         NotAGrammar,
+        /// The body of a request is packed in a way that is not read, `cause`.
+        PackedRequest,
         /// A thumbnail is not a picture.
         ThumbnailKind,
     }
@@ -185,6 +187,8 @@ reasons! {
         RemovedGuest,
         /// A comment is too old to be changed.
         CommentStays,
+        /// A tree that is not deleted can neither be taken back nor deleted for good.
+        NotDeleted,
         /// A collection cannot lie in itself.
         CollectionInItself,
         /// Another request had this key.

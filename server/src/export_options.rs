@@ -92,9 +92,6 @@ pub struct ExportOptions {
     /// Say under which licence they may be used, by its SPDX name.
     #[arg(long, value_name = "LICENCE", requires = "export")]
     pub licence: Option<Name>,
-    /// The name under which a client asks how far its export is (`EX3`).
-    #[arg(skip)]
-    pub ticket: Option<String>,
 }
 
 /// Names of options, as formats list them.

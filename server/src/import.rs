@@ -14,6 +14,7 @@ use espalier_import::{Fault, FaultKind, Units, WoodFormat, WoodNote, WoodOptions
 use espalier_proto::{
     NotAllowed, Problem, ProblemCode, Reason,
     library::{self, ImportNoteKind},
+    text::misleads,
 };
 use espalier_session::{Document, DocumentError, TransplantError};
 use espalier_settings::{Appearance, ParameterValues, ParametersPatch};
@@ -227,7 +228,7 @@ fn parameters_at(species: &Species, age: u32) -> &ParameterValues {
 /// As much of a name as a sentence tells again.
 fn excerpt(name: &str) -> String {
     const LONGEST: usize = 40;
-    name.chars().filter(|c| !c.is_control()).take(LONGEST).collect()
+    name.chars().filter(|&letter| !misleads(letter)).take(LONGEST).collect()
 }
 
 impl Import {
@@ -252,9 +253,10 @@ impl Import {
             }
             ImportError::Wood(_) | ImportError::Document(_) => (ProblemCode::Malformed, None, None),
         };
-        let message = format!("The file cannot become a tree: {error}.");
-        let problem =
-            Problem { code, cause: Some(error.to_string()), ..Problem::new(Reason::NotATreeFile, message) };
+        // It tells names again that stand in the file.
+        let cause: String = error.to_string().chars().filter(|&letter| !misleads(letter)).collect();
+        let message = format!("The file cannot become a tree: {cause}.");
+        let problem = Problem { code, cause: Some(cause), ..Problem::new(Reason::NotATreeFile, message) };
         let field = place.unwrap_or_else(|| BODY.into());
         problem.at(field, allowed.unwrap_or_else(|| self.format.description()))
     }
@@ -438,6 +440,14 @@ mod tests {
         let file = String::from_utf8_lossy(&file).replace("\"species\":null", "\"species\":\"triffid\"");
         let strange = read(file.as_bytes(), WoodFormat::Skeleton, &[]);
         assert_eq!(strange.notes, [ImportNote::Species("triffid".into())]);
+        let turned =
+            String::from_utf8_lossy(file.as_bytes()).replace("triffid", "tri\u{202e}ff\u{2066}id");
+        let turned = read(turned.as_bytes(), WoodFormat::Skeleton, &[]);
+        assert_eq!(
+            turned.notes,
+            [ImportNote::Species("triffid".into())],
+            "nothing turns the sentence around"
+        );
     }
 
     #[test]
@@ -451,6 +461,10 @@ mod tests {
         let thin = SCAN.replace("0.02,0.5", "-0.02,0.5");
         assert_eq!(problem(&thin, &[]), Some((ProblemCode::OutOfRange, at("line 3, column 10"))));
         assert_eq!(problem("a,b\n1,2\n", &[]), Some((ProblemCode::Malformed, at("line 1"))));
+        let import = import(Format::Wood(WoodFormat::Qsm), &[]);
+        let turned =
+            document("a\u{202e},b\n1,2\n".as_bytes(), &import).map_err(|error| import.refusal(&error));
+        assert!(turned.is_err_and(|problem| problem.message.contains("`a`, `b`")));
         let zero = ParametersPatch { internode_length: Some(0.0), ..ParametersPatch::default() };
         let place = at("parameters.internode_length");
         assert_eq!(problem(SCAN, &[zero]), Some((ProblemCode::OutOfRange, place)));

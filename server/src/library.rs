@@ -27,7 +27,7 @@ use crate::{
     output::{OutputError, Target},
     progress::Bar,
     review,
-    similar::asked_for,
+    similar::{asked_for, no_species},
     store::{
         Comments, Contents, Library, LibraryFile, Missing, NewTree, NewVersion, OpenError, Picture, Saved,
         SessionLine, SessionQuery, SqliteStore, Store, StoreError, StoredTree, StoredVersion, TreeDocument,
@@ -51,6 +51,9 @@ pub enum LibraryError {
     /// No tree has this identifier or name.
     #[error("There is no tree {0:?} in the library{1}; `espalier library ls` lists all.")]
     NoTree(String, String),
+    /// No species has this short name.
+    #[error("{0} `espalier species` lists all.")]
+    NoSpecies(String),
     /// Several trees have this name.
     #[error(
         "{count} trees are called {name:?}; give the identifier of one, as `espalier library ls` prints it."
@@ -115,6 +118,7 @@ impl LibraryError {
             self,
             Self::Text(_)
                 | Self::Options(_)
+                | Self::NoSpecies(_)
                 | Self::NoFormat(_)
                 | Self::Output(OutputError::Terminal(_))
                 | Self::Read { .. }
@@ -179,6 +183,9 @@ async fn ls(list: &List, words: &[String]) -> Result<(), LibraryError> {
         ..TreeQuery::default()
     };
     let trees = LibraryFile::open(&list.from.database.path).await?.trees(&query).await?;
+    if let Some(unknown) = list.species.as_deref().filter(|_| trees.is_empty()).and_then(no_species) {
+        return Err(LibraryError::NoSpecies(unknown));
+    }
     let lines = trees.iter().map(|StoredTree { head, .. }| head).zip(&trees).map(|(head, tree)| TreeLine {
         id: &tree.id,
         name: &tree.name,

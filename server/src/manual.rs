@@ -1,15 +1,11 @@
 //! What is made of the command line's definition: completions of shells, and the manual's pages.
 
-use std::{
-    fs,
-    io::{self, Write},
-    path::Path,
-};
+use std::{fs, io, path::Path};
 
 use clap::CommandFactory;
 use clap_complete::Shell;
 
-use crate::cli::Cli;
+use crate::{cli::Cli, output};
 
 /// The program's name, as one types it.
 const NAME: &str = "espalier";
@@ -18,7 +14,7 @@ const NAME: &str = "espalier";
 pub fn completions(shell: Shell) -> io::Result<()> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Cli::command(), NAME, &mut script);
-    io::stdout().write_all(&script)
+    output::print(&script)
 }
 
 /// Writes the pages `espalier.1`, `espalier-grow.1` and so on.

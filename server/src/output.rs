@@ -41,6 +41,23 @@ pub enum OutputError {
     Terminal(&'static str),
 }
 
+/// Prints bytes. A reader that has seen enough, as `head` may, is no error of ours.
+///
+/// # Errors
+/// Where they cannot be written for another reason.
+pub fn print(bytes: &[u8]) -> io::Result<()> {
+    let mut stdout = io::stdout().lock();
+    read_enough(stdout.write_all(bytes).and_then(|()| stdout.flush()))
+}
+
+/// What was written to a reader that had seen enough was written.
+fn read_enough(written: io::Result<()>) -> io::Result<()> {
+    match written {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        written => written,
+    }
+}
+
 impl Target {
     /// Whether it goes to standard output.
     pub fn is_stdout(&self) -> bool {
@@ -70,11 +87,8 @@ impl Target {
             let mut file = made(tempfile::tempfile().map_err(failed)?, make, failed)?;
             file.rewind().map_err(failed)?;
             let mut stdout = io::stdout().lock();
-            return match io::copy(&mut file, &mut stdout).and_then(|_| stdout.flush()) {
-                // A reader that has seen enough, as `head` may, is no error of ours.
-                Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-                copied => copied.map_err(failed),
-            };
+            let copied = io::copy(&mut file, &mut stdout).and_then(|_| stdout.flush());
+            return read_enough(copied).map_err(failed);
         }
         let folder = self.path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
         let mut file = tempfile::Builder::new();

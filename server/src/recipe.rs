@@ -104,8 +104,9 @@ impl Recipe {
         Ok(document)
     }
 
-    /// Grows what [`Recipe::seedling`] gave.
-    pub fn grow(&self, gardener: &mut impl Gardener) -> Result<(), GrowError> {
+    /// Grows what [`Recipe::seedling`] gave. Answers with the living metamers that there were when the script and the steps
+    /// were done.
+    pub fn grow(&self, gardener: &mut impl Gardener) -> Result<u32, GrowError> {
         for action in self.actions() {
             gardener.act(&action.into())?;
         }
@@ -114,7 +115,7 @@ impl Recipe {
             gesture: Some(1),
             ..Action::Grow { steps: Steps::LEAST, until: None, bud: None }.into()
         };
-        let wanted = self.metamers.unwrap_or(0);
+        let (wanted, before) = (self.metamers.unwrap_or(0), gardener.document().metamers());
         let (mut most, mut idle) = (0, 0);
         while gardener.document().metamers() < wanted {
             let alive = gardener.document().metamers();
@@ -128,7 +129,7 @@ impl Recipe {
                 _ => stalled,
             })?;
         }
-        Ok(())
+        Ok(before)
     }
 
     /// Tries what it sets, and grows nothing.

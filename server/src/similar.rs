@@ -1,5 +1,7 @@
 //! The name that was meant where one is mistyped.
 
+use espalier_growth::species;
+
 use crate::store::folded;
 
 /// Names less alike than this are no slip; 1 is the same name.
@@ -31,13 +33,26 @@ pub fn asked_for<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> St
     similar(name, names).map(|known| format!(" (did you mean {known}?)")).unwrap_or_default()
 }
 
+/// What is said where no species has this short name.
+pub fn no_species(slug: &str) -> Option<String> {
+    let known = || species::all().iter().map(|species| species.slug);
+    (!known().any(|other| other == slug))
+        .then(|| format!("There is no species {slug:?}{}.", asked_for(slug, known())))
+}
+
 #[cfg(test)]
 mod tests {
-    use espalier_growth::species;
     use espalier_settings::ParameterValues;
 
     use super::*;
     use crate::document::FORMATS;
+
+    #[test]
+    fn a_species_that_is_none_is_answered_with_the_nearest() {
+        assert_eq!(no_species("oak"), None);
+        assert_eq!(no_species("oka").as_deref(), Some("There is no species \"oka\" (did you mean oak?)."));
+        assert_eq!(no_species("triffid").as_deref(), Some("There is no species \"triffid\"."));
+    }
 
     #[test]
     fn what_was_mistyped_is_known_and_what_is_another_word_is_not() {

@@ -220,7 +220,14 @@ fn grown(options: &Grow, wanted: &Wanted, seed: u32, pool: &SimulationPool) -> R
     pool.block_on(|| {
         let seedling = recipe.seedling(seed).map_err(HeadlessError::Parameters)?;
         let mut bench = bench(seedling, &options.results);
-        recipe.grow(&mut bench)?;
+        let before = recipe.grow(&mut bench)?;
+        if let Some(wanted) = recipe.metamers.filter(|&wanted| before > wanted) {
+            // A reader that has gone is no error of ours.
+            let _ = writeln!(
+                io::stderr(),
+                "The tree of seed {seed} has {before} metamers before it grows on, so that --metamers {wanted} changes nothing."
+            );
+        }
         depth.map_or(Ok(()), |depth| grammar::check(bench.document_mut(), depth))?;
         Ok(bench)
     })

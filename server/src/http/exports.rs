@@ -13,15 +13,17 @@ use std::{
 use axum::{
     Json,
     body::{Body, Bytes},
-    extract::State,
-    http::{HeaderMap, HeaderName, header},
+    extract::{FromRequestParts, State},
+    http::{HeaderMap, HeaderName, header, request::Parts},
     response::Response,
 };
 use espalier_proto::{
     Problem, Reason,
     library::{ExportFormat, ExportProgress},
+    reading,
 };
 use futures_util::stream;
+use serde::Deserialize;
 use tokio::{
     sync::{OwnedSemaphorePermit, oneshot},
     task::spawn_blocking,
@@ -30,7 +32,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::{
     Shared,
-    failure::{Failure, Path, Query},
+    failure::{Failure, Path},
     file_name, ranges,
     sessions::{open, saved_document, unreadable},
     trees,
@@ -91,6 +93,30 @@ impl Progresses {
     }
 }
 
+/// What stands behind the question mark of a download: options of its format, and by which name the client asks how far
+/// it is (`EX3`).
+pub(super) struct Wish {
+    options: ExportOptions,
+    ticket: Option<String>,
+}
+
+#[derive(Deserialize)]
+struct Ticket {
+    ticket: Option<String>,
+}
+
+impl<S: Send + Sync> FromRequestParts<S> for Wish {
+    type Rejection = Failure;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Failure> {
+        let query = parts.uri.query().unwrap_or_default();
+        let is_ticket = |part: &&str| part.split('=').next() == Some("ticket");
+        let (tickets, options): (Vec<&str>, Vec<&str>) = query.split('&').partition(is_ticket);
+        let Ticket { ticket } = reading::from_query(&tickets.join("&"))?;
+        Ok(Self { options: reading::from_query(&options.join("&"))?, ticket })
+    }
+}
+
 /// What can be asked for (`EX1`).
 pub(super) async fn formats() -> Json<Vec<ExportFormat>> {
     Json(FORMATS.iter().map(FormatRow::described).collect())
@@ -127,11 +153,11 @@ fn progress_of(shared: &Shared, ticket: &str) -> Result<Json<ExportProgress>, Fa
 pub(super) async fn take(
     State(shared): State<Shared>,
     Path(session): Path<String>,
-    Query(options): Query<ExportOptions>,
+    wish: Wish,
     asked: HeaderMap,
     row: &'static FormatRow,
 ) -> Result<Response, Failure> {
-    let wanted = Wanted::of(&shared, row, options)?;
+    let wanted = Wanted::of(&shared, row, wish)?;
     let turn = wanted.progress.place.turn().await?;
     let document = open(&shared, &session).await?.read().await?;
     let tree = match shared.store.tree_of(&session).await? {
@@ -145,11 +171,11 @@ pub(super) async fn take(
 pub(super) async fn take_version(
     State(shared): State<Shared>,
     Path((tree, number)): Path<(String, u32)>,
-    Query(options): Query<ExportOptions>,
+    wish: Wish,
     asked: HeaderMap,
     row: &'static FormatRow,
 ) -> Result<Response, Failure> {
-    let wanted = Wanted::of(&shared, row, options)?;
+    let wanted = Wanted::of(&shared, row, wish)?;
     let turn = wanted.progress.place.turn().await?;
     let document = saved_document(&shared, &tree, number).await?;
     let name = name_of(&shared, &tree, number).await?;
@@ -171,7 +197,8 @@ struct Wanted {
 }
 
 impl Wanted {
-    fn of(shared: &Shared, row: &'static FormatRow, mut options: ExportOptions) -> Result<Self, Failure> {
+    fn of(shared: &Shared, row: &'static FormatRow, wish: Wish) -> Result<Self, Failure> {
+        let Wish { options, ticket } = wish;
         options.check(row.options).map_err(|error| not_of(row, &error))?;
         let pixels = row.pixels(&options);
         if pixels > MOST_DRAWN {
@@ -184,7 +211,7 @@ impl Wanted {
             .into());
         }
         let place = shared.turns.come(pixels > 0);
-        let (progress, held) = shared.progresses.hold(options.ticket.take(), place)?;
+        let (progress, held) = shared.progresses.hold(ticket, place)?;
         Ok(Self { row, options, progress, held })
     }
 

@@ -109,6 +109,7 @@ impl From<Problem> for Failure {
             (Reason::NotLetIn | Reason::WrongPassword, _) => StatusCode::UNAUTHORIZED,
             (Reason::KeyOfAnother, _) => StatusCode::UNPROCESSABLE_ENTITY,
             (Reason::UnknownHost, _) => StatusCode::MISDIRECTED_REQUEST,
+            (Reason::PackedRequest, _) => StatusCode::UNSUPPORTED_MEDIA_TYPE,
             (Reason::LargeFile | Reason::LargeRequest | Reason::LargeThumbnail, _) => {
                 StatusCode::PAYLOAD_TOO_LARGE
             }
@@ -149,6 +150,10 @@ impl From<StoreError> for Failure {
                 return Problem::new(Reason::TooMany, "There is no room for more of this.")
                     .at(BODY, "fewer of them")
                     .into();
+            }
+            StoreError::NotDeleted => {
+                let problem = Problem::new(Reason::NotDeleted, "The tree is not deleted.");
+                return problem.at(Missing::Tree.field(), "a tree that is deleted").into();
             }
             StoreError::Cycle => {
                 let problem = Problem::new(Reason::CollectionInItself, "A collection cannot lie in itself.");
@@ -402,6 +407,24 @@ fn unread_path(names: &[(String, String)], rejection: PathRejection) -> Failure 
     };
     field.map_or_else(Failure::no_address, |field| reading::unexpected(&field, &found, expected).into())
 }
+
+/// Refuses what is packed (`Content-Encoding`): nothing here unpacks it, and it would be read as what it is not.
+pub(super) async fn unpacked(request: Request, next: Next) -> Response {
+    let packed = request.headers().get_all(header::CONTENT_ENCODING).iter();
+    let mut packed = packed.filter(|coding| !coding.as_bytes().eq_ignore_ascii_case(b"identity"));
+    let Some(coding) = packed.next() else { return next.run(request).await };
+    let coding: String = String::from_utf8_lossy(coding.as_bytes()).chars().take(LONGEST_CODING).collect();
+    let problem = Problem::new(
+        Reason::PackedRequest,
+        format!("The request is packed ({coding:?}), and is read as it is alone."),
+    );
+    let problem = Problem { cause: Some(coding), ..problem };
+    Failure::from(problem.at(header::CONTENT_ENCODING.as_str(), "identity, or no such header"))
+        .into_response()
+}
+
+/// As much of a name of a packing as a sentence tells again.
+const LONGEST_CODING: usize = 40;
 
 /// Refuses a path that cannot be read, before anybody else looks at it.
 pub(super) async fn legible(_: Path<Vec<(String, String)>>, request: Request, next: Next) -> Response {

@@ -39,7 +39,7 @@ use super::{
 use crate::{
     access::{Action, Caller},
     document::{FORMATS, FormatRow},
-    export_options::{ExportOptions, NotOfFormat},
+    export_options::ExportOptions,
     jobs::{self, Job, NotTaken, Order},
     pool::Class,
     recipe::{Recipe, SeedRange},
@@ -332,12 +332,7 @@ pub(super) async fn grow(
 ) -> Result<impl IntoResponse, Failure> {
     let GrowTrees { template, parameters, appearance, seeds, steps, metamers, format, options } = wanted;
     let Ending(row) = format;
-    let checked = match &options.ticket {
-        // Progress is asked for by the name of the job.
-        Some(_) => Err(NotOfFormat("ticket")),
-        None => options.check(row.options),
-    };
-    checked.map_err(|error| not_of(row, &error).within("options"))?;
+    options.check(row.options).map_err(|error| not_of(row, &error).within("options"))?;
     let budget = shared.metamer_budget;
     // Read here, for no type knows how many this server allows.
     let range = Between(1, budget);

@@ -171,7 +171,7 @@ pub fn router(shared: Shared) -> Router {
                 Some(limit) if takes_keys => keyed(answer, shown, limit),
                 _ => answer,
             };
-            let answer = answer.layer(failure::body_limit(most_bytes));
+            let answer = answer.layer(failure::body_limit(most_bytes)).layer(from_fn(failure::unpacked));
             let answer = action.map_or(answer.clone(), |action| asked(answer, action, noted));
             let answer = answer.layer(from_fn(failure::legible));
             router.route(path_of(&address), time_limit.map_or(answer.clone(), |limit| within(limit, answer)))

@@ -19,6 +19,11 @@ const OWN_SITES: [&str; 2] = ["same-origin", "none"];
 /// A request under a name that is not this server's own is not for it (`GU1`): a page of another site may have had its
 /// name lead here, and would then pass for a page of this server.
 pub(super) async fn known_host(State(hosts): State<Hosts>, request: Request, next: Next) -> Response {
+    let all = request.headers().get_all(header::HOST).iter();
+    if all.count() > 1 {
+        let problem = Problem::new(Reason::Malformed, "The request has two Host headers.");
+        return Failure::from(problem.at(header::HOST.as_str(), "one")).into_response();
+    }
     let host = request.headers().get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
     if hosts.have(host) {
         return next.run(request).await;

@@ -29,7 +29,7 @@ use super::{
 use crate::{
     access::{Action, Caller},
     name,
-    similar::similar,
+    similar::{no_species, similar},
     store::{
         Contents, Deletion, Finding, Library, NOT_SO_LONG_AGO, NewTree, NewVersion, Sort, StoreError,
         StoredTree, TreeChange, TreePlace, TreeQuery,
@@ -170,6 +170,13 @@ pub(super) async fn list(
 ) -> Result<Json<TreePage>, Failure> {
     let query = page.query(&principal, &caller)?;
     let trees = shared.store.trees(&query).await?;
+    // Trees of a later program may be of a species that this one does not know.
+    let unknown = query.species.as_deref().filter(|_| trees.is_empty()).and_then(no_species);
+    if let Some((species, sentence)) = query.species.as_deref().zip(unknown) {
+        let allowed = "the short name of a species, as GET /api/v1/species lists them";
+        let problem = Problem::out_of_range("species", species, allowed);
+        return Err(Problem { message: sentence, ..problem }.into());
+    }
     let last = trees.last().filter(|_| trees.len() == query.limit as usize);
     let next = last.map(|tree| write_place(&query.place_of(tree)));
     let favourites = shared.store.favourites(&principal.to_string()).await?;

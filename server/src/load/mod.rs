@@ -5,16 +5,13 @@ mod person;
 mod scenarios;
 mod site;
 
-use std::{
-    io::{self, Write},
-    sync::Arc,
-    time::Duration,
-};
+use std::{io, sync::Arc, time::Duration};
 
 use clap::Args;
 
 use self::site::Site;
 pub use self::{scenarios::Scenario, site::Url};
+use crate::output;
 
 const NOTES: &str = "\
 Scenarios: drawing and all-draw (--sessions, --metamers), growers (--people, --beside), restores (--people, --beside, --large), idle
@@ -104,5 +101,5 @@ pub fn run(load: &Load) -> Result<(), LoadError> {
         let site = Arc::new(Site::find(&load.url, load.token.clone()).await?);
         load.scenario.run(&site, load).await
     })?;
-    Ok(io::stdout().write_all(table.text().as_bytes())?)
+    Ok(output::print(table.text().as_bytes())?)
 }

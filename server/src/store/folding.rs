@@ -10,6 +10,11 @@ pub fn folded(text: &str) -> String {
     plain(&plain(text).to_lowercase())
 }
 
+/// A text without the difference of large and small letters, and of how accents are written.
+pub(super) fn uncased(text: &str) -> String {
+    text.nfc().collect::<String>().to_lowercase()
+}
+
 /// All that is searched of a tree, folded.
 pub(super) fn searched(name: &str, tags: &[String], note: &str, species: Option<&str>) -> String {
     let parts = [name].into_iter().chain(tags.iter().map(String::as_str)).chain([note]).chain(species);

@@ -157,6 +157,9 @@ pub enum StoreError {
     /// A tree is at another revision than was expected.
     #[error("the tree has changed meanwhile")]
     Stale,
+    /// A tree was to be taken back, or deleted for good, that is not deleted.
+    #[error("the tree is not deleted")]
+    NotDeleted,
     /// A collection was to lie in itself.
     #[error("a collection cannot lie in itself")]
     Cycle,
@@ -223,6 +226,7 @@ impl StoreError {
             Self::Fenced | Self::OutOfOrder { .. } => "the session has been taken over",
             Self::NotFound(_) => "it is not there",
             Self::Stale => "it has changed meanwhile",
+            Self::NotDeleted => "the tree is not deleted",
             Self::Cycle => "a collection cannot lie in itself",
             Self::Full => "there is no room for more of this",
             Self::Taken => "somebody goes by that name already",

@@ -1,6 +1,6 @@
 use std::fs;
 
-use espalier_tests::{program, scratch::Scratch, strokes::upward};
+use espalier_tests::{program, scratch::Scratch, server::Server, strokes::upward};
 use serde_json::{Value, json};
 
 const PHASES: [&str; 7] = ["space", "light", "vigor", "growth", "shedding", "girth", "delta"];
@@ -406,6 +406,38 @@ fn species_are_told_as_json() {
     let all: Vec<Value> = serde_json::from_str(&finished.stdout).expect("JSON");
     assert_eq!(all.len(), program::run(&["species"]).stdout.lines().count());
     assert!(all.iter().all(|species| species["programme"]["age"].as_u64() > Some(0)));
+}
+
+#[test]
+fn a_reader_that_has_seen_enough_is_no_error() {
+    let scratch = Scratch::new();
+    let database = scratch.path("trees.db");
+    assert!(Server::start(&database).terminate().success());
+    let database = database.to_str().expect("a plain name");
+    for arguments in [
+        &["completions", "bash"][..],
+        &["species"],
+        &["species", "--json"],
+        &["library", "ls", "--database", database],
+        &["grow", "--metamers", "20"],
+        &["grow", "--metamers", "20", "--export", "-", "--format", "json"],
+    ] {
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        let ended = program::command().args(arguments).stdout(writer).output().expect("the program starts");
+        let said = String::from_utf8_lossy(&ended.stderr);
+        assert!(ended.status.success(), "{arguments:?}: {said}");
+        assert!(!said.contains("panicked") && !said.contains("roken pipe"), "{arguments:?}: {said}");
+    }
+}
+
+#[test]
+fn a_tree_that_is_larger_than_was_asked_for_is_told() {
+    let finished = program::run(&["grow", "--steps", "8", "--metamers", "3"]);
+    assert_eq!(finished.code, 0, "{}", finished.stderr);
+    assert!(finished.stderr.contains("so that --metamers 3 changes nothing."), "{}", finished.stderr);
+    let finished = program::run(&["grow", "--steps", "2", "--metamers", "300"]);
+    assert_eq!((finished.code, finished.stderr.as_str()), (0, ""));
 }
 
 #[test]

@@ -75,10 +75,21 @@ async fn trees_are_read_beside_a_server_and_changed_without_one() {
         (&["get", &oak, "-", "--version", "9"], 1, "no version 9"),
         (&["export", &oak, "-"], 2, "--format"),
         (&["export", &oak, "a.mtg", "--hull"], 2, "no option `hull`"),
+        (&["ls", "--species", "oka"], 2, "There is no species \"oka\" (did you mean oak?)."),
     ] {
         let finished = run(&database, arguments);
         assert_eq!(finished.code, code, "{arguments:?}: {}", finished.stderr);
         assert!(finished.stderr.contains(said), "{arguments:?}: {}", finished.stderr);
+    }
+
+    #[cfg(unix)]
+    {
+        let link = scratch.path("link.db");
+        fs::hard_link(&database, &link).expect("a second name");
+        let elsewhere = run(&link, &["ls"]);
+        assert_eq!(elsewhere.code, 1);
+        assert!(elsewhere.stderr.contains("a server is using it by another name"), "{}", elsewhere.stderr);
+        fs::remove_file(&link).expect("it can be removed");
     }
 
     assert!(server.terminate().success());

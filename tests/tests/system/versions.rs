@@ -219,7 +219,13 @@ async fn lb6_a_deleted_tree_is_taken_back_whole() {
         (&back["version"], &back["name"], &back["deleted_at"]),
         (&json!(2), &json!("Pear"), &Value::Null)
     );
-    assert_eq!(library.ask("POST", &format!("{path}/undelete"), Some(json!({}))).status, 404);
+    let refused = library.ask("POST", &format!("{path}/undelete"), Some(json!({})));
+    assert_eq!(
+        (refused.status, &refused.json()["reason"]),
+        (409, &json!("not-deleted")),
+        "{}",
+        refused.text()
+    );
     assert_eq!(library.names(), ["Pear"]);
 }
 
@@ -228,7 +234,12 @@ async fn lb6_a_deleted_tree_goes_for_good_when_told() {
     let library = Library::new().await;
     let path = path_of(&library.save("Pear"));
     let for_good = format!("{path}/for-good");
-    assert_eq!(library.ask("DELETE", &for_good, None).status, 404, "only one that is deleted");
+    let refused = library.ask("DELETE", &for_good, None);
+    assert_eq!(
+        (refused.status, &refused.json()["reason"]),
+        (409, &json!("not-deleted")),
+        "only one that is deleted"
+    );
     assert_eq!(library.ask("DELETE", &path, None).status, 204);
     assert_eq!(library.ask("DELETE", &for_good, None).status, 204);
     assert_eq!(library.ask("POST", &format!("{path}/undelete"), Some(json!({}))).status, 404);

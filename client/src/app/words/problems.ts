@@ -42,6 +42,7 @@ export const REFUSALS = {
     "The OBJ file cannot be read ({cause}). Export it again.",
     "Die OBJ-Datei lässt sich nicht lesen ({cause}). Exportiere sie noch einmal.",
   ],
+  "problems.packed-request": MISUNDERSTOOD,
   "problems.thumbnail-kind": [
     "The picture for the library could not be taken; try again.",
     "Das Bild für die Bibliothek ist nicht gelungen; versuche es noch einmal.",
@@ -220,6 +221,7 @@ export const REFUSALS = {
     "A comment can be changed for 15 minutes only. Delete it, or write another one.",
     "Ein Kommentar lässt sich nur 15 Minuten lang ändern. Lösch ihn oder schreib einen neuen.",
   ],
+  "problems.not-deleted": ["This tree is not deleted.", "Dieser Baum ist nicht gelöscht."],
   "problems.collection-in-itself": [
     "A collection cannot lie in itself.",
     "Eine Sammlung kann nicht in sich selbst liegen.",

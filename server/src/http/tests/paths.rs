@@ -130,6 +130,8 @@ async fn what_was_mistyped_is_told_what_may_have_been_meant() {
         (("GET", "/api/v1/trees/ash/versions/1/tree.mgt", Value::Null), "(did you mean mtg?)"),
         (("GET", "/api/v1/sessions/oak/tree.fbx", Value::Null), "There is no such format."),
         (("POST", "/api/v1/trees/import?name=Oak&format=cvs", Value::Null), "cvs (did you mean csv?)"),
+        (("GET", "/api/v1/trees?species=oka", Value::Null), "no species \"oka\" (did you mean oak?)"),
+        (("GET", "/api/v1/trees?species=triffid", Value::Null), "no species \"triffid\"."),
         (grow(json!({ "template": "oak", "format": "gltf" })), "format is gltf (did you mean glb?)"),
         (grow(json!({ "template": "scots-pien", "format": "glb" })), "; did you mean scots-pine?"),
         (grow(json!({ "template": "ywe", "format": "glb" })), "; did you mean yew, which is called"),

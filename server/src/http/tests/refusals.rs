@@ -127,6 +127,7 @@ fn queries() -> Vec<(String, Cow<'static, str>, &'static str)> {
         (list, "q=oak%00", "q"),
         (list, "tags=old,%07", "tags"),
         (list, "species=%FF", "species"),
+        (list, "species=oka", "species"),
         (list, "author=%00", "author"),
         (list, "author=", "author"),
         (list, "min_metamers=9&max_metamers=1", "max_metamers"),
@@ -443,4 +444,42 @@ async fn nothing_that_is_said_is_passed_over() {
         let answer = answer_to_text(&server, address, "", text.into()).await;
         assert_names(field, &answer, &format!("{address} {text}"));
     }
+}
+
+/// An answer that refuses: its status, its reason and the field that it names.
+async fn refusal(request: Builder, body: &'static str) -> (u16, Value, Value) {
+    let server = router(shared().await);
+    let answer = server.oneshot(request.body(Body::from(body)).unwrap()).await.unwrap();
+    let status = answer.status().as_u16();
+    let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+    let problem: Value = serde_json::from_slice(&bytes).unwrap();
+    (status, problem["reason"].clone(), problem["field"].clone())
+}
+
+#[tokio::test]
+async fn er1_a_packed_body_is_refused_at_every_address_that_takes_one() {
+    for (method, path) in [
+        (Method::POST, "/api/v1/sessions"),
+        (Method::POST, "/api/v1/grow"),
+        (Method::POST, "/api/v1/trees/import?name=Oak&format=csv"),
+        (Method::POST, "/api/v1/sessions/oak/obstacles"),
+    ] {
+        let packed = request(&method, path)
+            .header(header::CONTENT_TYPE, "application/json")
+            .header(header::CONTENT_ENCODING, "gzip");
+        let told = refusal(packed, "{}").await;
+        assert_eq!(told, (415, json!("packed-request"), json!("content-encoding")), "{path}");
+    }
+    let plain = request(&Method::POST, "/api/v1/grow")
+        .header(header::CONTENT_TYPE, "application/json")
+        .header(header::CONTENT_ENCODING, "Identity");
+    assert_eq!(refusal(plain, "{}").await.2, json!("format"), "it is read");
+}
+
+#[tokio::test]
+async fn gu1_a_request_with_two_hosts_is_refused() {
+    let twofold = request(&Method::GET, "/api/v1/trees").header(header::HOST, "localhost:7700");
+    assert_eq!(refusal(twofold, "").await, (400, json!("malformed"), json!("host")));
+    let other = request(&Method::GET, "/health").header(header::HOST, "evil.example");
+    assert_eq!(refusal(other, "").await, (400, json!("malformed"), json!("host")));
 }

@@ -76,6 +76,20 @@ pub(super) async fn collections_lie_in_each_other(store: &(impl Library + Findin
     assert_eq!(lying(None).await, ["elm", "ash"]);
 }
 
+async fn tags_that_differ_in_case_are_one(store: &(impl Library + Finding)) {
+    change(store, "cedar", tagged(&["TALL", "Ähre", "ÄHRE", "Ahre"])).await;
+    let tags = store.tree("cedar").await.unwrap().unwrap().tags;
+    assert_eq!(tags, ["Ahre", "tall", "Ähre"], "spelt as another tree has it, or as it came first");
+    assert_eq!(store.tags().await.unwrap(), [("Ahre".into(), 1), ("tall".into(), 2), ("Ähre".into(), 1)]);
+    for (tag, expected) in [("Tall", vec!["birch", "cedar"]), ("ähre", vec!["cedar"]), ("ähr", vec![])] {
+        let mut found = ids(store, &TreeQuery { tags: vec![tag.into()], ..TreeQuery::default() }).await;
+        found.sort();
+        assert_eq!(found, expected, "{tag}");
+    }
+    change(store, "cedar", tagged(&["Ähre"])).await;
+    change(store, "cedar", tagged(&[])).await;
+}
+
 pub(super) async fn tags_and_favourites_find_trees(store: &(impl Library + Finding)) {
     for id in ["ash", "birch", "cedar"] {
         store.add_tree(tree(id, "2026")).await.unwrap();
@@ -91,6 +105,7 @@ pub(super) async fn tags_and_favourites_find_trees(store: &(impl Library + Findi
     assert_eq!((with(&["tall"]).await.len(), with(&["tall", "old"]).await), (2, vec!["ash".into()]));
     change(store, "ash", tagged(&[])).await;
     assert_eq!(store.tags().await.unwrap(), [("tall".into(), 1)]);
+    tags_that_differ_in_case_are_one(store).await;
 
     store.set_favourite("ada-browser", "ash", true).await.unwrap();
     store.set_favourite("ada-browser", "ash", true).await.unwrap();

@@ -246,7 +246,11 @@ pub(super) async fn what_is_deleted_comes_back_whole(store: &impl Library) {
     gone(store.add_version("ash", None, again(b"x")).await.map(drop));
     gone(store.add_version("elm", None, of("ash", 1)).await.map(drop));
     let undelete = || TreeChange { deletion: Some(Deletion::Undeleted), ..TreeChange::default() };
-    gone(store.change_tree("elm", None, undelete()).await);
+    let for_good = TreeChange { deletion: Some(Deletion::ForGood), ..TreeChange::default() };
+    for change in [undelete(), for_good] {
+        let refused = store.change_tree("elm", None, change).await;
+        assert!(matches!(refused, Err(StoreError::NotDeleted)), "{refused:?}");
+    }
     store.change_tree("ash", None, undelete()).await.unwrap();
     let after = found(store, "ash").await;
     assert_eq!(StoredTree { revision: before.revision, ..after }, before);

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::{
     super::{
         Collection, CollectionChange, Finding, Library, Missing, StoreError, StoredTree, TreeQuery,
-        folding::{alternatives, folded, searched},
+        folding::{alternatives, folded, searched, uncased},
     },
     MemoryStore,
 };
@@ -24,7 +24,7 @@ pub(super) fn is_wanted(
     tree.deleted_at.is_some() == query.is_deleted
         && query.is_template.is_none_or(|wanted| tree.is_template == wanted)
         && query.words.iter().all(|word| alternatives(word).iter().any(|part| text.contains(part)))
-        && query.tags.iter().all(|tag| tree.tags.contains(tag))
+        && query.tags.iter().all(|tag| tree.tags.iter().any(|other| uncased(other) == uncased(tag)))
         && query.collection.as_ref().is_none_or(|wanted| tree.collection == *wanted)
         && query.favourites_of.as_ref().is_none_or(|who| favourites.contains(&(who.clone(), tree.id.clone())))
         && query.saved_by.as_deref().is_none_or(|wanted| wanted == by)

@@ -1,9 +1,12 @@
 //! The library of the model.
 
+use std::collections::BTreeMap;
+
 use super::{
     super::{
         Contents, Deletion, LONG_AGO, Library, Missing, NewTree, NewVersion, Picture, Saved, SessionTree,
         StoreError, StoredTree, StoredVersion, TreeChange, TreeDocument, TreeQuery,
+        folding::uncased,
         seal::{document_hash, tree_sum, version_sum},
     },
     Kept, MemoryStore, finding,
@@ -180,10 +183,15 @@ impl Library for MemoryStore {
         let mut kept = self.writing()?;
         let is_known = |collection: &String| kept.collections.contains_key(collection);
         let has_collection = change.collection.iter().flatten().all(is_known);
+        let others = kept.trees.iter().filter(|(other, _)| *other != id);
+        let spellings: BTreeMap<String, String> =
+            others.flat_map(|(_, tree)| &tree.tags).map(|tag| (uncased(tag), tag.clone())).collect();
         let tree = kept.tree(id, expected)?;
         let TreeChange { name, note, is_template, version_note, tags, collection, deletion } = change;
-        if tree.deleted_at.is_some() != deletion.as_ref().is_some_and(Deletion::is_of_deleted) {
-            return Err(StoreError::NotFound(Missing::Tree));
+        match (tree.deleted_at.is_some(), deletion.as_ref().is_some_and(Deletion::is_of_deleted)) {
+            (true, false) => return Err(StoreError::NotFound(Missing::Tree)),
+            (false, true) => return Err(StoreError::NotDeleted),
+            _ => {}
         }
         if !has_collection {
             return Err(StoreError::NotFound(Missing::Collection));
@@ -200,9 +208,15 @@ impl Library for MemoryStore {
         tree.note = note.unwrap_or_else(|| tree.note.clone());
         tree.is_template = is_template.unwrap_or(tree.is_template);
         tree.collection = collection.unwrap_or_else(|| tree.collection.clone());
-        tree.tags = tags.unwrap_or_else(|| tree.tags.clone());
-        tree.tags.sort();
-        tree.tags.dedup();
+        if let Some(tags) = tags {
+            let mut once = BTreeMap::new();
+            for tag in tags {
+                let spelt = spellings.get(&uncased(&tag)).cloned();
+                once.entry(uncased(&tag)).or_insert(spelt.unwrap_or(tag));
+            }
+            tree.tags = once.into_values().collect();
+            tree.tags.sort();
+        }
         tree.deleted_at = match deletion {
             Some(Deletion::Deleted(at)) => Some(at),
             Some(Deletion::ForGood) => Some(LONG_AGO.into()),

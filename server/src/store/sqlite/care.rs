@@ -27,6 +27,9 @@ const REPORT_PERIOD: Duration = Duration::from_millis(200);
 /// Why a database of an earlier schema is not read.
 pub(super) const EARLIER: &str =
     "its schema is an earlier program's; a server that is started on it brings it up to date";
+/// Why a database is not read by a name that is not the server's.
+const ELSEWHERE: &str = "a server is using it by another name (this one is a hard link to the same file), beside which it \
+    keeps what it wrote last; give the name that the server was started with";
 /// What SQLite keeps beside a database: its write-ahead log and the memory shared by those who use it.
 const COMPANIONS: [&str; 3] = ["", "-wal", "-shm"];
 
@@ -227,6 +230,9 @@ pub(super) async fn reading(database: &Path) -> Result<SqliteConnection, OpenErr
     let refused = |reason| OpenError::new(database, reason);
     if !database.is_file() {
         return Err(refused("there is no such file".into()));
+    }
+    if Place::is_used_elsewhere(database) {
+        return Err(refused(ELSEWHERE.into()));
     }
     identity::check(database).await.map_err(refused)?;
     let options = common_options(database).read_only(true);

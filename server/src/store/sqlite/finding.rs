@@ -6,7 +6,7 @@ use sqlx::{QueryBuilder, Sqlite, SqlitePool, sqlite::SqliteConnection};
 
 use super::super::{
     Collection, CollectionChange, Missing, Sort, StoreError, TreeQuery,
-    folding::{alternatives, folded, searched},
+    folding::{alternatives, folded, searched, uncased},
 };
 
 #[derive(Debug)]
@@ -42,7 +42,7 @@ pub(super) fn narrow(sql: &mut QueryBuilder<Sqlite>, query: &TreeQuery) {
         sql.push(")");
     }
     for tag in &query.tags {
-        sql.push(" AND id IN (SELECT tree FROM tree_tags WHERE tag = ").push_bind(tag.clone()).push(")");
+        sql.push(" AND id IN (SELECT tree FROM tree_tags WHERE folded = ").push_bind(uncased(tag)).push(")");
     }
     match &query.collection {
         None => {}
@@ -106,13 +106,49 @@ pub(super) async fn fold(connection: &mut SqliteConnection, id: i64) -> Result<(
     Ok(())
 }
 
+/// Gives a tree a tag, spelt as other trees have it, unless it has it already.
+pub(super) async fn tag(connection: &mut SqliteConnection, tree: i64, tag: &str) -> Result<(), StoreError> {
+    let query = sqlx::query(
+        "INSERT INTO tree_tags (tree, tag, folded)
+         SELECT ?1, coalesce((SELECT tag FROM tree_tags WHERE folded = ?3 LIMIT 1), ?2), ?3
+         WHERE NOT EXISTS (SELECT 1 FROM tree_tags WHERE tree = ?1 AND folded = ?3)",
+    );
+    query.bind(tree).bind(tag).bind(uncased(tag)).execute(connection).await?;
+    Ok(())
+}
+
+/// Makes tags of an earlier program that differ in case alone one, spelt as most trees have it.
+async fn unite_tags(connection: &mut SqliteConnection) -> Result<(), StoreError> {
+    let new: Vec<String> = sqlx::query_scalar("SELECT DISTINCT tag FROM tree_tags WHERE folded = ''")
+        .fetch_all(&mut *connection)
+        .await?;
+    for tag in &new {
+        let query = sqlx::query("UPDATE tree_tags SET folded = ? WHERE tag = ?").bind(uncased(tag)).bind(tag);
+        query.execute(&mut *connection).await?;
+    }
+    let all: Vec<(String, String)> = sqlx::query_as(
+        "SELECT folded, tag FROM tree_tags WHERE ?
+         GROUP BY folded, tag ORDER BY folded, count(*) DESC, tag",
+    )
+    .bind(!new.is_empty())
+    .fetch_all(&mut *connection)
+    .await?;
+    for same in all.chunk_by(|(one, _), (other, _)| one == other) {
+        for (_, other) in &same[1..] {
+            let query = sqlx::query("UPDATE OR REPLACE tree_tags SET tag = ? WHERE tag = ?");
+            query.bind(&same[0].1).bind(other).execute(&mut *connection).await?;
+        }
+    }
+    Ok(())
+}
+
 /// The same for trees of an earlier program.
 pub(super) async fn fold_all(connection: &mut SqliteConnection) -> Result<(), StoreError> {
     let new = sqlx::query_scalar("SELECT id FROM trees WHERE search IS NULL");
     for id in new.fetch_all(&mut *connection).await? {
         fold(connection, id).await?;
     }
-    Ok(())
+    unite_tags(connection).await
 }
 
 pub(super) async fn collections(readers: &SqlitePool) -> Result<Vec<Collection>, StoreError> {
@@ -131,7 +167,8 @@ pub(super) async fn collections(readers: &SqlitePool) -> Result<Vec<Collection>,
 
 pub(super) async fn tags(readers: &SqlitePool) -> Result<Vec<(String, u32)>, StoreError> {
     Ok(sqlx::query_as(
-        "SELECT tag, count(*) FROM tree_tags JOIN trees ON id = tree WHERE deleted_at IS NULL GROUP BY tag ORDER BY tag",
+        "SELECT min(tag) AS tag, count(*) FROM tree_tags JOIN trees ON id = tree WHERE deleted_at IS NULL
+         GROUP BY tree_tags.folded ORDER BY tag",
     )
     .fetch_all(readers)
     .await?)

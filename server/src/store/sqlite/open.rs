@@ -42,6 +42,7 @@ const MIGRATIONS: &[(&str, &str)] = &[
     ("0017_groups", include_str!("../../../../migrations/0017_groups.sql")),
     ("0018_standings", include_str!("../../../../migrations/0018_standings.sql")),
     ("0019_people_of_sessions", include_str!("../../../../migrations/0019_people_of_sessions.sql")),
+    ("0020_tags_without_case", include_str!("../../../../migrations/0020_tags_without_case.sql")),
 ];
 
 /// Releases before this one can lose a committed transaction when the write-ahead log starts over.

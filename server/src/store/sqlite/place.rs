@@ -45,6 +45,15 @@ impl Place {
         opened.into_iter().flatten().all(|file| !matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
     }
 
+    /// Whether a server uses the file by another name, as a hard link has one: what it wrote last lies beside that name.
+    pub(super) fn is_used_elsewhere(path: &Path) -> bool {
+        let is_locked = |path: &Path| {
+            let opened = File::options().write(true).open(path);
+            opened.is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
+        };
+        is_locked(path) && !is_locked(&lock_of(path))
+    }
+
     /// The file, which other servers may use.
     pub(super) fn of(path: &Path) -> Result<Self, String> {
         #[cfg(unix)]

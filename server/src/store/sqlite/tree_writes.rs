@@ -273,8 +273,10 @@ async fn change_tree(
 ) -> Result<u64, StoreError> {
     let TreeChange { name, note, is_template, version_note, tags, collection, deletion } = change;
     let tree = Tree::at(connection, key, expected).await?;
-    if tree.deleted_at.is_some() != deletion.as_ref().is_some_and(Deletion::is_of_deleted) {
-        return Err(StoreError::NotFound(Missing::Tree));
+    match (tree.deleted_at.is_some(), deletion.as_ref().is_some_and(Deletion::is_of_deleted)) {
+        (true, false) => return Err(StoreError::NotFound(Missing::Tree)),
+        (false, true) => return Err(StoreError::NotDeleted),
+        _ => {}
     }
     if let Some((number, note)) = version_note {
         let changed = sqlx::query("UPDATE versions SET note = ? WHERE tree = ? AND number = ?");
@@ -286,8 +288,7 @@ async fn change_tree(
     if let Some(tags) = tags {
         sqlx::query("DELETE FROM tree_tags WHERE tree = ?").bind(tree.id).execute(&mut *connection).await?;
         for tag in tags {
-            let query = sqlx::query("INSERT OR IGNORE INTO tree_tags (tree, tag) VALUES (?, ?)");
-            query.bind(tree.id).bind(tag).execute(&mut *connection).await?;
+            finding::tag(connection, tree.id, tag).await?;
         }
     }
     if let Some(collection) = collection {
