@@ -2,7 +2,7 @@
 
 use std::{
     fs::File,
-    io::{self, BufWriter, ErrorKind, IsTerminal, Seek, Write},
+    io::{self, BufWriter, ErrorKind, IsTerminal, Seek, SeekFrom, Write},
     path::{Path, PathBuf},
 };
 
@@ -107,11 +107,66 @@ fn made(
     make: impl FnOnce(&mut dyn Sink) -> Result<(), ExportError>,
     failed: impl Fn(io::Error) -> OutputError,
 ) -> Result<File, OutputError> {
-    let _bar = Bar::turning("writing the file");
-    let mut out = BufWriter::new(file);
+    let bar = Bar::counting("working out what is in the file");
+    let mut out = BufWriter::with_capacity(PIECE, Counted { file, bar: &bar });
     match make(&mut out) {
         Err(ExportError::Write(kind)) => return Err(failed(kind.into())),
         made => made.map_err(OutputError::Export)?,
     }
-    out.into_inner().map_err(|error| failed(error.into_error()))
+    out.into_inner().map(|counted| counted.file).map_err(|error| failed(error.into_error()))
+}
+
+/// Bytes that are counted and written at once.
+const PIECE: usize = 64 * 1024;
+
+/// A file that tells how many bytes it has got.
+#[derive(Debug)]
+struct Counted<'a> {
+    file: File,
+    bar: &'a Bar,
+}
+
+impl Write for Counted<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.file.write(bytes)?;
+        self.bar.stage("writing the file");
+        self.bar.count(count);
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Seek for Counted<'_> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.file.seek(to)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_counted_and_its_stage_told() {
+        let bar = Bar::counting("working out what is in the file");
+        let mut out = BufWriter::with_capacity(4, Counted { file: tempfile::tempfile().unwrap(), bar: &bar });
+        assert_eq!(bar.told(), ("working out what is in the file".into(), 0));
+        out.write_all(b"a tree").unwrap();
+        out.seek(SeekFrom::Start(2)).unwrap();
+        out.write_all(b"bush").unwrap();
+        out.flush().unwrap();
+        assert_eq!(bar.told(), ("writing the file".into(), 10));
+        let mut file = out.into_inner().unwrap().file;
+        file.rewind().unwrap();
+        assert_eq!(io::read_to_string(file).unwrap(), "a bush");
+    }
+
+    #[test]
+    fn a_reader_that_has_seen_enough_has_been_served() {
+        assert!(read_enough(Err(ErrorKind::BrokenPipe.into())).is_ok());
+        assert!(read_enough(Err(ErrorKind::StorageFull.into())).is_err());
+    }
 }

@@ -28,6 +28,31 @@ impl Bar {
         Self::styled(0, "{bar:30} {bytes} of {total_bytes} {msg}", what)
     }
 
+    /// Says at which stage something is, and counts the bytes of it; how many there will be nobody knows.
+    pub fn counting(stage: &'static str) -> Self {
+        let style = ProgressStyle::with_template("{spinner} {msg}: {bytes}, {elapsed}");
+        let bar = ProgressBar::no_length().with_message(stage);
+        let bar = bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+        bar.enable_steady_tick(TURN);
+        Self(bar)
+    }
+
+    /// The next stage has begun.
+    pub fn stage(&self, stage: &'static str) {
+        self.0.set_message(stage);
+    }
+
+    /// So many bytes more are there.
+    pub fn count(&self, bytes: usize) {
+        self.0.inc(bytes as u64);
+    }
+
+    /// The stage, and the bytes so far.
+    #[cfg(test)]
+    pub fn told(&self) -> (String, u64) {
+        (self.0.message(), self.0.position())
+    }
+
     /// Says what is done that takes nobody knows how long.
     pub fn turning(what: &'static str) -> Self {
         let bar = ProgressBar::new_spinner().with_message(what);
