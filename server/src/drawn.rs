@@ -34,7 +34,7 @@ pub enum Kind {
 /// Of which tree, which version, and how.
 type Key = (String, u32, Kind);
 /// A PNG file.
-type Png = Arc<[u8]>;
+pub type Png = Arc<[u8]>;
 
 #[derive(Clone, Debug)]
 struct Bytes;
@@ -81,12 +81,12 @@ impl DrawnPictures {
         (tree, version, kind): (String, u32, Kind),
         document: TreeDocument,
         (memory, pool): (&Memory, &SimulationPool),
-        person: Person,
+        (class, person): (Class, Person),
     ) -> Result<Png, DrawError> {
         let key = (tree, version, kind);
         let drawn = self.0.get_or_insert_async(&key, async {
             let claim = memory.take_soon(Use::Export, memory::picture(document.bytes.len(), 0)).await?;
-            let drawn = pool.run(Class::Whole, person, move |_| {
+            let drawn = pool.run(class, person, move |_| {
                 let mut stored = Stored::read(&document.bytes)?;
                 let png = match kind {
                     Kind::Thumbnail => stored.thumbnail(),

@@ -123,6 +123,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         metamer_budget: options.metamer_budget,
         portraits: Portraits::default(),
         drawn: DrawnPictures::default(),
+        ahead: http::Ahead::default(),
         hosts: Hosts::new(&options.host_names),
         progresses: http::Progresses::default(),
         turns: http::Turns::default(),
@@ -144,6 +145,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     let unsaved = Duration::from_hours(24 * u64::from(options.keep_unsaved));
     let caring = tokio::spawn(maintenance::run(Arc::clone(&store), unsaved, tidying, stop.clone()));
     let watching = tokio::spawn(maintenance::watch(Arc::clone(&store), sessions.clone(), stop.clone()));
+    let drawing = tokio::spawn(http::draw_ahead(shared.clone(), stop.clone()));
     let answers = Answers { crowded: http::crowded(&shared), all: http::router(shared) };
     let serving = tokio::spawn(listener::serve(
         listeners,
@@ -166,7 +168,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         sessions.ended().await;
         let served = serving.await;
         under_way.ended().await;
-        served.and(caring.await).and(watching.await).and(growing.await)
+        served.and(caring.await).and(watching.await).and(growing.await).and(drawing.await)
     };
     match timeout(LAST_WORK, ended).await {
         Ok(Ok(())) => {}

@@ -2,6 +2,7 @@
 
 mod access_log;
 mod addresses;
+mod ahead;
 mod audit;
 mod client;
 mod collections;
@@ -53,6 +54,7 @@ use tower::ServiceBuilder;
 pub(crate) use self::comments::Said as SaidComment;
 pub use self::{
     access_log::Requests,
+    ahead::{Ahead, draw_ahead},
     audit::described,
     comments::CommentsWritten,
     entry::Logins,
@@ -102,6 +104,8 @@ pub struct Shared {
     pub portraits: Portraits,
     /// Pictures of versions that were saved without one.
     pub drawn: DrawnPictures,
+    /// What was saved and waits for its pictures.
+    pub ahead: Ahead,
     /// The names that requests may come under.
     pub hosts: Hosts,
     /// Where other machines reach the server, where they do: the likeliest first.

@@ -69,6 +69,7 @@ async fn shared() -> Shared {
         metamer_budget: 1000,
         portraits: Portraits::default(),
         drawn: DrawnPictures::default(),
+        ahead: Ahead::default(),
         hosts: Hosts::new(&[]),
         addresses: Arc::new([AT.into()]),
         proxies: Proxies::new(&[IpAddr::from(PROXY).into()]),

@@ -261,6 +261,7 @@ pub(super) async fn add_noted(
 ) -> Result<impl IntoResponse + use<>, Failure> {
     let id = name::unguessable();
     shared.store.add_tree(NewTree { id: id.clone(), name, version }).await?;
+    shared.ahead.add(&id, 1);
     answer_noted(shared, principal, &id, notes).await
 }
 

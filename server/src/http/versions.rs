@@ -29,8 +29,8 @@ use super::{
 use crate::{
     SIMULATION_VERSION,
     access::{Action, Caller},
-    drawn::{DrawError, Kind},
-    pool::Panicked,
+    drawn::{DrawError, Kind, Png},
+    pool::{Class, Panicked, Person},
     store::{Contents, Library, NewVersion, Saved, StoredVersion, TreeChange, TreeDocument},
     time::now,
 };
@@ -42,6 +42,11 @@ const FOR_GOOD: (HeaderName, &str) = (header::CACHE_CONTROL, "private, max-age=3
 
 /// Pixels along a side of the pictures of a turntable: those of a card.
 const TURNTABLE_SIDE: usize = 240;
+
+/// A version from the front,
+pub(super) const THUMBNAIL: Kind = Kind::Thumbnail;
+/// and from all around.
+pub(super) const TURNTABLE: Kind = Kind::Turntable { side: TURNTABLE_SIDE, count: TURNTABLE_PICTURES };
 
 /// Which versions to list.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -156,6 +161,7 @@ pub(super) async fn add_noted(
     import_notes: Vec<ImportNote>,
 ) -> Result<impl IntoResponse + use<>, Failure> {
     let number = shared.store.add_version(tree, expected, version).await?;
+    shared.ahead.add(tree, number);
     let (found, revision) =
         (version_of(shared, tree, number).await?, trees::stored(shared, tree).await?.revision);
     let found = TreeVersion { import_notes, ..found };
@@ -206,7 +212,7 @@ pub(super) async fn thumbnail(
         let headers = [(header::CONTENT_TYPE, picture.media_type), (FOR_GOOD.0, FOR_GOOD.1.to_owned())];
         return ranges::answer_with(&asked, headers, picture.bytes);
     }
-    drawn(&shared, &caller, tree, number, Kind::Thumbnail, &asked).await
+    drawn(&shared, &caller, &tree, number, THUMBNAIL, &asked).await
 }
 
 /// Pictures of a version from all around, side by side (`LB9`).
@@ -216,37 +222,44 @@ pub(super) async fn turntable(
     Path((tree, number)): Path<(String, u32)>,
     asked: HeaderMap,
 ) -> Result<Response, Failure> {
-    let kind = Kind::Turntable { side: TURNTABLE_SIDE, count: TURNTABLE_PICTURES };
-    drawn(&shared, &caller, tree, number, kind, &asked).await
+    drawn(&shared, &caller, &tree, number, TURNTABLE, &asked).await
 }
 
 /// A picture that the server draws. Whoever goes away leaves it to those who come after.
 async fn drawn(
     shared: &Shared,
     caller: &Caller,
-    tree: String,
+    tree: &str,
     number: u32,
     kind: Kind,
     asked: &HeaderMap,
 ) -> Result<Response, Failure> {
-    let png = match shared.drawn.kept(&tree, number, kind) {
-        Some(png) => png,
-        None => {
-            let saved = sessions::saved_document(shared, &tree, number).await?;
-            let (shared, person, key) =
-                (shared.clone(), caller.person().into(), (tree.clone(), number, kind));
-            let drawing = tokio::spawn(async move {
-                shared.drawn.of(key, saved, (&shared.memory, &shared.pool), person).await
-            });
-            match drawing.await.map_err(|_| Panicked)? {
-                Ok(png) => png,
-                Err(DrawError::Document(error)) => return Err(sessions::unreadable(&tree, &error)),
-                Err(DrawError::Full(full)) => return Err(full.into()),
-                Err(DrawError::Panicked(panicked)) => return Err(panicked.into()),
-            }
-        }
-    };
+    let png = picture_of(shared, (Class::Whole, caller.person().into()), tree, number, kind).await?;
     ranges::answer_with(asked, [(header::CONTENT_TYPE, "image/png"), FOR_GOOD], png.to_vec())
+}
+
+/// The picture that is kept of a version, or else one that is drawn, for somebody in a class of work.
+pub(super) async fn picture_of(
+    shared: &Shared,
+    beneath: (Class, Person),
+    tree: &str,
+    number: u32,
+    kind: Kind,
+) -> Result<Png, Failure> {
+    if let Some(png) = shared.drawn.kept(tree, number, kind) {
+        return Ok(png);
+    }
+    let saved = sessions::saved_document(shared, tree, number).await?;
+    let (shared, key) = (shared.clone(), (tree.to_owned(), number, kind));
+    let drawing =
+        tokio::spawn(
+            async move { shared.drawn.of(key, saved, (&shared.memory, &shared.pool), beneath).await },
+        );
+    drawing.await.map_err(|_| Panicked)?.map_err(|error| match error {
+        DrawError::Document(error) => sessions::unreadable(tree, &error),
+        DrawError::Full(full) => full.into(),
+        DrawError::Panicked(panicked) => panicked.into(),
+    })
 }
 
 /// Where the picture of a version is.

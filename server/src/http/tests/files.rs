@@ -3,7 +3,11 @@
 use axum::{body::Bytes, response::Response};
 use serde_json::{Value, json};
 
-use super::*;
+use super::{
+    ahead::draw_ahead,
+    versions::{THUMBNAIL, TURNTABLE},
+    *,
+};
 
 const OBSTACLES: &str = "POST /api/v1/sessions/{session}/obstacles";
 const QSM: &str = "POST /api/v1/trees/import?name=Oak&format=csv";
@@ -253,4 +257,41 @@ async fn ex5_files_are_called_as_their_tree() {
         assert_eq!(answer.status(), StatusCode::OK, "{path}");
         assert_eq!(answer.headers()[header::CONTENT_DISPOSITION], expected, "{path}");
     }
+}
+
+#[tokio::test]
+async fn lb9_pictures_of_what_was_saved_are_there_before_anybody_asks() {
+    let shared = shared().await;
+    let (server, stop) = (router(shared.clone()), CancellationToken::new());
+    let drawing = tokio::spawn(draw_ahead(shared.clone(), stop.clone()));
+    let import = request(&Method::POST, "/api/v1/trees/import?name=Scan&format=csv");
+    let answer = server.clone().oneshot(import.body(Body::from(SCAN)).unwrap()).await.unwrap();
+    assert_eq!(answer.status(), StatusCode::CREATED);
+    let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+    let tree: Value = serde_json::from_slice(&bytes).unwrap();
+    let id = tree["id"].as_str().unwrap();
+
+    let drawn = async {
+        loop {
+            let kept = [THUMBNAIL, TURNTABLE].map(|kind| shared.drawn.kept(id, 1, kind));
+            if let [Some(thumbnail), Some(turntable)] = kept {
+                return (thumbnail, turntable);
+            }
+            tokio::time::sleep(Duration::from_millis(5)).await;
+        }
+    };
+    let (thumbnail, turntable) =
+        tokio::time::timeout(Duration::from_mins(1), drawn).await.expect("it is drawn");
+    let (_, [_, _, before, upkeep]) = shared.pool.figures();
+    assert!(upkeep.slices >= 2, "they were drawn beneath all other work");
+    for (of, png) in [("thumbnail", thumbnail), ("turntable", turntable)] {
+        let asked = request(&Method::GET, &format!("/api/v1/trees/{id}/versions/1/{of}"));
+        let answer = server.clone().oneshot(asked.body(Body::empty()).unwrap()).await.unwrap();
+        let body = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+        assert!(body.starts_with(b"\x89PNG") && *body == *png, "{of}");
+    }
+    let (_, [_, _, after, _]) = shared.pool.figures();
+    assert_eq!(before.slices, after.slices, "nobody drew them again");
+    stop.cancel();
+    drawing.await.unwrap();
 }
