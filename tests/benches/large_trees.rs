@@ -2,6 +2,8 @@
 //! wait for their drawing while one is exported.
 
 use std::{
+    io::{self, Read, Write},
+    net::TcpStream,
     thread,
     time::{Duration, Instant},
 };
@@ -14,7 +16,7 @@ use espalier_tests::{
 };
 use serde_json::{Value, json};
 
-/// Living metamers of the trees, at least.
+/// Living metamers of the trees, at least, where no others are given behind the command.
 const SIZES: [u32; 2] = [100_000, 500_000];
 /// So often each is saved and opened.
 const TIMES: usize = 5;
@@ -31,7 +33,8 @@ async fn main() {
         quiet.push(step(&mut other).await);
     }
     println!("a step of somebody else: {}", spread(quiet));
-    for size in SIZES {
+    let given: Vec<u32> = std::env::args().filter_map(|size| size.parse().ok()).collect();
+    for &size in if given.is_empty() { &SIZES[..] } else { &given } {
         let (mut client, tree) = save_first(&server, size).await;
         save_again(&server, &mut client, &tree).await;
         open(&server, &tree).await;
@@ -42,11 +45,12 @@ async fn main() {
         server = server.kill_and_restart();
         let begun = Instant::now();
         let loading = first_sign(&server, &session).await;
-        first_frame(&server, &session).await;
+        let welcome = first_frame(&server, &session).await;
         println!(
-            "  opened again after a crash: {:.0} ms, told how far it is after {:.0} ms",
+            "  opened again after a crash: {:.0} ms, told how far it is after {:.0} ms, welcome after {:.0} ms",
             ms(begun.elapsed()),
-            ms(loading)
+            ms(loading),
+            ms(loading + welcome)
         );
         other.reconnect(server.port()).await;
     }
@@ -121,10 +125,13 @@ async fn first_sign(server: &Server, session: &str) -> Duration {
     begun.elapsed()
 }
 
-/// Joins a session up to its first frame.
-async fn first_frame(server: &Server, session: &str) {
+/// Joins a session up to its first frame; tells when it was welcome.
+async fn first_frame(server: &Server, session: &str) -> Duration {
+    let begun = Instant::now();
     let mut client = Client::connect(server.port(), session, "whoever-opens").await;
+    let welcome = begun.elapsed();
     client.until("the first frame", |client| client.frames > 0).await;
+    welcome
 }
 
 /// Exports the tree as glTF: alone, then while somebody else draws.
@@ -140,6 +147,14 @@ async fn export(server: &Server, client: &Client, other: &mut Client) {
         begun.elapsed().as_secs_f64(),
         (server.processor_time() - processor).as_secs_f64(),
         server.peak_bytes().saturating_sub(held) / 1_000_000,
+    );
+    let begun = Instant::now();
+    let (first, longest) = silence(port, &address).expect("the server answers");
+    println!(
+        "  the same again: first byte after {:.2} s, longest time without one {:.2} s, of {:.2} s",
+        first.as_secs_f64(),
+        longest.as_secs_f64(),
+        begun.elapsed().as_secs_f64()
     );
     let exporting = thread::spawn(move || download(port, &address));
     let mut meanwhile = Vec::new();
@@ -176,6 +191,21 @@ fn post(server: &Server, address: &str, body: &Value) -> Value {
     let answer = http::send(server.port(), "POST", address, Some(body)).expect("the server answers");
     assert!(answer.status < 300, "{address}: {}", answer.text());
     answer.json()
+}
+
+/// Reads a file and forgets it; the time to its first byte, and the longest without one.
+fn silence(port: u16, address: &str) -> io::Result<(Duration, Duration)> {
+    let mut stream = TcpStream::connect(("127.0.0.1", port))?;
+    let head = format!("GET {address} HTTP/1.1\r\nhost: 127.0.0.1:{port}\r\nconnection: close\r\n\r\n");
+    stream.write_all(head.as_bytes())?;
+    let (begun, mut piece) = (Instant::now(), vec![0; 1 << 20]);
+    let (mut first, mut longest, mut last) = (None, Duration::ZERO, begun);
+    while stream.read(&mut piece)? > 0 {
+        first.get_or_insert(begun.elapsed());
+        longest = longest.max(last.elapsed());
+        last = Instant::now();
+    }
+    Ok((first.unwrap_or_default(), longest))
 }
 
 fn download(port: u16, address: &str) -> usize {
