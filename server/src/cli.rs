@@ -6,7 +6,7 @@ mod people;
 mod results;
 mod serve;
 
-use std::{num::NonZeroUsize, ops::RangeInclusive, path::PathBuf};
+use std::{env, num::NonZeroUsize, ops::RangeInclusive, path::PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
@@ -115,6 +115,16 @@ pub enum Command {
     Man(Man),
 }
 
+/// Where the environment names the database.
+const DATABASE: &str = "ESPALIER_DATABASE";
+/// Where it is if nobody says so.
+const USUAL_DATABASE: &str = "./data/espalier.db";
+
+/// The database of a command that names none.
+pub fn usual_database() -> PathBuf {
+    env::var_os(DATABASE).filter(|path| !path.is_empty()).unwrap_or_else(|| USUAL_DATABASE.into()).into()
+}
+
 /// Where everything is kept.
 #[derive(Clone, Debug, Args)]
 pub struct Database {
@@ -122,8 +132,8 @@ pub struct Database {
     #[arg(
         id = "database",
         long = "database",
-        env = "ESPALIER_DATABASE",
-        default_value = "./data/espalier.db",
+        env = DATABASE,
+        default_value = USUAL_DATABASE,
         value_name = "FILE"
     )]
     pub path: PathBuf,

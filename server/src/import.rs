@@ -174,6 +174,11 @@ fn endings() -> Vec<&'static str> {
 }
 
 impl Format {
+    /// How the names of its files end.
+    pub fn ending(self) -> &'static str {
+        FORMATS.iter().find(|(format, ..)| *format == self).map_or("", |(_, ending, _)| *ending)
+    }
+
     /// What is in its files, and how their names end.
     fn description(self) -> String {
         let row = FORMATS.iter().find(|(format, ..)| *format == self);
@@ -440,8 +445,7 @@ mod tests {
         let file = String::from_utf8_lossy(&file).replace("\"species\":null", "\"species\":\"triffid\"");
         let strange = read(file.as_bytes(), WoodFormat::Skeleton, &[]);
         assert_eq!(strange.notes, [ImportNote::Species("triffid".into())]);
-        let turned =
-            String::from_utf8_lossy(file.as_bytes()).replace("triffid", "tri\u{202e}ff\u{2066}id");
+        let turned = String::from_utf8_lossy(file.as_bytes()).replace("triffid", "tri\u{202e}ff\u{2066}id");
         let turned = read(turned.as_bytes(), WoodFormat::Skeleton, &[]);
         assert_eq!(
             turned.notes,

@@ -35,6 +35,16 @@ impl ImportOptions {
         Units { length, diameter: self.diameter_unit.map_or(length, |Unit(metres)| metres) }
     }
 
+    /// The same as a request says it.
+    pub fn in_query(&self) -> impl Iterator<Item = (&'static str, String)> + use<> {
+        let all = [
+            ("unit", self.unit.map(|Unit(metres)| metres.to_string())),
+            ("diameter_unit", self.diameter_unit.map(|Unit(metres)| metres.to_string())),
+            ("internode_length", self.internode_length.map(|InternodeLength(metres)| metres.to_string())),
+        ];
+        all.into_iter().filter_map(|(name, value)| value.map(|value| (name, value)))
+    }
+
     /// The parameters that are set.
     pub fn parameters(&self) -> ParametersPatch {
         let internode_length = self.internode_length.map(|InternodeLength(metres)| metres);

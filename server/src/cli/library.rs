@@ -5,18 +5,19 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, ValueEnum};
 
 use super::{
-    Database, ImportFile, parse_import,
+    ImportFile, parse_import,
     results::{Export, parse_export, parse_format},
 };
 use crate::{
-    document::FormatRow, export_options::ExportOptions, import_options::ImportOptions, review::Language,
-    store::Sort,
+    document::FormatRow, export_options::ExportOptions, import_options::ImportOptions, library::Address,
+    review::Language, store::Sort,
 };
 
 pub(super) const NOTES: &str = "\
 TREE is the identifier of a tree, as `ls` prints it, or its name where no other tree has it.
-ls, find, sessions, get, export, versions and review read beside a server that uses the database. put and restore need it for themselves:
-stop the server, or use its page or API.";
+Where a server runs, --url asks it, as in --url http://127.0.0.1:7700 or --url https://trees.example; it may be another machine's. Who is
+not let in there by sitting at the machine needs a --token (`espalier token create`). Without --url the file is read, also beside a server
+that uses it; put and restore then need it for themselves.";
 
 /// What to do with the library.
 #[derive(Debug, Subcommand)]
@@ -94,7 +95,7 @@ pub struct Listing {
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]
-    pub database: Database,
+    pub place: Where,
 }
 
 /// Options of `find`.
@@ -117,6 +118,20 @@ pub struct Sessions {
     pub from: Listing,
 }
 
+/// Where the library is.
+#[derive(Clone, Debug, Args)]
+pub struct Where {
+    /// Ask the server at this address; ESPALIER_URL if neither this nor a file is given.
+    #[arg(long, value_name = "URL", conflicts_with = "database")]
+    pub url: Option<Address>,
+    /// A token to come in with at the server.
+    #[arg(long, env = "ESPALIER_TOKEN", value_name = "TOKEN", hide_env_values = true)]
+    pub token: Option<String>,
+    /// SQLite file; ESPALIER_DATABASE, or else ./data/espalier.db, if nothing is given.
+    #[arg(long, value_name = "FILE")]
+    pub database: Option<PathBuf>,
+}
+
 /// A version of a tree.
 #[derive(Debug, Args)]
 pub struct Of {
@@ -126,7 +141,7 @@ pub struct Of {
     #[arg(long, value_name = "NUMBER")]
     pub version: Option<u32>,
     #[command(flatten)]
-    pub database: Database,
+    pub place: Where,
 }
 
 /// Options of `get`.
@@ -149,7 +164,7 @@ pub struct Review {
     #[arg(long, value_enum, default_value_t = Language::En)]
     pub language: Language,
     #[command(flatten)]
-    pub database: Database,
+    pub place: Where,
 }
 
 /// Options of `put`.
@@ -170,7 +185,7 @@ pub struct Put {
     #[command(flatten)]
     pub options: ImportOptions,
     #[command(flatten)]
-    pub database: Database,
+    pub place: Where,
 }
 
 /// Options of `export`.
@@ -205,5 +220,5 @@ pub struct RestoreVersion {
     /// The number of the version.
     pub number: u32,
     #[command(flatten)]
-    pub database: Database,
+    pub place: Where,
 }

@@ -15,6 +15,12 @@ fn library(database: &Path, arguments: &[&str]) -> String {
     finished.stdout
 }
 
+/// The same by a server.
+fn asked(server: &Server, arguments: &[&str]) -> program::Finished {
+    let url = format!("http://127.0.0.1:{}", server.port());
+    program::run(&[&["library"], arguments, &["--url", &url]].concat())
+}
+
 fn run(database: &Path, arguments: &[&str]) -> program::Finished {
     let database = database.to_str().expect("a plain name");
     program::run(&[&["library"], arguments, &["--database", database]].concat())
@@ -66,7 +72,7 @@ async fn trees_are_read_beside_a_server_and_changed_without_one() {
     assert_eq!(fs::read(document).expect("it is there"), kept.body);
 
     for (arguments, code, said) in [
-        (&["put", document][..], 1, "A server is using the database"),
+        (&["put", document][..], 1, "with --url"),
         (&["restore", &oak, "1"], 1, "A server is using the database"),
         (&["versions", "Twin"], 1, "2 trees are called"),
         (&["versions", "Elm"], 1, "no tree \"Elm\" in the library;"),
@@ -124,4 +130,136 @@ async fn trees_are_read_beside_a_server_and_changed_without_one() {
     assert_eq!(metamers, [&json!(19), &json!(37), &json!(4)], "half the unit is half the size");
     let unseen = run(&database, &["put", document, "--name", "\u{202e}"]);
     assert_eq!(unseen.code, 2, "{}", unseen.stderr);
+}
+
+#[tokio::test]
+async fn a_server_does_what_is_done_in_its_file() {
+    let scratch = Scratch::new();
+    let database = scratch.path("trees.db");
+    let server = Server::start(&database);
+    let session = server.new_session(3);
+    let mut client = Client::connect(server.port(), &session, "browser-1").await;
+    client.send(json!({ "kind": "grow", "steps": 6 })).await;
+    client.until_settled().await;
+    let oak = saved(server.port(), &session, "Old oak").await;
+    saved(server.port(), &session, "Twin").await;
+    saved(server.port(), &session, "Twin").await;
+    let change = json!({ "tags": ["tall", "old"], "note": "Of the yard" });
+    let tagged = http::send(server.port(), "PATCH", &format!("/api/v1/trees/{oak}"), Some(&change));
+    assert_eq!(tagged.expect("the server answers").status, 200);
+    let (one, other) = (scratch.path("one"), scratch.path("other"));
+    let (one, other) = (one.to_str().expect("a plain name"), other.to_str().expect("a plain name"));
+
+    // What is read is the same by both ways, and so is what is refused.
+    for arguments in [
+        &["ls"][..],
+        &["ls", "--json", "--sort", "name"],
+        &["ls", "--tag", "TALL", "--tag", "old"],
+        &["ls", "--deleted"],
+        &["ls", "--species", "oka"],
+        &["find", "yard", "OAK", "--json"],
+        &["versions", "Old oak", "--json"],
+        &["versions", "Twin"],
+        &["versions", "old oka"],
+        &["export", "Old oak", "-", "--format", "mtg"],
+        &["export", &oak, "-", "--format", "json", "--hull"],
+        &["get", &oak, "-", "--version", "9"],
+    ] {
+        let (file, by_server) = (run(&database, arguments), asked(&server, arguments));
+        assert_eq!((file.code, &file.stdout), (by_server.code, &by_server.stdout), "{arguments:?}");
+        assert_eq!(file.stderr, by_server.stderr, "{arguments:?}");
+    }
+    for arguments in [["get", "Old oak"], ["review", "Old oak"]] {
+        let both = [
+            run(&database, &[&arguments[..], &[one]].concat()),
+            asked(&server, &[&arguments[..], &[other]].concat()),
+        ];
+        assert!(both.iter().all(|finished| finished.code == 0), "{both:?}");
+        // A page says when it was written.
+        let [one, other] = [one, other].map(|path| fs::read(path).expect("it is written").len());
+        assert_eq!(one, other, "{arguments:?}");
+    }
+
+    for told in [run(&database, &["sessions", "--json"]), asked(&server, &["sessions", "--json"])] {
+        let told = lines(&told.stdout);
+        let of = told.iter().find(|line| line["session"] == session.as_str()).expect("it is listed");
+        assert_eq!((&of["tree_name"], &of["saved"]), (&json!("Twin"), &json!(true)));
+    }
+
+    // What is written needs no stopped server.
+    let scan = scratch.path("scan.csv");
+    fs::write(&scan, SCAN.trim_end()).expect("the scratch folder can be written");
+    let scan = scan.to_str().expect("a plain name");
+    let put = asked(
+        &server,
+        &["put", scan, "--name", "Scan", "--note", "From the yard", "--internode-length", "0.05"],
+    );
+    assert_eq!(put.code, 0, "{}", put.stderr);
+    assert!(put.stderr.starts_with("Note: The last line has no line end"), "{}", put.stderr);
+    let again =
+        ["put", scan, "--to", "Scan", "--note", "Again", "--unit", "0.5", "--internode-length", "0.05"];
+    let again = asked(&server, &again);
+    assert!(
+        again.code == 0 && again.stdout.ends_with(" has version 2.\n"),
+        "{}{}",
+        again.stdout,
+        again.stderr
+    );
+    let restored = asked(&server, &["restore", "Scan", "1"]);
+    assert!(restored.stdout.contains(" has version 3, which is as version 1."), "{}", restored.stderr);
+    let versions = lines(&asked(&server, &["versions", "Scan", "--json"]).stdout);
+    let told: Vec<_> =
+        versions.iter().map(|version| (&version["number"], &version["note"], &version["metamers"])).collect();
+    assert_eq!(
+        told,
+        [
+            (&json!(3), &json!(""), &json!(37)),
+            (&json!(2), &json!("Again"), &json!(19)),
+            (&json!(1), &json!("From the yard"), &json!(37)),
+        ]
+    );
+    for (arguments, code, said) in [
+        (&["restore", "Scan", "7"][..], 1, "The tree has no version 7;"),
+        (&["put", scan, "--to", "Elm"], 1, "no tree \"Elm\""),
+        (&["put", scan, "--name", "\u{202e}"], 2, "name"),
+        (&["put", scan, "--unit", "1e9"], 1, "refuses it: The file cannot become a tree: "),
+    ] {
+        let refused = asked(&server, arguments);
+        assert_eq!(refused.code, code, "{arguments:?}: {}", refused.stderr);
+        assert!(refused.stderr.contains(said), "{arguments:?}: {}", refused.stderr);
+    }
+
+    // The environment names it as well; the command line goes before it.
+    let url = format!("http://127.0.0.1:{}", server.port());
+    let mut command = program::command();
+    command.args(["library", "ls"]).env("ESPALIER_URL", &url).env("ESPALIER_DATABASE", "nowhere.db");
+    let listed = command.output().expect("the program starts");
+    assert_eq!(String::from_utf8_lossy(&listed.stdout), asked(&server, &["ls"]).stdout);
+    let mut command = program::command();
+    command.args(["library", "ls", "--database", "nowhere.db"]).env("ESPALIER_URL", &url);
+    let listed = command.output().expect("the program starts");
+    assert!(String::from_utf8_lossy(&listed.stderr).contains("nowhere.db"));
+    let twofold = program::run(&["library", "ls", "--url", &url, "--database", "nowhere.db"]);
+    assert_eq!(twofold.code, 2);
+
+    let port = server.port();
+    assert!(server.terminate().success());
+    let silent = program::run(&["library", "ls", "--url", &format!("http://127.0.0.1:{port}")]);
+    assert!(silent.code == 1 && silent.stderr.contains("does not answer"), "{}", silent.stderr);
+}
+
+#[tokio::test]
+async fn a_server_that_lets_nobody_in_asks_for_a_token() {
+    let scratch = Scratch::new();
+    let database = scratch.path("trees.db");
+    let server = Server::start_with(&database, 0, &["--no-local"]);
+    let refused = asked(&server, &["ls"]);
+    assert!(refused.code == 1 && refused.stderr.contains("--token"), "{}", refused.stderr);
+    let database = database.to_str().expect("a plain name");
+    let made = program::run(&["token", "create", "script", "--database", database]);
+    assert_eq!(made.code, 0, "{}", made.stderr);
+    let token = made.stdout.split_whitespace().max_by_key(|word| word.len()).expect("a token").to_owned();
+    let listed = asked(&server, &["ls", "--token", &token]);
+    assert_eq!(listed.code, 0, "{}", listed.stderr);
+    assert!(listed.stdout.starts_with("ID"), "{}", listed.stdout);
 }

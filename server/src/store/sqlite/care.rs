@@ -29,7 +29,7 @@ pub(super) const EARLIER: &str =
     "its schema is an earlier program's; a server that is started on it brings it up to date";
 /// Why a database is not read by a name that is not the server's.
 const ELSEWHERE: &str = "a server is using it by another name (this one is a hard link to the same file), beside which it \
-    keeps what it wrote last; give the name that the server was started with";
+    keeps what it wrote last; give the name that the server was started with, or ask the server itself with --url";
 /// What SQLite keeps beside a database: its write-ahead log and the memory shared by those who use it.
 const COMPANIONS: [&str; 3] = ["", "-wal", "-shm"];
 
