@@ -48,7 +48,13 @@ pub fn glb(
 ) -> Result<(), ExportError> {
     let scale = about.scale()?;
     let sways = model.sway.is_some() || model.wind_weights;
-    let swaying = sways.then(|| Swaying::of(plant, style, &appearance.wind, scale));
+    let swaying = sways.then(|| {
+        let swaying = Swaying::of(plant, style, &appearance.wind, scale);
+        match model.sway {
+            Some(most) => swaying.blown(plant, &appearance.wind, most),
+            None => swaying,
+        }
+    });
     let assembly = Assembly::of(plant, style, appearance, about.species, model).moved_by(swaying.as_ref());
     let asset = Asset {
         version: "2.0",

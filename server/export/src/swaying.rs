@@ -3,7 +3,7 @@
 use espalier_mesh::{Body, RingTable, Style};
 use espalier_motion::{
     Joints, Limbs, Rig, Rows, Scale, Weather, Wood,
-    clips::{Clip, clips, reaches},
+    clips::{Clip, blow, clips, reaches},
 };
 use espalier_plant::{MetamerId, Plant};
 use espalier_settings::looks::WindLook;
@@ -42,6 +42,16 @@ impl Swaying {
         let reach = reaches(&clips, joints.all().len());
         let stir = (weather(look).velocity.length() / 6.0).min(1.0) as f32 * look.flutter;
         Self { limbs, wood, joints, clips, stir, reach }
+    }
+
+    /// The same with the gust of jointed bodies, one for each piece between the bones that the plants' files will have.
+    pub(crate) fn blown(mut self, plant: &Plant, look: &WindLook, most: u32) -> Self {
+        let is_standing = |&id: &MetamerId| plant.is_seed(id) && plant.is_alive(id);
+        let seeds = (0..plant.metamer_count()).map(MetamerId::new).filter(is_standing);
+        let rigs: Vec<Rig> = seeds.map(|seed| self.rig(seed, most)).collect();
+        let Self { limbs, wood, joints, clips: [_, gust], .. } = &mut self;
+        blow(gust, &rigs, joints, limbs, wood, &weather(look));
+        self
     }
 
     /// At most so many bones for the plant of a seed.

@@ -28,23 +28,34 @@ pub struct Joinery {
     pub ahead: f64,
 }
 
-/// One body. It is jointed in the middle of its row, and reaches from there to the middles of the rows that its node
-/// bears: turns between middles are exact where moments are even.
+/// What lets a row bend in its middle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hinge {
+    /// How far it turns under a moment of 1 Nm, radians.
+    pub softness: f64,
+    /// As [`Joinery::damping`], s.
+    pub damping: f64,
+}
+
+/// One body. It is jointed in the middle of its row, and reaches from there to the middles of the next rows that have
+/// hinges: turns between middles are exact where moments are even.
 #[derive(Clone, Copy, Debug)]
 struct Body {
     row: u32,
     /// The body below; [`NONE`] for the ground.
     parent: u32,
+    /// Its joint at rest, m.
+    rest: DVec3,
     /// From the joint of the body below to its own, at rest, m; for the first from the origin.
     arm: DVec3,
-    /// From the joint to its node, at rest, m.
-    reach: DVec3,
     mass: f64,
     /// From the joint to its centre of mass, at rest, m.
     centre: DVec3,
     /// About the joint, at rest, kg m².
     inertia: DMat3,
     spring: Spring,
+    /// As [`Joinery::damping`], s.
+    damping: f64,
     /// How it has turned against the body below, in the frame of that at rest.
     turn: DQuat,
     /// How fast it turns against the body below, in the same frame, s⁻¹.
@@ -62,13 +73,36 @@ struct Motion {
     velocity: DVec3,
 }
 
+/// Where a force acts.
+#[derive(Clone, Copy, Debug)]
+struct Hold {
+    body: u32,
+    /// From the body's joint, at rest, m.
+    at: DVec3,
+    /// Which force it is, and how many times it acts.
+    force: u32,
+    share: f64,
+}
+
+/// What the forces on one body have in common once they are gathered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gathered {
+    /// Where they act on average, at rest, m.
+    pub centre: DVec3,
+    /// The mean of some value of its rows.
+    pub mean: f64,
+}
+
 /// All bodies, each after the one it stands on.
 #[derive(Clone, Debug)]
 pub struct Bodies {
-    joinery: Joinery,
+    ahead: f64,
     bodies: Vec<Body>,
-    /// The body of each row.
+    /// The body that has each row's node; [`NONE`] for the ground.
     of_row: Vec<u32>,
+    /// Where each row's node is at rest, m.
+    places: Vec<DVec3>,
+    holds: Vec<Hold>,
     motions: Vec<Motion>,
     work: Vec<Articulated>,
     /// Turns and rates at the beginning of a step.
@@ -78,50 +112,94 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// At rest. Rows without length are nobody's.
+    /// At rest, with a body for each row that has a length.
     pub fn of(wood: &Wood, joinery: Joinery) -> Self {
+        let hinge = |row: u32| {
+            Some(Hinge { softness: joinery.softness * wood.softness(row as usize), damping: joinery.damping })
+        };
+        Self::hinged(wood, joinery.ahead, hinge)
+    }
+
+    /// At rest, with a body for each row that has a length and a hinge; the others are rigid parts of what they stand on.
+    pub fn hinged(wood: &Wood, ahead: f64, hinge: impl Fn(u32) -> Option<Hinge>) -> Self {
         let mut of_row = vec![NONE; wood.len()];
         let mut bodies: Vec<Body> = Vec::new();
-        for row in (0..wood.len()).filter(|&row| wood.length[row] > 0.0) {
-            let way = wood.way(row);
-            let parent = of_row[wood.parent[row] as usize];
-            let joint = wood.middle(row);
-            let below =
-                if parent == NONE { DVec3::ZERO } else { wood.middle(bodies[parent as usize].row as usize) };
-            of_row[row] = bodies.len() as u32;
-            let mut body = Body {
-                row: row as u32,
-                parent,
-                arm: joint - below,
-                reach: 0.5 * way,
-                mass: 0.0,
-                centre: DVec3::ZERO,
-                inertia: DMat3::ZERO,
-                spring: Spring::of(way / wood.length[row], 1.0 / (joinery.softness * wood.softness(row))),
-                turn: DQuat::IDENTITY,
-                rate: DVec3::ZERO,
-            };
-            body.carry(wood, row, 0.25 * way);
-            bodies.push(body);
-            if parent != NONE {
-                let base = joint - 0.25 * way;
-                bodies[parent as usize].carry(wood, row, base - below);
+        let mut holds = Vec::new();
+        for row in (0..wood.len()).filter(|&row| wood.parent[row] != NONE) {
+            let below = of_row[wood.parent[row] as usize];
+            of_row[row] = below;
+            if wood.length[row] <= 0.0 {
+                continue;
+            }
+            let (way, middle) = (wood.way(row), wood.middle(row));
+            if let Some(hinge) = hinge(row as u32).filter(|hinge| hinge.softness > 0.0) {
+                of_row[row] = bodies.len() as u32;
+                let rest = bodies.get(below as usize).map_or(DVec3::ZERO, |body| body.rest);
+                bodies.push(Body {
+                    row: row as u32,
+                    parent: below,
+                    rest: middle,
+                    arm: middle - rest,
+                    mass: 0.0,
+                    centre: DVec3::ZERO,
+                    inertia: DMat3::ZERO,
+                    spring: Spring::of(way / wood.length[row], 1.0 / hinge.softness),
+                    damping: hinge.damping,
+                    turn: DQuat::IDENTITY,
+                    rate: DVec3::ZERO,
+                });
+            }
+            // Half of it beyond the hinge, half before.
+            for (body, place) in [(below, middle - 0.25 * way), (of_row[row], middle + 0.25 * way)] {
+                let Some(carrier) = bodies.get_mut(body as usize) else { continue };
+                let at = place - carrier.rest;
+                carrier.carry(wood, row, at);
+                holds.push(Hold { body, at, force: row as u32, share: 0.5 });
             }
         }
         for body in &mut bodies {
             body.centre /= body.mass;
         }
         let mut all = Self {
-            joinery,
+            ahead,
             motions: vec![Motion::default(); bodies.len()],
             work: vec![Articulated::default(); bodies.len()],
             begin: Vec::new(),
             gains: vec![DVec3::ZERO; bodies.len()],
             bodies,
             of_row,
+            places: wood.place.clone(),
+            holds,
         };
         all.find_motions();
         all
+    }
+
+    /// From now on forces are told by body instead of by row, each to be multiplied by the weights of all that the body
+    /// carries. Returns where each acts, and the mean of some values of rows, by weight.
+    pub fn gather(&mut self, weights: &[f64], values: &[f64]) -> Vec<Gathered> {
+        let mut sums = vec![(0.0, DVec3::ZERO, 0.0); self.bodies.len()];
+        for hold in &self.holds {
+            let weight = hold.share * weights[hold.force as usize];
+            let (whole, place, value) = &mut sums[hold.body as usize];
+            *whole += weight;
+            *place += weight * hold.at;
+            *value += weight * values[hold.force as usize];
+        }
+        self.holds.clear();
+        let mut gathered = Vec::with_capacity(sums.len());
+        for (at, (whole, place, value)) in sums.into_iter().enumerate() {
+            let (place, mean) = if whole > 0.0 { (place / whole, value / whole) } else { (DVec3::ZERO, 0.0) };
+            self.holds.push(Hold { body: at as u32, at: place, force: at as u32, share: whole });
+            gathered.push(Gathered { centre: self.bodies[at].rest + place, mean });
+        }
+        gathered
+    }
+
+    /// How fast the place moves where the gathered forces of a body act, m/s.
+    pub fn speed(&self, body: u32) -> DVec3 {
+        let (motion, hold) = (self.motions[body as usize], self.holds[body as usize]);
+        motion.velocity + motion.spin.cross(motion.turn * hold.at)
     }
 
     /// How many there are.
@@ -137,11 +215,11 @@ impl Bodies {
 
     /// From now on joints are like this, in damping and in how far ahead they are taken.
     pub fn let_go(&mut self, joinery: Joinery) {
-        let Joinery { damping, ahead, .. } = joinery;
-        self.joinery = Joinery { damping, ahead, ..self.joinery };
+        self.ahead = joinery.ahead;
+        self.bodies.iter_mut().for_each(|body| body.damping = joinery.damping);
     }
 
-    /// One step of `time` seconds under forces on rows in newtons, which act in their middles.
+    /// One step of `time` seconds under forces in newtons, by row unless they are [gathered](Self::gather).
     ///
     /// Springs are those of the end of the step, nearly. What is explicit, how bodies stand and the forces of their
     /// spin, is taken from the middle of the step, which a first pass finds. The little energy that this still makes
@@ -155,7 +233,7 @@ impl Bodies {
         self.find_gains(time, forces);
         self.advance(0.5 * time, 0.5);
         self.find_gains(time, forces);
-        self.advance(time, self.joinery.ahead);
+        self.advance(time, self.ahead);
         let (kinetic, stored) = self.energies();
         let allowed = allowed + self.work_of(forces);
         let too_much = kinetic + stored - allowed;
@@ -180,13 +258,13 @@ impl Bodies {
 
     /// Finds how joints speed up over a step of so long with bodies as they are, and springs as at its beginning.
     fn find_gains(&mut self, time: f64, forces: &[DVec3]) {
-        let ahead = self.joinery.ahead * time;
+        let ahead = self.ahead * time;
         self.load(forces);
         for at in (0..self.bodies.len()).rev() {
             let body = &self.bodies[at];
             let below = self.motion(body.parent);
             let (turn, rate) = self.begin[at];
-            let joint = body.spring.ahead(turn, rate, ahead, self.joinery.damping).turned(below.turn);
+            let joint = body.spring.ahead(turn, rate, ahead, body.damping).turned(below.turn);
             let arm = below.turn * body.arm;
             let passed_on = self.work[at].release(joint, arm, below.spin, below.turn * body.rate);
             if body.parent != NONE {
@@ -224,21 +302,21 @@ impl Bodies {
 
     /// Σ F·x over what forces act on: its change is the work that they do.
     fn work_of(&self, forces: &[DVec3]) -> f64 {
-        let of = |(body, motion): (&Body, &Motion)| {
-            let spread = motion.turn * body.reach - self.motion(body.parent).turn * body.reach;
-            forces[body.row as usize].dot(motion.joint + 0.25 * spread)
+        let of = |hold: &Hold| {
+            let motion = &self.motions[hold.body as usize];
+            hold.share * forces[hold.force as usize].dot(motion.joint + motion.turn * hold.at)
         };
-        self.bodies.iter().zip(&self.motions).map(of).sum()
+        self.holds.iter().map(of).sum()
     }
 
-    /// Where a row's node is, m; none where the row is nobody's.
+    /// Where a row's node is, m; none where the ground has it.
     pub fn node(&self, row: u32) -> Option<DVec3> {
         let at = self.of_row[row as usize];
         let motion = self.motions.get(at as usize)?;
-        Some(motion.joint + motion.turn * self.bodies[at as usize].reach)
+        Some(motion.joint + motion.turn * (self.places[row as usize] - self.bodies[at as usize].rest))
     }
 
-    /// How a row's node has turned from rest; none where the row is nobody's.
+    /// How a row's node has turned from rest; none where the ground has it.
     pub fn turn(&self, row: u32) -> Option<DQuat> {
         Some(self.motions.get(self.of_row[row as usize] as usize)?.turn)
     }
@@ -268,15 +346,9 @@ impl Bodies {
             let inertia = frame * body.inertia * frame.transpose();
             *work = Articulated::body(inertia, body.mass, frame * body.centre, motion.spin);
         }
-        for at in 0..self.bodies.len() {
-            let body = &self.bodies[at];
-            // Half of it beyond the joint, half before, where it acts on the body below.
-            let force = 0.5 * forces[body.row as usize];
-            self.work[at].push(force, self.motions[at].turn * (0.5 * body.reach));
-            if let Some(below) = self.motions.get(body.parent as usize) {
-                let base = below.turn * (body.arm - 0.5 * body.reach);
-                self.work[body.parent as usize].push(force, base);
-            }
+        for hold in &self.holds {
+            let turn = self.motions[hold.body as usize].turn;
+            self.work[hold.body as usize].push(hold.share * forces[hold.force as usize], turn * hold.at);
         }
     }
 }

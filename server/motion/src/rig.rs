@@ -96,6 +96,12 @@ impl Rig {
         self.of_joint.contains_key(&joint)
     }
 
+    /// The rows at whose nodes the pieces of a joint end, base first; none where it has no bones.
+    pub fn ends(&self, joint: u32) -> impl Iterator<Item = u32> {
+        let own = self.of_joint.get(&joint).map_or(&[][..], |own| &own[1..]);
+        own.iter().map(|&bone| self.bones[bone as usize].row)
+    }
+
     /// What goes along with a row, at a share of the way from the node below it to its own. What its joint does is left
     /// out where that has no bones: then it is carried by what bears the joint.
     pub fn bound(&self, joints: &Joints, row: u32, share: f64) -> Bound {

@@ -121,7 +121,7 @@ impl Sway {
 }
 
 /// A rotation that goes too far, smoothly held back.
-fn limited(bend: DVec3) -> DVec3 {
+pub(crate) fn limited(bend: DVec3) -> DVec3 {
     let size = bend.length();
     if size <= FREE { bend } else { bend * ((FREE + BEYOND * libm::tanh((size - FREE) / BEYOND)) / size) }
 }

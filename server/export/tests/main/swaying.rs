@@ -5,7 +5,7 @@ use espalier_growth::species;
 use espalier_mesh::RingTable;
 use espalier_motion::{
     Joints, Rig, Rows, Scale, Weather,
-    clips::{Clip, clips, reaches},
+    clips::{Clip, blow, clips, reaches},
 };
 use espalier_plant::Plant;
 use espalier_settings::{Appearance, looks::WindLook};
@@ -35,9 +35,12 @@ fn motion(plant: &Plant) -> ([Clip; 2], Vec<Vec<Vec<Vec3>>>, usize) {
     let (sin, cos) = libm::sincos(30f64.to_radians());
     let velocity = DVec3::new(12.0 * cos, 0.0, 12.0 * sin);
     let turbulence = f64::from(WindLook::default().turbulence);
-    let clips = clips(&joints, &wood, &Weather { velocity, turbulence, seed: 7 });
+    let weather = Weather { velocity, turbulence, seed: 7 };
+    let mut clips = clips(&joints, &wood, &weather);
     let reach = reaches(&clips, joints.all().len());
     let rig = Rig::of(&joints, &limbs, &wood, 0, &reach, BONES as usize);
+    let [_, gust] = &mut clips;
+    blow(gust, std::slice::from_ref(&rig), &joints, &limbs, &wood, &weather);
     let places = clips.iter().map(|clip| {
         let of =
             |key: &Vec<DVec3>| rig.stand(&joints, &wood, key).iter().map(|at| at.place.as_vec3()).collect();

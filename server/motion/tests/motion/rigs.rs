@@ -2,7 +2,7 @@
 
 use espalier_motion::{
     Pose, Rig, Weather,
-    clips::{Clip, LOOP, clips, reaches},
+    clips::{Clip, LOOP, blow, clips, reaches},
 };
 use glam::DVec3;
 
@@ -140,4 +140,66 @@ fn what_hardly_is_a_tree_has_its_ground() {
         let stands = rig.stand(&tree.joints, &tree.wood, &clips[1].keys[90]);
         assert!(stands.iter().all(|stand| stand.place.is_finite() && stand.turn.is_finite()));
     }
+}
+
+/// A gust as each joint answers it alone, as bodies do together, and the bones that show both.
+fn blown(tree: &Tree, weather: &Weather) -> (Clip, Clip, Rig) {
+    let [sway, alone] = clips(&tree.joints, &tree.wood, weather);
+    let rig = rig_of(tree, &[sway, alone.clone()], 256);
+    let mut gust = alone.clone();
+    blow(&mut gust, std::slice::from_ref(&rig), &tree.joints, &tree.limbs, &tree.wood, weather);
+    (alone, gust, rig)
+}
+
+#[test]
+fn bodies_in_a_gust_begin_and_end_at_rest_and_lean_with_it() {
+    for tree in unlike() {
+        let (alone, gust, rig) = blown(&tree, &STRONG);
+        for end in [gust.keys.first(), gust.keys.last()] {
+            assert!(end.is_some_and(|key| key.iter().all(|bend| *bend == DVec3::ZERO)), "{}", tree.name);
+        }
+        assert!(gust.keys.iter().flatten().all(|bend| bend.is_finite() && bend.length() < 1.2));
+        // How far the tips of all limbs with bones go on average while it blows.
+        let lean = |clip: &Clip| {
+            let at = |key: usize| {
+                let stands = rig.stand(&tree.joints, &tree.wood, &clip.keys[key]);
+                let away =
+                    |(stand, bone): (&espalier_motion::Node, &espalier_motion::Bone)| stand.place - bone.rest;
+                stands.iter().zip(rig.bones()).map(away).sum::<DVec3>() / stands.len() as f64
+            };
+            (60..=130).step_by(10).map(at).sum::<DVec3>() / 8.0
+        };
+        let [closed, bodies] = [lean(&alone), lean(&gust)];
+        let along = STRONG.velocity.normalize();
+        assert!(bodies.dot(along) > 0.4 * closed.dot(along), "{}: {bodies} beside {closed}", tree.name);
+        assert!(bodies.dot(along) < 2.0 * closed.dot(along), "{}: {bodies} beside {closed}", tree.name);
+    }
+}
+
+#[test]
+fn a_gust_reaches_what_stands_behind_later() {
+    // Two plants, one 20 m behind the other, each with its bones.
+    let one = grown("default", 400);
+    let count = one.rows.len() as u32;
+    let aside = (20.0 / one.scale.internode_length * 256.0) as i32;
+    let rows = (0..2 * count).map(|row| {
+        let own = one.rows.row(row % count);
+        let parent = own.parent.map(|parent| parent + row / count * count);
+        let [x, y, z] = own.position;
+        espalier_motion::Row { parent, position: [x + (row / count) as i32 * aside, y, z], ..own }
+    });
+    let rows = espalier_motion::Rows::new(rows.collect::<Vec<_>>()).expect("parents stand below");
+    let two = Tree::of("two", rows, one.scale);
+    let weather = Weather { velocity: DVec3::X * 6.0, turbulence: 0.0, seed: 1 };
+    let [sway, mut gust] = clips(&two.joints, &two.wood, &weather);
+    let reach = reaches(&[sway, gust.clone()], two.joints.all().len());
+    let rigs = [0, count].map(|seed| Rig::of(&two.joints, &two.limbs, &two.wood, seed, &reach, 64));
+    blow(&mut gust, &rigs, &two.joints, &two.limbs, &two.wood, &weather);
+    let trunk = |seed: u32| two.joints.all().iter().position(|joint| joint.node == seed);
+    let comes = |seed: u32| {
+        let trunk = trunk(seed).expect("it has one");
+        gust.keys.iter().position(|key| key[trunk].length() > 0.01).expect("it bends")
+    };
+    let [first, second] = [0, count].map(comes);
+    assert!(second > first + 15, "at keys {first} and {second}");
 }
