@@ -106,3 +106,33 @@ test("all in a session see the wind that one of them sets, whoever comes later t
   await expect.poll(() => said(tablet)).toContain("0");
   for (const one of [tablet, other, late]) await one.untilStill();
 });
+
+test.each<[string, Screen]>([
+  ["tablet", SMALL],
+  ["phone", PHONE],
+])(
+  "what would break under snow is marked and counted on a %s, cut off by a tap, and comes back",
+  async (name, screen) => {
+    const { tablet, address } = await workshop.fresh({ ...screen, watched: true });
+    const commands = [
+      { kind: "grow", steps: 8 },
+      { kind: "set_appearance", appearance: { wind: { speed: 0, snow: 0 } } },
+    ];
+    await workshop.act(address, commands);
+    const { metamers } = await tablet.until("a tree has grown", ({ metamers }) => metamers > 60);
+    await tablet.untilQuiet();
+    await tablet.tap("Wind");
+    const strength = tablet.page.locator(`.switch-box:has(input[aria-label="Show what would break"])`);
+    await tablet.press(strength);
+    const status = tablet.page.getByRole("status").filter({ hasText: /break|stands|Looking|nothing lies/ });
+    await expect.poll(() => status.innerText()).toContain("nothing lies on the tree");
+    await workshop.act(address, [{ kind: "set_appearance", appearance: { wind: { snow: 0.5 } } }]);
+    await expect.poll(() => status.innerText()).toMatch(/^(One branch|\d+ branches) would break/);
+    await tablet.show(`97-breaks-${name}`);
+    await tablet.press(tablet.page.getByRole("button", { name: /^Cut \d+ branch/ }));
+    await tablet.until("it is cut off", (facts) => facts.metamers < metamers);
+    await tablet.tap("Undo");
+    await tablet.until("and stands again", (facts) => facts.metamers === metamers);
+    await tablet.press(strength);
+  },
+);

@@ -334,6 +334,9 @@ const SECTION_OF: Readonly<Record<string, string>> = {
   "wind.sag": "wind.wood",
   "wind.suppleness": "wind.wood",
   "wind.damping": "wind.wood",
+  "wind.snow": "wind.weather",
+  "wind.rain": "wind.weather",
+  "wind.break": "wind.strength",
   wind: "wind.air",
 };
 

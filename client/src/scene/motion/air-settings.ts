@@ -1,4 +1,5 @@
 import { type Appearance, DEFAULT_APPEARANCE } from "../../wire/generated";
+import type { Vec3 } from "../vector";
 
 /** How trees sway, and what else the weather does to them: the section `wind` of the looks that all share. */
 export type AirSettings = Readonly<Appearance["wind"]>;
@@ -16,4 +17,10 @@ export function stirs({ speed, rise }: Pick<AirSettings, "speed" | "rise">): boo
 /** Whether anything stands otherwise than it grew. */
 export function blows(settings: AirSettings): boolean {
   return stirs(settings) || settings.sag > 0 || settings.snow > 0 || settings.rain > 0;
+}
+
+/** Mean wind 10 m above the ground, m/s. */
+export function velocityOf({ speed, direction, rise }: Pick<AirSettings, "speed" | "direction" | "rise">): Vec3 {
+  const turn = (direction * Math.PI) / 180;
+  return [speed * Math.cos(turn), rise, speed * Math.sin(turn)];
 }

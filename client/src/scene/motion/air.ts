@@ -1,9 +1,8 @@
 import type { WebGLRenderer } from "three";
 import { type DrawnElsewhere, type Pick, type Projection, pickBranch } from "../camera/picking";
 import type { QualityControl } from "../rendering/quality";
-import type { Vec3 } from "../vector";
 import type { World } from "../world";
-import { type AirSettings, blows, CALM, stirs } from "./air-settings";
+import { type AirSettings, blows, CALM, stirs, velocityOf } from "./air-settings";
 import { Amount } from "./amount";
 import { Answers } from "./answers";
 import { JointMaker } from "./joint-maker";
@@ -333,10 +332,4 @@ export class Air {
 /** All that a wind and the answers to it depend on. */
 function tuningOf({ speed, direction, rise, turbulence, sag, damping, snow, rain }: AirSettings): string {
   return [speed, direction, rise, turbulence, sag, damping, snow, rain].join(" ");
-}
-
-/** Mean wind 10 m above the ground, m/s. */
-function velocityOf({ speed, direction, rise }: AirSettings): Vec3 {
-  const turn = (direction * Math.PI) / 180;
-  return [speed * Math.cos(turn), rise, speed * Math.sin(turn)];
 }

@@ -4,7 +4,7 @@ import { sagOf } from "./moving";
 import { turnsUnder } from "./statics";
 import type { Scale, Wood } from "./wood";
 
-const GRAVITY = 9.81;
+export const GRAVITY = 9.81;
 /** Fresh snow, kg/m³. */
 const SNOW_DENSITY = 100;
 /** A film of 0.2 mm on leaves that rain has wetted, kg/m². */
@@ -17,7 +17,7 @@ const LEAF_DRAG = 0.2;
 /** Cosines of the slopes on which snow begins to slide off wood, and on which none stays: 40° and 55°. */
 const [HOLDS, SLIDES] = [0.77, 0.57];
 
-/** How each joint turns under what lies on the tree, x y z in radians: its own weight once more, a metre of snow, rain on all leaves. */
+/** Numbers of each load on a tree: its own weight once more, a metre of snow, rain on all leaves. Of `loadsOf` how each joint turns under it, x y z in radians. */
 export interface Loads {
   readonly sag: Float64Array;
   readonly snow: Float64Array;
@@ -28,8 +28,15 @@ export interface Loads {
 export type Loading = Readonly<Record<keyof Loads, number>>;
 
 /** Of joints as they were made. */
-export function loadsOf(grown: Grown, { leaves }: MotionRows, scale: Scale): Loads {
+export function loadsOf(grown: Grown, rows: MotionRows, scale: Scale): Loads {
   const { wood } = grown;
+  const masses = massesOn(wood, rows, scale);
+  const under = (weights: Float64Array) => sagOf(grown, turnsUnder(wood, weights, -GRAVITY));
+  return { sag: under(masses.sag), snow: under(masses.snow), rain: under(masses.rain) };
+}
+
+/** What each of the loads weighs on each row, kg. */
+export function massesOn(wood: Wood, { leaves }: MotionRows, scale: Scale): Loads {
   const leafLength = scale.leafSize * scale.internodeLength;
   const areas = new Float64Array(leaves.length);
   const films = new Float64Array(leaves.length);
@@ -37,11 +44,10 @@ export function loadsOf(grown: Grown, { leaves }: MotionRows, scale: Scale): Loa
     areas[row] = leaves[row]! * LEAF_FORM * leafLength * leafLength;
     films[row] = wood.length[row]! > 0 ? FILM * areas[row]! : 0;
   }
-  const under = (weights: Float64Array) => sagOf(grown, turnsUnder(wood, weights, -GRAVITY));
   return {
-    sag: under(wood.mass),
-    snow: under(snowOn(wood, areas)),
-    rain: under(films),
+    sag: wood.mass,
+    snow: snowOn(wood, areas),
+    rain: films,
   };
 }
 

@@ -12,7 +12,7 @@ const SWELL_TO = 0.02;
 const GUSTS = 16;
 const GUSTS_TO = 4;
 /** Standard deviation along a fully turbulent wind as a share of its mean, and those across and upward as shares of it. */
-const INTENSITY = 0.5;
+export const INTENSITY = 0.5;
 const SIZES = [1, 0.75, 0.5] as const;
 /** Gusts travel at this share of the mean speed. */
 const CONVECTION = 0.9;

@@ -8,7 +8,7 @@ const LEAF_DENSITY = 0.2;
 const LEAF_FORM = 0.4;
 const LEAF_DRAG = 0.2;
 /** Young's modulus of green wood along the grain, Pa. */
-const STIFFNESS = 7e9;
+export const STIFFNESS = 7e9;
 /** e^0.01: the ratio of neighbouring codes of radii. */
 const RATIO = 1.010050167084168;
 

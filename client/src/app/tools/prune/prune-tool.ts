@@ -118,6 +118,13 @@ export class PruneTool implements StrokeTool {
     this.#cut(this.#rule(), rows);
   }
 
+  mark(rows: readonly number[]): { readonly branches: number; readonly kept: number } {
+    const rule = this.#rule();
+    const cuts = rule.cutsAtAll(rows);
+    this.#show(cuts);
+    return { branches: cuts.length, kept: rows.filter((row) => rule.cutsAt(row).length === 0).length };
+  }
+
   hover(x: number, y: number): void {
     if (!this.#cutting) {
       const picked = this.#options.view.pick(x, y, PICK_TOLERANCE);

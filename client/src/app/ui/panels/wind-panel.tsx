@@ -8,6 +8,7 @@ import { type Key, say } from "../../words/say";
 import { ResetIcon } from "../controls/icons";
 import { Section } from "../controls/section";
 import { LookSlider } from "./looks/look-slider";
+import { BreakOffer } from "./wind/break-offer";
 import { WindDisc } from "./wind/wind-disc";
 
 /** What the button that holds and lets go says in each mode. */
@@ -65,6 +66,9 @@ export function WindPanel({ studio }: { studio: Studio }) {
         {WEATHER.map((name) => (
           <LookSlider key={name} studio={studio} name={`wind.${name}`} />
         ))}
+      </Section>
+      <Section name="wind.strength" title={say("wind.strength")} open>
+        <BreakOffer studio={studio} />
       </Section>
       <p class="quiet">{say("wind.shared")}</p>
       <p class="quiet">{say("wind.fine")}</p>

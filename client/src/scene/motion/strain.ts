@@ -1,0 +1,81 @@
+import type { Vec3 } from "../vector";
+import { type AirSettings, velocityOf } from "./air-settings";
+import { pressureOf } from "./answers";
+import { behindCrowns } from "./exposure";
+import { limbsOf, type MotionRows } from "./limbs";
+import { GRAVITY, type Loads, massesOn } from "./loads";
+import { borneBy } from "./statics";
+import { INTENSITY, profile } from "./wind";
+import { type Scale, STIFFNESS, type Wood, woodOf } from "./wood";
+
+/** The bending stress at which green wood breaks, Pa; species lie between 30 and 60 MPa. */
+export const STRENGTH = 40e6;
+/** The strongest gust of some minutes, in standard deviations above the mean. */
+const PEAK = 3.5;
+
+/**
+ * The greatest bending stress at the lower end of each row in the strongest gust of a wind and under all that lies on the tree,
+ * in Pa: moment over section modulus, 4 M / π r³. What the tree weighs by itself counts only as far as it sags, for it grew under
+ * that. A tree is statically determinate, so that how stiff the wood is does not matter.
+ */
+export function stressesOf(rows: MotionRows, scale: Scale, air: AirSettings): Float64Array {
+  const wood = woodOf(rows, limbsOf(rows), scale);
+  const moments = new Float64Array(wood.place.length);
+  const velocity = velocityOf(air);
+  const speed = Math.hypot(...velocity);
+  if (speed > 0) {
+    const along: Vec3 = [velocity[0] / speed, velocity[1] / speed, velocity[2] / speed];
+    const shares = behindCrowns(wood, along);
+    const peak = speed * (1 + PEAK * INTENSITY * air.turbulence);
+    const [pressure] = pressureOf(peak);
+    const sails = wood.dragArea.map((area, row) => area * (profile(wood.middle[3 * row + 1]!) * shares[row]!) ** 2);
+    addMoments(moments, wood, sails, [along[0] * pressure, along[1] * pressure, along[2] * pressure]);
+  }
+  const masses = massesOn(wood, rows, scale);
+  for (const load of Object.keys(masses) as (keyof Loads)[]) {
+    if (air[load] > 0) addMoments(moments, wood, masses[load], [0, -GRAVITY * air[load], 0]);
+  }
+  return wood.length.map((_, row) => stressOf(wood, moments, row));
+}
+
+/** The lowest rows of all that bears more than it can stand: where what is above would break off. */
+export function breaking({ parent }: MotionRows, stresses: Float64Array): number[] {
+  const gone = new Uint8Array(stresses.length);
+  const rows: number[] = [];
+  for (let row = 0; row < stresses.length; row += 1) {
+    const below = parent[row]!;
+    if (below >= 0 && gone[below] === 1) gone[row] = 1;
+    else if (stresses[row]! > STRENGTH) {
+      gone[row] = 1;
+      rows.push(row);
+    }
+  }
+  return rows;
+}
+
+/** Adds the moment about the lower end of each row of forces on all that it bears, each a row's weight times `force`. */
+function addMoments(moments: Float64Array, wood: Wood, weights: Float64Array, force: Vec3): void {
+  const borne = borneBy(wood, weights);
+  for (let row = 0; row < weights.length; row += 1) {
+    const at = 3 * row;
+    const weight = borne.weight[row]!;
+    const [x, y, z] = [0, 1, 2].map(
+      (a) => borne.moment[at + a]! - weight * (wood.place[at + a]! - wood.way[at + a]!),
+    ) as [number, number, number];
+    moments[at]! += y * force[2] - z * force[1];
+    moments[at + 1]! += z * force[0] - x * force[2];
+    moments[at + 2]! += x * force[1] - y * force[0];
+  }
+}
+
+/** The part of the moment that bends, as a stress. Softness is ℓ / EJ, and J = π r⁴ / 4. */
+function stressOf({ way, length, softness }: Wood, moments: Float64Array, row: number): number {
+  const at = 3 * row;
+  if (softness[row]! <= 0) return 0;
+  const inertia = length[row]! / (STIFFNESS * softness[row]!);
+  const radius = ((4 * inertia) / Math.PI) ** 0.25;
+  const along =
+    (moments[at]! * way[at]! + moments[at + 1]! * way[at + 1]! + moments[at + 2]! * way[at + 2]!) / length[row]!;
+  const squared = moments[at]! ** 2 + moments[at + 1]! ** 2 + moments[at + 2]! ** 2;
+  return (Math.sqrt(Math.max(0, squared - along ** 2)) * radius) / inertia;
+}
