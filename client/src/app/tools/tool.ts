@@ -25,8 +25,8 @@ export interface Tool {
   zoom?(factor: number): boolean;
   /** Cuts off the branches at some rows, or the one at a place; false where there is none. */
   cut?(rows: readonly number[]): void;
-  /** Marks the branches that `cut` would take off at some rows; says how many those are, and at how many rows nothing can be cut. */
-  mark?(rows: readonly number[]): { readonly branches: number; readonly kept: number };
+  /** Marks the branches that `cut` would take off at some rows until others are marked; gives where they begin, and at how many of the rows nothing can be cut. */
+  mark?(rows: readonly number[]): { readonly cuts: readonly number[]; readonly kept: number };
   cutAt?(x: number, y: number): boolean;
   /** Where it would put something into the scene; null for nowhere. */
   readonly coming?: ReadonlySignal<Vec3 | null>;

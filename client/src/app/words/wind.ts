@@ -61,8 +61,8 @@ export const WIND = {
   "wind.strength": ["Strength of the wood", "Festigkeit des Holzes"],
   "wind.break": ["Show what would break", "Zeigen, was bräche"],
   "wind.break.help": [
-    "Marks the branches that would break in the strongest gust of this wind, under this snow and rain. Nothing breaks by itself.",
-    "Markiert die Äste, die in der stärksten Böe dieses Windes, unter diesem Schnee und Regen brächen. Von selbst bricht nichts.",
+    "Marks the branches that would break in the strongest gust of this wind, and under this snow, rain and sag. Nothing breaks by itself.",
+    "Markiert die Äste, die in der stärksten Böe dieses Windes und unter diesem Schnee, Regen und Durchhang brächen. Von selbst bricht nichts.",
   ],
   "wind.break.calm": [
     "There is no wind, and nothing lies on the tree.",
@@ -73,8 +73,8 @@ export const WIND = {
   "wind.break.one": ["One branch would break.", "Ein Ast bräche."],
   "wind.break.many": ["{count} branches would break.", "{count} Äste brächen."],
   "wind.break.trunk": [
-    "The trunk would break as well. It stays, for it cannot be cut off.",
-    "Auch der Stamm bräche. Er bleibt, denn er lässt sich nicht abschneiden.",
+    "The trunk would break where no branch leaves it. There it is not cut off.",
+    "Der Stamm bräche, wo kein Ast von ihm abgeht. Dort wird er nicht abgeschnitten.",
   ],
   "wind.hold": ["Hold", "Anhalten"],
   "wind.let-go": ["Let go", "Loslassen"],

@@ -38,30 +38,22 @@ export function stressesOf(rows: MotionRows, scale: Scale, air: AirSettings): Fl
   return wood.length.map((_, row) => stressOf(wood, moments, row));
 }
 
-/** The lowest rows of all that bears more than it can stand: where what is above would break off. */
-export function breaking({ parent }: MotionRows, stresses: Float64Array): number[] {
-  const gone = new Uint8Array(stresses.length);
+/** The rows that bear more than they can stand. */
+export function breaking(stresses: Float64Array): number[] {
   const rows: number[] = [];
-  for (let row = 0; row < stresses.length; row += 1) {
-    const below = parent[row]!;
-    if (below >= 0 && gone[below] === 1) gone[row] = 1;
-    else if (stresses[row]! > STRENGTH) {
-      gone[row] = 1;
-      rows.push(row);
-    }
-  }
+  for (let row = 0; row < stresses.length; row += 1) if (stresses[row]! > STRENGTH) rows.push(row);
   return rows;
 }
 
 /** Adds the moment about the lower end of each row of forces on all that it bears, each a row's weight times `force`. */
 function addMoments(moments: Float64Array, wood: Wood, weights: Float64Array, force: Vec3): void {
-  const borne = borneBy(wood, weights);
-  for (let row = 0; row < weights.length; row += 1) {
-    const at = 3 * row;
-    const weight = borne.weight[row]!;
-    const [x, y, z] = [0, 1, 2].map(
-      (a) => borne.moment[at + a]! - weight * (wood.place[at + a]! - wood.way[at + a]!),
-    ) as [number, number, number];
+  const { weight, moment } = borneBy(wood, weights);
+  const { place, way } = wood;
+  for (let row = 0, at = 0; row < weights.length; row += 1, at += 3) {
+    const borne = weight[row]!;
+    const x = moment[at]! - borne * (place[at]! - way[at]!);
+    const y = moment[at + 1]! - borne * (place[at + 1]! - way[at + 1]!);
+    const z = moment[at + 2]! - borne * (place[at + 2]! - way[at + 2]!);
     moments[at]! += y * force[2] - z * force[1];
     moments[at + 1]! += z * force[0] - x * force[2];
     moments[at + 2]! += x * force[1] - y * force[0];

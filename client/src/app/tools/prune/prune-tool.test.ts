@@ -123,6 +123,19 @@ describe("a line through branches", () => {
   });
 });
 
+describe("marks that are asked for", () => {
+  it("last until others are, whatever the shears are at, and tell where nothing can be cut", () => {
+    const { tool, looks } = setUp();
+    expect(tool.mark([1, 9, 11])).toEqual({ cuts: [8, 10], kept: 1 });
+    tool.hover(602, 700);
+    tool.leave();
+    expect(looks()).toEqual([["marked", 8, 10]]);
+    expect(tool.marked.value, "the shears are at nothing").toBe(0);
+    expect(tool.mark([2])).toEqual({ cuts: [], kept: 1 });
+    expect(looks()).toEqual([]);
+  });
+});
+
 describe("shears", () => {
   it("a tap cuts the branch that is there", () => {
     const { tool, sent, draw, looks } = setUp();

@@ -47,6 +47,8 @@ export class PruneTool implements StrokeTool {
   #options: PruneOptions;
   #cutting: Cutting | null = null;
   #mark: CutOverlay | null = null;
+  /** Where the branches begin that are marked whatever the shears are at. */
+  #lasting: readonly number[] = [];
   /** What is cut and not yet gone from the table. */
   #falling = new Set<CutOverlay>();
 
@@ -118,11 +120,11 @@ export class PruneTool implements StrokeTool {
     this.#cut(this.#rule(), rows);
   }
 
-  mark(rows: readonly number[]): { readonly branches: number; readonly kept: number } {
+  mark(rows: readonly number[]): { readonly cuts: readonly number[]; readonly kept: number } {
     const rule = this.#rule();
-    const cuts = rule.cutsAtAll(rows);
-    this.#show(cuts);
-    return { branches: cuts.length, kept: rows.filter((row) => rule.cutsAt(row).length === 0).length };
+    this.#lasting = rule.cutsAtAll(rows);
+    this.#show([]);
+    return { cuts: this.#lasting, kept: rows.filter((row) => rule.cutsAt(row).length === 0).length };
   }
 
   hover(x: number, y: number): void {
@@ -210,8 +212,10 @@ export class PruneTool implements StrokeTool {
     this.#options.view.addOverlay(felled);
   }
 
-  #show(cuts: readonly number[]): void {
-    this.marked.value = cuts.length;
+  /** Marks branches; where there are none, those whose marks last. */
+  #show(asked: readonly number[]): void {
+    const cuts = asked.length > 0 ? asked : this.#lasting;
+    this.marked.value = asked.length;
     if (this.#mark && cuts.length === this.#mark.rows.length && cuts.every((row, i) => row === this.#mark?.rows[i])) {
       return;
     }

@@ -2,7 +2,7 @@ import { useEffect, useState } from "preact/hooks";
 import { blows } from "../../../../scene/motion/air-settings";
 import { motionRows } from "../../../../scene/motion/motion-rows";
 import { breaking, stressesOf } from "../../../../scene/motion/strain";
-import { DEFAULT_PARAMETERS } from "../../../../wire/generated";
+import { DEFAULT_PARAMETERS, MAX_PRUNED_ROWS } from "../../../../wire/generated";
 import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
 import { Switch } from "../../controls/switch";
@@ -11,16 +11,20 @@ import { Switch } from "../../controls/switch";
 const SETTLED = 300;
 
 interface Found {
-  readonly rows: readonly number[];
-  readonly branches: number;
+  /** Where the branches begin that would break. */
+  readonly cuts: readonly number[];
   /** At how many rows nothing can be cut, because they are the trunk's. */
   readonly kept: number;
+  /** The rows it was found in. */
+  readonly revision: number;
 }
 
 /** Offers to cut off what cannot stand the weather that is set. */
 export function BreakOffer({ studio }: { studio: Studio }) {
   const [asked, setAsked] = useState(false);
   const [found, setFound] = useState<Found | null>(null);
+  /** Counts the cuts: after each it is looked at anew, even where the server refused it. */
+  const [round, setRound] = useState(0);
   const air = studio.appearance.value.wind;
   const { internode_length: internodeLength, leaf_size: leafSize } = studio.parameters.value ?? DEFAULT_PARAMETERS;
   const revision = studio.revision.value;
@@ -28,17 +32,18 @@ export function BreakOffer({ studio }: { studio: Studio }) {
   useEffect(() => {
     if (!asked) return;
     const timer = setTimeout(() => {
-      const rows = motionRows(studio.table);
-      const broken = breaking(rows, stressesOf(rows, { internodeLength, leafSize }, air));
-      const marked = studio.tools.toolFor("cut")?.mark?.(broken) ?? { branches: 0, kept: 0 };
-      setFound({ rows: broken, ...marked });
+      const stresses = stressesOf(motionRows(studio.table), { internodeLength, leafSize }, air);
+      const marked = studio.tools.toolFor("cut")?.mark?.(breaking(stresses)) ?? { cuts: [], kept: 0 };
+      setFound({ ...marked, revision });
     }, SETTLED);
     return () => clearTimeout(timer);
-  }, [asked, revision, weather, internodeLength, leafSize, studio]);
+  }, [asked, round, revision, weather, internodeLength, leafSize, studio]);
   useEffect(() => {
     const unmark = () => void studio.tools.toolFor("cut")?.mark?.([]);
     return asked ? unmark : undefined;
   }, [asked, studio]);
+  // A cut takes so many branches at most; the rest is offered next.
+  const count = Math.min(found?.cuts.length ?? 0, MAX_PRUNED_ROWS);
   return (
     <>
       <Switch
@@ -53,27 +58,30 @@ export function BreakOffer({ studio }: { studio: Studio }) {
       />
       {asked && (
         <p class="quiet" role="status">
-          {found ? say(wordOf(found, blows(air)), { count: found.branches }) : say("wind.break.looking")}
+          {found ? say(wordOf(found, blows(air)), { count: found.cuts.length }) : say("wind.break.looking")}
         </p>
       )}
-      {asked && found && found.branches > 0 && (
+      {asked && found && found.cuts.length > 0 && found.kept > 0 && <p class="quiet">{say("wind.break.trunk")}</p>}
+      {asked && found && count > 0 && (
         <button
           type="button"
           class="primary danger"
+          disabled={found.revision !== revision}
           onClick={() => {
-            studio.tools.toolFor("cut")?.cut?.(found.rows);
+            studio.tools.toolFor("cut")?.cut?.(found.cuts.slice(0, count));
             setFound(null);
+            setRound(round + 1);
           }}
         >
-          {say(found.branches === 1 ? "tools.cut.one" : "tools.cut.many", { count: found.branches })}
+          {say(count === 1 ? "tools.cut.one" : "tools.cut.many", { count })}
         </button>
       )}
     </>
   );
 }
 
-function wordOf({ branches, kept }: Found, blows: boolean) {
+function wordOf({ cuts, kept }: Found, blows: boolean) {
   if (!blows) return "wind.break.calm";
-  if (kept > 0) return "wind.break.trunk";
-  return branches === 0 ? "wind.break.none" : branches === 1 ? "wind.break.one" : "wind.break.many";
+  if (cuts.length > 0) return cuts.length === 1 ? "wind.break.one" : "wind.break.many";
+  return kept > 0 ? "wind.break.trunk" : "wind.break.none";
 }
