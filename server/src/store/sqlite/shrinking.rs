@@ -20,6 +20,14 @@ pub(super) async fn step(connection: &mut SqliteConnection) -> Result<bool, Stor
     Ok(free > 0)
 }
 
+/// Takes the pages that were given back out of the file itself, which else happens when so much has been written again
+/// that SQLite does it, or when the server stops. Comes between transactions.
+pub(super) async fn settle(connection: &mut SqliteConnection) {
+    if let Err(error) = sqlx::query("PRAGMA wal_checkpoint(PASSIVE)").fetch_all(connection).await {
+        tracing::debug!("the file gets smaller later: {}", sentence(&error));
+    }
+}
+
 /// Rewrites a file of an earlier program once, from which pages could not be given back else. Where there is no room
 /// for that, everything works as before.
 pub(super) async fn allow(connection: &mut SqliteConnection) {
@@ -90,6 +98,8 @@ mod tests {
         }
         assert!(steps > 2, "{steps} steps");
         assert!(pages(&mut look).await < empty + 20, "{} pages are left", pages(&mut look).await);
+        let bytes = std::fs::metadata(folder.database()).unwrap().len();
+        assert!(bytes < 1_000_000, "the file has {bytes} bytes while the server runs on");
         assert!(!store.shrink().await.unwrap());
     }
 

@@ -253,6 +253,7 @@ async fn commit(
         if matches!(request.write, Write::Shrink)
             && matches!(&result, Ok(more) if more.iter().sum::<u64>() == 0)
         {
+            shrinking::settle(connection).await;
             reserve.fill();
         }
         let count = if result.is_ok() { &counts.commits } else { &counts.failed };
