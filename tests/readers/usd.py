@@ -17,6 +17,11 @@ for path in sys.argv[1:]:
             valid, why = UsdGeom.Mesh.ValidateTopology(indices, faces, count)
             assert valid, f"{path} {prim.GetPath()}: {why}"
             assert len(mesh.GetNormalsAttr().Get()) == count, f"{path} {prim.GetPath()}"
+            subsets = UsdGeom.Subset.GetGeomSubsets(mesh, UsdGeom.Tokens.face, "materialBind")
+            if subsets:
+                kind = UsdGeom.Subset.GetFamilyType(mesh, "materialBind")
+                whole, why = UsdGeom.Subset.ValidateFamily(mesh, UsdGeom.Tokens.face, "materialBind")
+                assert kind == UsdGeom.Tokens.partition and whole, f"{path} {prim.GetPath()}: {kind} {why}"
             meshes, points, triangles = meshes + 1, points + count, triangles + len(faces)
             if "Collision" not in str(prim.GetAppliedSchemas()):
                 material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()

@@ -36,7 +36,7 @@ pub fn usda(
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
     let assembly = Assembly::of(plant, style, appearance, about.species, model);
-    layer(&assembly, about, model, None, out)?;
+    layer(&assembly, about, model, Pictures::Without, MeanMaterials::shaded(&assembly)?, out)?;
     Ok(())
 }
 
@@ -56,7 +56,7 @@ pub fn usdz(
     let mut zip = Zip::new(out);
     let mut materials = MeanMaterials::shaded(&assembly)?;
     zip.add("tree.usda", |out| {
-        materials = layer(&assembly, about, model, Some(std::mem::take(&mut materials)), out)?;
+        materials = layer(&assembly, about, model, Pictures::Beside, std::mem::take(&mut materials), out)?;
         Ok(())
     })?;
     for (name, png) in materials.all.iter().flat_map(MeanMaterial::pictures) {
@@ -65,11 +65,20 @@ pub fn usdz(
     zip.finish()
 }
 
+/// Where the pictures of materials are.
+#[derive(Clone, Copy, PartialEq)]
+enum Pictures {
+    Without,
+    /// In files beside the layer.
+    Beside,
+}
+
 fn layer(
     assembly: &Assembly<'_>,
     about: &About<'_>,
     model: &Model,
-    materials: Option<MeanMaterials>,
+    pictures: Pictures,
+    materials: MeanMaterials,
     out: &mut dyn Write,
 ) -> Result<MeanMaterials, ExportError> {
     let scale = about.scale()?;
@@ -83,11 +92,10 @@ fn layer(
          def Xform \"{ROOT}\" (\n    kind = \"group\"\n)\n{{\n",
         quoted(about.program)
     )?;
-    let has_pictures = materials.is_some();
-    let mut writer = Writer { out, scale, model, open: Vec::new(), materials: materials.unwrap_or_default() };
+    let mut writer = Writer { out, scale, model, open: Vec::new(), materials };
     assembly.build(&mut writer)?;
     let Writer { out, materials, .. } = writer;
-    materials::write(&materials, has_pictures, scale, out)?;
+    materials::write(&materials, pictures, scale, out)?;
     writeln!(out, "}}")?;
     Ok(materials)
 }
@@ -128,7 +136,8 @@ impl Writer<'_> {
         writeln!(self.out, "rel material:binding = </{ROOT}/Looks/{material}>")
     }
 
-    /// What triangles of a part are made of: so many have its surface, or one of its colours, and so many the next.
+    /// What triangles of a part are made of: so many have its surface, or one of its colours, and so many the next. Where
+    /// there are several, each triangle is in one subset: not all readers show what is in none.
     fn subsets(&mut self, part: &Part<'_>, faces: &[u32], shades: usize) -> Result<(), ExportError> {
         let Some(first) = part.surfaces.first() else { return Ok(()) };
         let names: Vec<String> = if shades > 1 {
@@ -136,23 +145,20 @@ impl Writer<'_> {
         } else {
             part.surfaces.iter().map(|surface| surface.name().to_owned()).collect()
         };
-        self.bound(&names[0])?;
         let mut reached = 0;
-        let mut is_told = false;
-        for (number, (name, &count)) in names.iter().zip(faces).enumerate() {
-            let faces = reached..reached + count;
+        let mut subsets = Vec::new();
+        for (name, &count) in names.iter().zip(faces) {
+            if count > 0 {
+                subsets.push((name, reached..reached + count));
+            }
             reached += count;
-            // What has the first surface needs no subset, unless colours share it.
-            if faces.is_empty() || (number == 0 && shades == 1) {
-                continue;
-            }
-            if !is_told {
-                is_told = true;
-                writeln!(
-                    self.out,
-                    "uniform token subsetFamily:materialBind:familyType = \"nonOverlapping\""
-                )?;
-            }
+        }
+        self.bound(subsets.first().map_or(&names[0], |(name, _)| name))?;
+        if subsets.len() == 1 {
+            return Ok(());
+        }
+        writeln!(self.out, "uniform token subsetFamily:materialBind:familyType = \"partition\"")?;
+        for (name, faces) in subsets {
             writeln!(
                 self.out,
                 "def GeomSubset \"{name}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n{{"

@@ -4,6 +4,7 @@ import {
   Color,
   DirectionalLight,
   HemisphereLight,
+  Matrix4,
   NeutralToneMapping,
   PCFShadowMap,
   PerspectiveCamera,
@@ -44,14 +45,15 @@ globalThis.show = async (address, { eye, target, angle, light }) => {
   const sky = new HemisphereLight(new Color(...light.above), new Color(...light.below), LAMBERT);
   scene.add(sun, sun.target, sky);
 
-  const counts = { meshes: 0, triangles: 0, points: 0, textures: 0 };
+  const counts = { meshes: 0, triangles: 0, wood: 0, instances: 0, points: 0, textures: 0 };
   tree.traverse((node) => {
     if (node.isPoints) counts.points += node.geometry.attributes.position.count;
     if (!node.isMesh) return;
     node.castShadow = node.receiveShadow = true;
     counts.meshes += 1;
-    const { index, attributes } = node.geometry;
-    counts.triangles += (index ?? attributes.position).count / 3;
+    counts.triangles += trianglesOf(node);
+    if (isWood(node)) counts.wood += trianglesOf(node);
+    if (node.isInstancedMesh) counts.instances += node.count;
     for (const material of [node.material].flat())
       counts.textures += ["map", "normalMap", "roughnessMap"].filter((map) => material[map]).length;
   });
@@ -60,5 +62,44 @@ globalThis.show = async (address, { eye, target, angle, light }) => {
   camera.position.set(...eye);
   camera.lookAt(...target);
   renderer.render(scene, camera);
-  return { generator, names: tree.children.map((node) => node.name), ...counts };
+  globalThis.showWood = () => {
+    tree.traverse((node) => {
+      if (node.isMesh || node.isPoints) node.visible = isWood(node);
+    });
+    renderer.render(scene, camera);
+  };
+  return { generator, names: tree.children.map((node) => node.name), ...counts, box: boundsOf(tree) };
 };
+
+/** How many triangles of a mesh are drawn: of several materials, those that have one. */
+function trianglesOf({ geometry, material, isInstancedMesh, count }) {
+  const { index, attributes, groups } = geometry;
+  const drawn = Array.isArray(material)
+    ? groups.reduce((sum, group) => sum + group.count, 0)
+    : (index ?? attributes.position).count;
+  return (drawn / 3) * (isInstancedMesh ? count : 1);
+}
+
+/** Whether a node belongs to a plant's wood: each file names it so, in its own way. */
+function isWood(node) {
+  return node !== null && (/(^|[_ ])Wood/.test(node.name) || isWood(node.parent));
+}
+
+/** The box around all vertices, each instance's own as well: the least and the most along each axis. */
+function boundsOf(tree) {
+  tree.updateMatrixWorld(true);
+  const box = new Box3();
+  const [place, matrix] = [new Vector3(), new Matrix4()];
+  tree.traverse((node) => {
+    if (!node.isMesh && !node.isPoints) return;
+    const { position } = node.geometry.attributes;
+    for (let instance = 0; instance < (node.isInstancedMesh ? node.count : 1); instance++) {
+      if (node.isInstancedMesh) node.getMatrixAt(instance, matrix);
+      else matrix.identity();
+      matrix.premultiply(node.matrixWorld);
+      for (let at = 0; at < position.count; at++)
+        box.expandByPoint(place.fromBufferAttribute(position, at).applyMatrix4(matrix));
+    }
+  });
+  return [box.min.toArray(), box.max.toArray()];
+}

@@ -6,8 +6,8 @@ import type { Browser } from "playwright-core";
 import { perform } from "../gallery/performance";
 import { FINAL, Player } from "../gallery/player";
 import { program, type Server } from "../src/server";
-import { STUDIO, shotOf, VIEW } from "./shot";
-import { type Found, Viewer } from "./viewer";
+import { type Shot, STUDIO, shotOf, VIEW } from "./shot";
+import { type Found, type Seen, Viewer } from "./viewer";
 
 const run = promisify(execFile);
 
@@ -28,8 +28,8 @@ export interface Pair {
 export interface Stood {
   readonly onScreen: Buffer;
   /** What three.js shows of its file in the format of an ending, at the finest level of detail that it can load. */
-  file(ending: string): Promise<{ readonly level: number; readonly picture: Buffer; readonly found: Found }>;
-  /** The picture that the server makes, from the same side. */
+  file(ending: string): Promise<Seen & { readonly level: number }>;
+  /** The picture that the server makes, from the page's eye. */
   picture(): Promise<Buffer>;
 }
 
@@ -70,9 +70,26 @@ export class Pairs {
         if (bytes.length > LARGEST) bytes = await exported(ending, `?lod=${++level}`);
         return { level, ...(await this.viewer.see({ ending, bytes }, side, side, shot)) };
       },
-      picture: () => exported("png", `?size=${2 * side}x${2 * side}&turn=${VIEW.yaw}&rise=${VIEW.pitch}`),
+      picture: () => exported("png", `?size=${2 * side}x${2 * side}&${cameraOf(shot)}`),
     };
   }
+}
+
+/** A shot as the server's options of a picture say it. */
+function cameraOf({ eye, target, angle }: Shot): string {
+  const [x, y, z] = [0, 1, 2].map((axis) => eye[axis]! - target[axis]!) as [number, number, number];
+  const distance = Math.hypot(x, y, z);
+  const degrees = (radians: number) => (radians * 180) / Math.PI;
+  const options = {
+    turn: degrees(Math.atan2(x, z)),
+    rise: degrees(Math.asin(y / distance)),
+    fov: angle,
+    target: target.join(","),
+    distance,
+  };
+  return Object.entries(options)
+    .map(([name, value]) => `${name}=${value}`)
+    .join("&");
 }
 
 /** Grows a species, and opens it in a session of its own; gives its address. */

@@ -1,6 +1,7 @@
 // Reads what the program writes by the loaders that three.js has for it.
 import { BufferAttribute, Color, DoubleSide, FileLoader, LoadingManager, Points, PointsMaterial, Vector3 } from "three";
 import { unzipSync } from "three/examples/jsm/libs/fflate.module.js";
+import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { MTLLoader } from "three/examples/jsm/loaders/MTLLoader.js";
 import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
@@ -10,7 +11,7 @@ import { USDLoader } from "three/examples/jsm/loaders/USDLoader.js";
 /** What each ending is read by: gives the tree, Y up and in metres, and the program that the file says it is from. */
 const READERS = {
   glb: async (address) => {
-    const { scene, asset } = await new GLTFLoader().loadAsync(address);
+    const { scene, asset } = await new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).loadAsync(address);
     return { tree: scene, generator: asset.generator };
   },
   "obj.zip": async (address) => ({ tree: await objOf(await bytesAt(address)), generator: null }),

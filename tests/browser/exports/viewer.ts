@@ -12,9 +12,24 @@ export interface Found {
   /** Of the plants. */
   readonly names: readonly string[];
   readonly meshes: number;
+  /** Those that are drawn, each instance's own. */
   readonly triangles: number;
+  /** Those of wood. */
+  readonly wood: number;
+  /** Places of meshes that are shown many times. */
+  readonly instances: number;
   readonly points: number;
   readonly textures: number;
+  /** The least and the most of all vertices along each axis, in metres. */
+  readonly box: readonly [readonly number[], readonly number[]];
+}
+
+/** What three.js made of a file. */
+export interface Seen {
+  readonly found: Found;
+  readonly picture: Buffer;
+  /** The same picture without all that is not wood. */
+  readonly wood: Buffer;
 }
 
 /** Pixels drawn for each one of the picture, along each side, as for those of the page. */
@@ -55,12 +70,7 @@ export class Viewer {
     return new Viewer(browser, chunk.code);
   }
 
-  async see(
-    { ending, bytes }: Exported,
-    width: number,
-    height: number,
-    shot: Shot,
-  ): Promise<{ found: Found; picture: Buffer }> {
+  async see({ ending, bytes }: Exported, width: number, height: number, shot: Shot): Promise<Seen> {
     const page = await this.browser.newPage({ viewport: { width, height }, deviceScaleFactor: DETAIL });
     try {
       const address = "http://viewer.test/";
@@ -72,7 +82,9 @@ export class Viewer {
       await page.goto(address);
       await page.addScriptTag({ content: this.script });
       const found = (await page.evaluate(`show("/tree.${ending}", ${JSON.stringify(shot)})`)) as Found;
-      return { found, picture: await page.screenshot() };
+      const picture = await page.screenshot();
+      await page.evaluate("showWood()");
+      return { found, picture, wood: await page.screenshot() };
     } finally {
       await page.close();
     }

@@ -2,16 +2,17 @@
 
 use std::io::{self, Write};
 
-use super::{ROOT, arrays::joined};
+use super::{Pictures, ROOT, arrays::joined};
 use crate::mean_materials::{MeanMaterial, MeanMaterials};
 
 /// The scope of all materials.
 pub(super) fn write(
     materials: &MeanMaterials,
-    has_pictures: bool,
+    pictures: Pictures,
     metres: f32,
     out: &mut dyn Write,
 ) -> io::Result<()> {
+    let has_pictures = pictures == Pictures::Beside;
     writeln!(out, "def Scope \"Looks\"\n{{")?;
     for material in &materials.all {
         one(material, has_pictures && material.texture.is_some(), metres, out)?;
@@ -32,14 +33,16 @@ fn one(material: &MeanMaterial, has_pictures: bool, metres: f32, out: &mut dyn W
             writeln!(out, "float inputs:opacity.connect = <{path}/Colour.outputs:a>")?;
             writeln!(out, "float inputs:opacityThreshold = 0.5")?;
         }
-    } else if material.texture.is_some() {
-        writeln!(out, "color3f inputs:diffuseColor.connect = <{path}/Own.outputs:result>")?;
     } else {
+        // Who follows no connection to colours of vertices has the value.
         writeln!(out, "color3f inputs:diffuseColor = {}", joined(&material.seen().to_array()))?;
+        if material.texture.is_some() {
+            writeln!(out, "color3f inputs:diffuseColor.connect = <{path}/Own.outputs:result>")?;
+        }
     }
     writeln!(out, "token outputs:surface\n}}")?;
     if !has_pictures && material.texture.is_some() {
-        // Each vertex has its own colour, and each leaf where they are instances; who knows none takes the mean.
+        // Each vertex has its own colour, and each leaf where they are instances; who knows none takes the material's.
         writeln!(out, "def Shader \"Own\"\n{{\nuniform token info:id = \"UsdPrimvarReader_float3\"")?;
         writeln!(out, "string inputs:varname = \"displayColor\"")?;
         writeln!(out, "float3 inputs:fallback = {}", joined(&material.seen().to_array()))?;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use espalier_export::{About, ExportError, Model, Sink, in_memory};
 use espalier_mesh::Style;
-use espalier_plant::Plant;
+use espalier_plant::{MetamerId, Plant};
 use espalier_settings::{Appearance, ParameterValues};
 
 use crate::{METRES, glb, looks, reader, saplings, style};
@@ -75,16 +75,53 @@ fn leaves_of_usdz_are_parts_by_colour_and_each_is_in_one() {
 }
 
 #[test]
+fn each_face_of_wood_with_cuts_is_in_one_subset() {
+    let mut pole = saplings::pole(60);
+    pole.begin_step();
+    pole.prune(&[MetamerId::new(40)]);
+    pole.end_step();
+    let text = text(&pole, espalier_export::usdz, &Model::default());
+    let wood = text.split("def Mesh \"Wood\"").nth(1).expect("there is wood");
+    let wood = wood.split("def Mesh").next().expect("it ends");
+    let list = |text: &str, name: &str| -> Vec<u32> {
+        let list = text.split(name).nth(1).and_then(|rest| rest.split(']').next()).expect("a list");
+        list.split(", ").map(|item| item.parse().expect("a number")).collect()
+    };
+    let faces = list(wood, "int[] faceVertexCounts = [").len() as u32;
+    let mut told = Vec::new();
+    for name in ["Bark", "Cut"] {
+        let subset = wood.split(&format!("def GeomSubset \"{name}\"")).nth(1).expect("a subset");
+        assert!(subset.contains(&format!("rel material:binding = </Plants/Looks/{name}>")));
+        told.extend(list(subset, "int[] indices = ["));
+    }
+    told.sort_unstable();
+    assert_eq!(told, (0..faces).collect::<Vec<_>>());
+    assert!(wood.contains("materialBind:familyType = \"partition\""));
+}
+
+#[test]
 fn usda_shows_the_colour_of_each_vertex_and_of_each_instance() {
     let plant = saplings::pole(60);
     for instanced in [false, true] {
         let text = text(&plant, espalier_export::usda, &Model { instanced, ..Model::default() });
-        let leaves = text.split("def Material \"Leaves\"").nth(1).expect("they have a material");
-        let material = leaves.split("def Material").next().expect("it ends");
-        assert!(material.contains("inputs:diffuseColor.connect = </Plants/Looks/Leaves/Own.outputs:result>"));
-        assert!(
-            material.contains("varname = \"displayColor\"") && material.contains("float3 inputs:fallback")
-        );
+        // Who reads no colours of vertices has a few materials, each with the colour it stands for.
+        let materials: Vec<&str> = text.split("def Material \"Leaves_").skip(1).collect();
+        assert!((2..=6).contains(&materials.len()), "{} materials", materials.len());
+        let mut values = Vec::new();
+        for material in materials {
+            let material = material.split("def Material").next().expect("it ends");
+            let number = material.split('"').next().expect("it has a name");
+            let own =
+                format!("inputs:diffuseColor.connect = </Plants/Looks/Leaves_{number}/Own.outputs:result>");
+            assert!(material.contains(&own) && material.contains("varname = \"displayColor\""));
+            let value = |name: &str| material.split(name).nth(1).and_then(|rest| rest.split('\n').next());
+            let fallback = value("float3 inputs:fallback = ").expect("a colour");
+            assert_eq!(value("color3f inputs:diffuseColor = "), Some(fallback));
+            values.push(fallback);
+        }
+        values.sort_unstable();
+        values.dedup();
+        assert!(values.len() > 1, "{values:?}");
         let part = text.split("\"Leaves\"").nth(1).expect("they are there");
         let colours = part.split("primvars:displayColor = [").nth(1).and_then(|rest| rest.split(']').next());
         let mut colours: Vec<&str> = colours.expect("they have colours").split("), ").collect();

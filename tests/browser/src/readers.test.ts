@@ -1,0 +1,136 @@
+import { execFile } from "node:child_process";
+import { mkdtemp, readFile, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import type { Browser } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { agreementOf } from "../exports/agreement";
+import { type Shot, shotOf } from "../exports/shot";
+import { type Seen, Viewer } from "../exports/viewer";
+import { launchBrowser } from "./browser";
+import { Darkroom, type Picture } from "./picture";
+import { shrunk } from "./reference";
+import { program } from "./server";
+
+const run = promisify(execFile);
+
+/** Pixels of a picture across and down, and of a cell of it. */
+const SIDE = 240;
+const CELL = 6;
+
+let browser: Browser;
+let viewer: Viewer;
+let darkroom: Darkroom;
+let folder: string;
+
+beforeAll(async () => {
+  folder = await mkdtemp(join(tmpdir(), "espalier-readers-"));
+  browser = await launchBrowser();
+  viewer = await Viewer.open(browser);
+  darkroom = await Darkroom.open(browser);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await rm(folder, { recursive: true, force: true });
+});
+
+/** A species as a file of the program. */
+async function exported(species: string, ending: string, options: readonly string[] = []): Promise<Buffer> {
+  const file = join(folder, `tree.${ending}`);
+  await run(program, ["grow", "--species", species, "--export", file, ...options]);
+  const bytes = await readFile(file);
+  await rm(file);
+  return bytes;
+}
+
+async function shot(species: string): Promise<Shot> {
+  return shotOf(JSON.parse((await exported(species, "json")).toString()));
+}
+
+async function cells(png: Buffer): Promise<Picture> {
+  const whole = await darkroom.develop(png);
+  return shrunk(whole, (CELL * whole.width) / SIDE);
+}
+
+/** How far what others see of two files is the same. */
+async function agreement(one: Buffer, other: Buffer) {
+  return agreementOf(await cells(one), await cells(other));
+}
+
+describe("three.js reads USD", () => {
+  it.each([
+    ["cherry", "usda"],
+    ["cherry", "usdz"],
+    ["maple", "usdz"],
+  ])("and shows the wood of a %s in .%s, with the faces of its cuts, as in glTF", async (species, ending) => {
+    const [eye, level] = [await shot(species), ["--lod", "1"]];
+    const plain = await viewer.see({ ending: "glb", bytes: await exported(species, "glb", level) }, SIDE, SIDE, eye);
+    const bytes = await exported(species, ending, level);
+    expect(bytes.includes('def GeomSubset "Cut"'), "a thick tip ends in the face of a cut").toBe(true);
+    const { found, wood, picture } = await viewer.see({ ending, bytes }, SIDE, SIDE, eye);
+    expect(found.wood).toBe(plain.found.wood);
+    expect(found.triangles).toBe(plain.found.triangles);
+    const ofWood = await agreement(plain.wood, wood);
+    expect(ofWood.overlap, JSON.stringify(ofWood)).toBeGreaterThan(0.95);
+    const ofAll = await agreement(plain.picture, picture);
+    // Text has no pictures, so its leaves are whole cards.
+    const least = ending === "usda" ? 0.8 : 0.95;
+    expect(ofAll.overlap, JSON.stringify(ofAll)).toBeGreaterThan(least);
+    for (const steps of [...ofWood.colour, ...ofAll.colour]) expect(Math.abs(steps)).toBeLessThan(32);
+  });
+});
+
+describe("three.js reads packed glTF", () => {
+  let plain: Seen;
+  let eye: Shot;
+
+  beforeAll(async () => {
+    eye = await shot("cherry");
+    plain = await viewer.see({ ending: "glb", bytes: await exported("cherry", "glb") }, SIDE, SIDE, eye);
+    expect(plain.found.instances).toBe(0);
+  });
+
+  /** The most by which the box around all vertices differs, in metres. */
+  const apart = ({ found }: Seen) =>
+    Math.max(
+      ...[0, 1].flatMap((end) => found.box[end]!.map((at, axis) => Math.abs(at - plain.found.box[end]![axis]!))),
+    );
+
+  it.each([
+    // What is compressed is the same to the bit.
+    [["--compressed"], 0],
+    // A place is off by less than a 65,000th of the plant's extent.
+    [["--quantised"], 65_000],
+    [["--quantised", "--compressed"], 65_000],
+  ] as const)("with %j as the plain file: the same triangles in the same place", async (options, parts) => {
+    const seen = await viewer.see({ ending: "glb", bytes: await exported("cherry", "glb", options) }, SIDE, SIDE, eye);
+    expect(seen.found).toEqual({ ...plain.found, box: seen.found.box });
+    const extent = Math.max(...plain.found.box[1].map((most, axis) => most - plain.found.box[0][axis]!));
+    expect(apart(seen)).toBeLessThanOrEqual(parts === 0 ? 0 : extent / parts);
+    const { overlap, colour } = await agreement(plain.picture, seen.picture);
+    expect(overlap).toBeGreaterThan(0.99);
+    for (const steps of colour) expect(Math.abs(steps)).toBeLessThan(2);
+  });
+
+  it.each([[["--instanced"]], [["--instanced", "--quantised", "--compressed"]]])(
+    "with %j as the plain file: each leaf is there, in its own colour",
+    async (options) => {
+      const seen = await viewer.see(
+        { ending: "glb", bytes: await exported("cherry", "glb", options) },
+        SIDE,
+        SIDE,
+        eye,
+      );
+      expect(seen.found.instances).toBeGreaterThan(1000);
+      expect(seen.found.triangles).toBe(plain.found.triangles);
+      expect(seen.found.wood).toBe(plain.found.wood);
+      // All leaves have one bow and fold here, so that tips lie a little otherwise.
+      expect(apart(seen)).toBeLessThan(0.02);
+      const { overlap, colour } = await agreement(plain.picture, seen.picture);
+      expect(overlap).toBeGreaterThan(0.97);
+      for (const steps of colour) expect(Math.abs(steps)).toBeLessThan(6);
+    },
+  );
+});
