@@ -120,7 +120,7 @@ pub mod option {
     /// Those of pictures.
     pub const PICTURES: &[&str] = &[SIZE, TURN, RISE, FOV, DISTANCE, TARGET, FRAMES];
     /// Those of USD.
-    pub const SCENES: &[&str] = &[LOD, INSTANCED, HULL, BY_LIMB, LIGHTMAP, AUTHOR, LICENCE];
+    pub const SCENES: &[&str] = &[LOD, INSTANCED, HULL, BY_LIMB, LIGHTMAP, SWAY, AUTHOR, LICENCE];
 }
 
 impl ExportOptions {

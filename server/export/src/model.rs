@@ -17,7 +17,7 @@ pub struct Model {
     pub by_limb: bool,
     /// A second place for each vertex in a light map of so many texels square, one for each mesh.
     pub lightmap: Option<u32>,
-    /// At most so many bones for each plant, and animations of its sway (`glTF`).
+    /// At most so many bones for each plant, and animations of its sway.
     pub sway: Option<u32>,
     /// Numbers for each vertex by which shaders move it in the wind (`glTF`).
     pub wind_weights: bool,

@@ -2,12 +2,12 @@
 
 use espalier_mesh::{Body, RingTable, Style};
 use espalier_motion::{
-    Joints, Limbs, Rig, Rows, Scale, Weather, Wood,
+    Bone, Joints, Limbs, Rig, Rows, Scale, Weather, Wood,
     clips::{Clip, blow, clips, reaches},
 };
 use espalier_plant::{MetamerId, Plant};
 use espalier_settings::looks::WindLook;
-use glam::{DVec3, Vec3};
+use glam::{DQuat, DVec3, DVec4, Vec3};
 
 /// The wind that moves files of trees that stand in a calm, m/s.
 const BREEZE: f32 = 4.0;
@@ -21,6 +21,15 @@ pub(crate) struct Rider {
     pub share: f32,
     /// How much it flutters besides: 1 at the tips of leaves, 0 where they hang and on wood.
     pub flutter: f32,
+}
+
+/// How a bone stands on the one below it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Local {
+    /// Its turn against that one's, of the two that are the same the nearer one, so that keys blend the short way.
+    pub turn: DQuat,
+    /// Its place as that one has turned, m.
+    pub place: DVec3,
 }
 
 /// The joints of all plants of a scene, and how they move.
@@ -58,6 +67,21 @@ impl Swaying {
     pub(crate) fn rig(&self, seed: MetamerId, most: u32) -> Rig {
         let Self { limbs, wood, joints, reach, .. } = self;
         Rig::of(joints, limbs, wood, seed.raw(), reach, most as usize)
+    }
+
+    /// How all bones of a rig stand on those below them at a key of a clip; the first stands on nothing.
+    pub(crate) fn locals(&self, rig: &Rig, key: &[DVec3]) -> Vec<Local> {
+        let nodes = rig.stand(&self.joints, &self.wood, key);
+        let of = |(number, bone): (usize, &Bone)| {
+            let own = nodes[number];
+            let Some(parent) = bone.parent else { return Local { turn: own.turn, place: own.place } };
+            let below = nodes[parent as usize];
+            let back = below.turn.inverse();
+            let turn = (back * own.turn).normalize();
+            let turn = if turn.w < 0.0 { DQuat::from_vec4(-DVec4::from(turn)) } else { turn };
+            Local { turn, place: back * (own.place - below.place) }
+        };
+        rig.bones().iter().enumerate().map(of).collect()
     }
 
     /// For each vertex of a body what it goes along with.

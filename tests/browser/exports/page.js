@@ -1,5 +1,6 @@
 // Shows a file as any viewer that is built on three.js does.
 import {
+  AnimationMixer,
   Box3,
   Color,
   DirectionalLight,
@@ -17,9 +18,9 @@ import { read } from "./readers.js";
 /** three.js divides the light of diffuse surfaces by this, the page does not. */
 const LAMBERT = Math.PI;
 
-/** Draws the file at an address by a shot, and gives what its loader found in it. */
-globalThis.show = async (address, { eye, target, angle, light }) => {
-  const { tree, generator } = await read(address);
+/** Draws the file at an address by a shot, so many seconds within its sway, and gives what its loader found in it. */
+globalThis.show = async (address, { eye, target, angle, light }, time) => {
+  const { tree, generator, clips = [] } = await read(address);
   const renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
   renderer.setPixelRatio(devicePixelRatio);
   renderer.setSize(innerWidth, innerHeight);
@@ -31,6 +32,12 @@ globalThis.show = async (address, { eye, target, angle, light }) => {
   const scene = new Scene();
   scene.background = new Color(...light.middle);
   scene.add(tree);
+  const sway = clips.find(({ name }) => name.includes("Sway"));
+  if (sway && time !== null) {
+    const mixer = new AnimationMixer(tree);
+    mixer.clipAction(sway).play();
+    mixer.setTime(time);
+  }
   const box = new Box3().setFromObject(tree);
   const middle = box.getCenter(new Vector3());
   const reach = box.getSize(new Vector3()).length() / 2;
@@ -45,7 +52,7 @@ globalThis.show = async (address, { eye, target, angle, light }) => {
   const sky = new HemisphereLight(new Color(...light.above), new Color(...light.below), LAMBERT);
   scene.add(sun, sun.target, sky);
 
-  const counts = { meshes: 0, triangles: 0, wood: 0, instances: 0, points: 0, textures: 0 };
+  const counts = { meshes: 0, triangles: 0, wood: 0, instances: 0, points: 0, textures: 0, bones: 0 };
   tree.traverse((node) => {
     if (node.isPoints) counts.points += node.geometry.attributes.position.count;
     if (!node.isMesh) return;
@@ -53,6 +60,7 @@ globalThis.show = async (address, { eye, target, angle, light }) => {
     counts.meshes += 1;
     counts.triangles += trianglesOf(node);
     if (isWood(node)) counts.wood += trianglesOf(node);
+    if (node.isSkinnedMesh) counts.bones = Math.max(counts.bones, node.skeleton.bones.length);
     if (node.isInstancedMesh) counts.instances += node.count;
     for (const material of [node.material].flat())
       counts.textures += ["map", "normalMap", "roughnessMap"].filter((map) => material[map]).length;
@@ -68,7 +76,8 @@ globalThis.show = async (address, { eye, target, angle, light }) => {
     });
     renderer.render(scene, camera);
   };
-  return { generator, names: tree.children.map((node) => node.name), ...counts, box: boundsOf(tree) };
+  const names = tree.children.map((node) => node.name);
+  return { generator, names, ...counts, seconds: sway?.duration ?? 0, box: boundsOf(tree) };
 };
 
 /** How many triangles of a mesh are drawn: of several materials, those that have one. */
@@ -85,7 +94,7 @@ function isWood(node) {
   return node !== null && (/(^|[_ ])Wood/.test(node.name) || isWood(node.parent));
 }
 
-/** The box around all vertices, each instance's own as well: the least and the most along each axis. */
+/** The box around all vertices where bones and instances have them: the least and the most along each axis. */
 function boundsOf(tree) {
   tree.updateMatrixWorld(true);
   const box = new Box3();
@@ -97,8 +106,11 @@ function boundsOf(tree) {
       if (node.isInstancedMesh) node.getMatrixAt(instance, matrix);
       else matrix.identity();
       matrix.premultiply(node.matrixWorld);
-      for (let at = 0; at < position.count; at++)
-        box.expandByPoint(place.fromBufferAttribute(position, at).applyMatrix4(matrix));
+      for (let at = 0; at < position.count; at++) {
+        if (node.isSkinnedMesh) node.getVertexPosition(at, place);
+        else place.fromBufferAttribute(position, at);
+        box.expandByPoint(place.applyMatrix4(matrix));
+      }
     }
   });
   return [box.min.toArray(), box.max.toArray()];

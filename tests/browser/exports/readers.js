@@ -8,15 +8,16 @@ import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
 import { PLYLoader } from "three/examples/jsm/loaders/PLYLoader.js";
 import { USDLoader } from "three/examples/jsm/loaders/USDLoader.js";
 
-/** What each ending is read by: gives the tree, Y up and in metres, and the program that the file says it is from. */
+/** What each ending is read by: gives the tree, Y up and in metres, the program that the file says it is from, and how it moves. */
 const READERS = {
   glb: async (address) => {
-    const { scene, asset } = await new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).loadAsync(address);
-    return { tree: scene, generator: asset.generator };
+    const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
+    const { scene, asset, animations } = await loader.loadAsync(address);
+    return { tree: scene, generator: asset.generator, clips: animations };
   },
   "obj.zip": async (address) => ({ tree: await objOf(await bytesAt(address)), generator: null }),
-  usda: async (address) => ({ tree: await stageOf(address), generator: null }),
-  usdz: async (address) => ({ tree: await stageOf(address), generator: null }),
+  usda: async (address) => stageOf(address),
+  usdz: async (address) => stageOf(address),
   ply: async (address) => ({ tree: cloudOf(await bytesAt(address)), generator: null }),
 };
 
@@ -55,7 +56,7 @@ async function stageOf(address) {
   stage.traverse((node) => {
     for (const material of node.isMesh ? [node.material].flat() : []) material.side = DoubleSide;
   });
-  return stage;
+  return { tree: stage, generator: null, clips: stage.animations };
 }
 
 /** Colours of labels of a cloud of points, and where the light on it comes from, for the file has neither. */

@@ -20,6 +20,10 @@ export interface Found {
   readonly instances: number;
   readonly points: number;
   readonly textures: number;
+  /** Of one plant. */
+  readonly bones: number;
+  /** Those of its loop of sway; 0 where it has none. */
+  readonly seconds: number;
   /** The least and the most of all vertices along each axis, in metres. */
   readonly box: readonly [readonly number[], readonly number[]];
 }
@@ -70,7 +74,8 @@ export class Viewer {
     return new Viewer(browser, chunk.code);
   }
 
-  async see({ ending, bytes }: Exported, width: number, height: number, shot: Shot): Promise<Seen> {
+  /** `time` is how far it has come in its loop of sway, in seconds; without it stands as it grew. */
+  async see({ ending, bytes }: Exported, width: number, height: number, shot: Shot, time?: number): Promise<Seen> {
     const page = await this.browser.newPage({ viewport: { width, height }, deviceScaleFactor: DETAIL });
     try {
       const address = "http://viewer.test/";
@@ -81,7 +86,7 @@ export class Viewer {
       );
       await page.goto(address);
       await page.addScriptTag({ content: this.script });
-      const found = (await page.evaluate(`show("/tree.${ending}", ${JSON.stringify(shot)})`)) as Found;
+      const found = (await page.evaluate(`show("/tree.${ending}", ${JSON.stringify(shot)}, ${time ?? null})`)) as Found;
       const picture = await page.screenshot();
       await page.evaluate("showWood()");
       return { found, picture, wood: await page.screenshot() };

@@ -57,6 +57,7 @@ it.each(SPECIES)("three.js and the server show a %s as the page does", async (sp
     ["the server", drawn, DRAWN],
   ] as const) {
     const agreement = agreementOf(page, cells);
+    console.log(species, by, JSON.stringify(agreement));
     expect(agreement, `${by}: ${JSON.stringify(agreement)}`).toSatisfy(within(tolerance));
     // So would not the picture of another species.
     if (before) expect(agreementOf(before, cells), by).not.toSatisfy(within(tolerance));

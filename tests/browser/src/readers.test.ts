@@ -59,6 +59,13 @@ async function agreement(one: Buffer, other: Buffer) {
   return agreementOf(await cells(one), await cells(other));
 }
 
+type Bounds = Seen["found"]["box"];
+
+/** The most by which two boxes differ, in metres. */
+function apart(one: Bounds, other: Bounds): number {
+  return Math.max(...[0, 1].flatMap((end) => one[end]!.map((at, axis) => Math.abs(at - other[end]![axis]!))));
+}
+
 describe("three.js reads USD", () => {
   it.each([
     ["cherry", "usda"],
@@ -82,6 +89,23 @@ describe("three.js reads USD", () => {
   });
 });
 
+it.each(["usda", "usdz"])("three.js moves the bones of a cherry in .%s as those in glTF", async (ending) => {
+  const [eye, options] = [await shot("cherry"), ["--lod", "1", "--sway", "64"]];
+  const still = await exported("cherry", "glb", ["--lod", "1"]);
+  const { found: atRest } = await viewer.see({ ending: "glb", bytes: still }, SIDE, SIDE, eye);
+  const [gltf, usd] = [await exported("cherry", "glb", options), await exported("cherry", ending, options)];
+  for (const time of [0, 2.5]) {
+    const one = await viewer.see({ ending: "glb", bytes: gltf }, SIDE, SIDE, eye, time);
+    const { found, picture } = await viewer.see({ ending, bytes: usd }, SIDE, SIDE, eye, time);
+    expect(found.bones).toBeGreaterThan(20);
+    expect([found.bones, found.seconds, found.triangles]).toEqual([one.found.bones, 8, one.found.triangles]);
+    // Shares of bones are rounded to a thousandth in one file, to a 255th in the other.
+    expect(apart(found.box, one.found.box)).toBeLessThan(0.005);
+    expect(apart(found.box, atRest.box), "it has moved").toBeGreaterThan(0.02);
+    expect((await agreement(one.picture, picture)).overlap).toBeGreaterThan(ending === "usda" ? 0.8 : 0.95);
+  }
+});
+
 describe("three.js reads packed glTF", () => {
   let plain: Seen;
   let eye: Shot;
@@ -91,12 +115,6 @@ describe("three.js reads packed glTF", () => {
     plain = await viewer.see({ ending: "glb", bytes: await exported("cherry", "glb") }, SIDE, SIDE, eye);
     expect(plain.found.instances).toBe(0);
   });
-
-  /** The most by which the box around all vertices differs, in metres. */
-  const apart = ({ found }: Seen) =>
-    Math.max(
-      ...[0, 1].flatMap((end) => found.box[end]!.map((at, axis) => Math.abs(at - plain.found.box[end]![axis]!))),
-    );
 
   it.each([
     // What is compressed is the same to the bit.
@@ -108,7 +126,7 @@ describe("three.js reads packed glTF", () => {
     const seen = await viewer.see({ ending: "glb", bytes: await exported("cherry", "glb", options) }, SIDE, SIDE, eye);
     expect(seen.found).toEqual({ ...plain.found, box: seen.found.box });
     const extent = Math.max(...plain.found.box[1].map((most, axis) => most - plain.found.box[0][axis]!));
-    expect(apart(seen)).toBeLessThanOrEqual(parts === 0 ? 0 : extent / parts);
+    expect(apart(seen.found.box, plain.found.box)).toBeLessThanOrEqual(parts === 0 ? 0 : extent / parts);
     const { overlap, colour } = await agreement(plain.picture, seen.picture);
     expect(overlap).toBeGreaterThan(0.99);
     for (const steps of colour) expect(Math.abs(steps)).toBeLessThan(2);
@@ -127,7 +145,7 @@ describe("three.js reads packed glTF", () => {
       expect(seen.found.triangles).toBe(plain.found.triangles);
       expect(seen.found.wood).toBe(plain.found.wood);
       // All leaves have one bow and fold here, so that tips lie a little otherwise.
-      expect(apart(seen)).toBeLessThan(0.02);
+      expect(apart(seen.found.box, plain.found.box)).toBeLessThan(0.02);
       const { overlap, colour } = await agreement(plain.picture, seen.picture);
       expect(overlap).toBeGreaterThan(0.97);
       for (const steps of colour) expect(Math.abs(steps)).toBeLessThan(6);

@@ -72,6 +72,19 @@ fn exports_open_in_other_programs() {
     assert_eq!(printed.lines().count(), 3, "{printed}");
     assert!(!printed.lines().last().is_some_and(|last| last.contains(" 0 leaves as instances")), "{printed}");
 
+    // Bones that sway in a loop, and vertices that go along with them, says UsdSkel.
+    let swaying =
+        [("usda", &["--by-limb"][..]), ("usdz", &["--lod", "set", "--hull"][..])].map(|(ending, more)| {
+            grown("cherry", &[&["--sway", "64"], more].concat(), &format!("sways.{ending}"))
+        });
+    let printed = run(Command::new(&python).arg(home.join("usd.py")).args(swaying));
+    let bones: Vec<&str> = printed.lines().filter(|line| line.contains(" bones, ")).collect();
+    assert_eq!(bones.len(), 2, "{printed}");
+    for line in bones {
+        assert!((20..=64).contains(&before(line, " bones")), "{printed}");
+        assert!(!line.contains(" 0.00 m"), "{printed}");
+    }
+
     // As many triangles, of the same size, as in glTF, whatever the leaves.
     for species in ["scots-pine", "cherry", "maple"] {
         let file = |ending: &str| grown(species, &[], &format!("whole-{species}.{ending}"));

@@ -1,13 +1,13 @@
 //! Bones, skins and animations: how a plant sways.
 
 use espalier_motion::{Bound, Rig, clips::Clip};
-use glam::{DQuat, DVec3, Vec3};
+use glam::Vec3;
 
 use super::{vertex::Attribute, writer::Writer};
 use crate::{
     ExportError,
     gltf::{Animation, Channel, FLOAT, Node, Path, Sampler, Skin, Target},
-    swaying::{Rider, Swaying},
+    swaying::{Local, Rider, Swaying},
 };
 
 /// Bytes of JSON for each bone: its node, and what says of both clips where its keys are.
@@ -93,21 +93,15 @@ impl<'a> Skeleton<'a> {
     }
 
     fn animate(&self, writer: &mut Writer<'_>, clip: &Clip, owner: &str) -> Result<(), ExportError> {
-        let Swaying { joints, wood, .. } = self.swaying;
         let bones = self.rig.bones();
         let count = clip.keys.len();
         let mut turns: Vec<Vec<f32>> = vec![Vec::with_capacity(4 * count); bones.len()];
         let mut places: Vec<Vec<f32>> = vec![Vec::with_capacity(3 * count); bones.len()];
         for key in &clip.keys {
-            let stands = self.rig.stand(joints, wood, key);
-            for (number, bone) in bones.iter().enumerate() {
-                let Some(parent) = bone.parent else { continue };
-                let (below, own) = (stands[parent as usize], stands[number]);
-                let back = below.turn.inverse();
-                let turn = (back * own.turn).normalize();
-                // Of the two that are the same turn the nearer one, so that keys blend the short way.
-                let turn = if turn.w < 0.0 { DQuat::from_vec4(-glam::DVec4::from(turn)) } else { turn };
-                let place: DVec3 = back * (own.place - below.place);
+            // The first is the ground, which stands still.
+            for (number, Local { turn, place }) in
+                self.swaying.locals(&self.rig, key).into_iter().enumerate().skip(1)
+            {
                 turns[number].extend(turn.to_array().map(|part| part as f32));
                 places[number].extend(place.as_vec3().to_array());
             }

@@ -17,6 +17,12 @@ impl<'a> Array<'a> {
         Ok(Self { out, is_begun: false })
     }
 
+    /// Begins one that holds at a time.
+    pub(super) fn begin_key(out: &'a mut dyn Write, time: usize) -> Result<Self, ExportError> {
+        write!(out, "{time}: [")?;
+        Ok(Self { out, is_begun: false })
+    }
+
     pub(super) fn put(&mut self, item: impl Display) -> Result<(), ExportError> {
         let between = if self.is_begun { ", " } else { "" };
         self.is_begun = true;

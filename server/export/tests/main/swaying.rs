@@ -1,6 +1,6 @@
 //! Skins and animations: bones stand where the wind has them, vertices rest where they grew.
 
-use espalier_export::{Model, in_memory, joints_csv};
+use espalier_export::{About, Detail, Model, in_memory, joints_csv};
 use espalier_growth::species;
 use espalier_mesh::RingTable;
 use espalier_motion::{
@@ -8,7 +8,7 @@ use espalier_motion::{
     clips::{Clip, blow, clips, reaches},
 };
 use espalier_plant::Plant;
-use espalier_settings::{Appearance, looks::WindLook};
+use espalier_settings::{Appearance, ParameterValues, looks::WindLook};
 use glam::{DVec3, Mat4, Quat, Vec3};
 use serde_json::Value;
 
@@ -48,6 +48,14 @@ fn motion(plant: &Plant) -> ([Clip; 2], Vec<Vec<Vec<Vec3>>>, usize) {
     });
     let places = places.collect();
     (clips, places, rig.bones().len())
+}
+
+fn usda(plant: &Plant, looks: &Appearance, model: &Model) -> String {
+    let parameters = ParameterValues { internode_length: METRES, ..ParameterValues::default() };
+    let (program, simulation, species, seed, author, licence) = ("Espalier", 1, None, None, None, None);
+    let about = About { program, simulation, species, seed, parameters: &parameters, author, licence };
+    let file = in_memory(|out| espalier_export::usda(plant, &style(), looks, &about, model, out));
+    String::from_utf8(file.expect("it exports")).expect("it is text")
 }
 
 fn index(value: &Value) -> usize {
@@ -183,6 +191,95 @@ fn what_hardly_is_a_tree_and_several_of_them_sway_as_well() {
             assert_eq!(root(&file)["skins"].as_array().map_or(0, Vec::len), still.len());
         }
     }
+}
+
+/// The numbers of a list that follows a name in text.
+fn list(text: &str, name: &str) -> Vec<f32> {
+    let list = text.split(name).nth(1).and_then(|rest| rest.split(']').next()).unwrap_or_default();
+    let words = list.split(|letter: char| "[(), ".contains(letter)).filter(|word| !word.is_empty());
+    words.map(|word| word.parse().unwrap_or_else(|_| panic!("{name}: {word} is no number"))).collect()
+}
+
+#[test]
+fn a_skeleton_of_usd_stands_where_motion_has_it_and_its_loop_closes() {
+    let mut document = raised(species::find("oak").expect("there are oaks"), 4);
+    let plant = document.portrait();
+    let text = usda(plant, &windy(), &sways(BONES));
+    let (clips, places, bones) = motion(plant);
+    assert!(text.contains("def SkelRoot \"Tree\"") && text.contains("    endTimeCode = 240\n"));
+    let skeleton = text.split("def Skeleton \"Bones\"").nth(1).expect("it has bones");
+    let names = skeleton.split("joints = [").nth(1).and_then(|rest| rest.split(']').next()).expect("names");
+    let names: Vec<&str> = names.split(", ").map(|name| name.trim_matches('"')).collect();
+    assert_eq!(names.len(), bones);
+    let parent = |name: &str| {
+        let (above, _) = name.rsplit_once('/')?;
+        names.iter().position(|other| *other == above)
+    };
+    let parents: Vec<Option<usize>> = names.iter().map(|name| parent(name)).collect();
+    assert_eq!(parents.iter().filter(|parent| parent.is_none()).count(), 1);
+    let composed = |local: &dyn Fn(usize) -> Mat4| {
+        let mut all: Vec<Mat4> = Vec::new();
+        for (bone, parent) in parents.iter().enumerate() {
+            all.push(parent.map_or(Mat4::IDENTITY, |parent| all[parent]) * local(bone));
+        }
+        all
+    };
+    let matrices = |name: &str| -> Vec<Mat4> {
+        let values = list(skeleton, name);
+        values.as_chunks::<16>().0.iter().map(Mat4::from_cols_array).collect()
+    };
+    let (bind, rest) = (matrices("bindTransforms = "), matrices("restTransforms = "));
+    for (composed, bind) in composed(&|bone| rest[bone]).iter().zip(&bind) {
+        assert!(composed.abs_diff_eq(*bind, 1e-4), "at rest a bone stands where its vertices are bound");
+    }
+    let keys = |name: &str| -> Vec<Vec<f32>> {
+        let samples = skeleton.split(name).nth(1).and_then(|rest| rest.split('}').next()).expect("samples");
+        samples.split('\n').filter(|line| line.contains(": [")).map(|line| list(line, ": ")).collect()
+    };
+    let (moves, turns) = (keys("translations.timeSamples"), keys("rotations.timeSamples"));
+    assert_eq!([moves.len(), turns.len()], [clips[0].keys.len(); 2]);
+    for key in [0, 1, 50, 133, 240] {
+        let local = |bone: usize| {
+            let [w, x, y, z] = *turns[key][4 * bone..].first_chunk().expect("four numbers");
+            Mat4::from_rotation_translation(
+                Quat::from_xyzw(x, y, z, w),
+                Vec3::from_slice(&moves[key][3 * bone..]),
+            )
+        };
+        for (matrix, &wanted) in composed(&local).iter().zip(&places[0][key]) {
+            let found = matrix.transform_point3(Vec3::ZERO);
+            assert!(found.distance(wanted) < 1e-3, "key {key}: {found} is not {wanted}");
+        }
+    }
+    assert_eq!((&moves[0], &turns[0]), (&moves[240], &turns[240]), "the loop has no seam");
+    assert_ne!(turns[0], turns[100]);
+    let mut parts = 0;
+    for part in text.split("def Mesh ").skip(1) {
+        let points = list(part, "point3f[] points = ").len() / 3;
+        let (which, shares) = (list(part, "jointIndices = "), list(part, "jointWeights = "));
+        assert_eq!([which.len(), shares.len()], [2 * points; 2]);
+        assert!(which.iter().all(|&bone| (bone as usize) < bones));
+        assert!(shares.as_chunks::<2>().0.iter().all(|[one, other]| (one + other - 1.0).abs() < 1e-6));
+        assert!(which.iter().any(|&bone| bone > 10.0), "it goes along with many of them");
+        parts += 1;
+    }
+    assert_eq!(parts, 2, "wood and leaves");
+}
+
+#[test]
+fn bones_of_usd_go_with_levels_limbs_and_hulls_and_stand_in_a_plant_that_has_none() {
+    let plain = Plant::new(Vec3::ZERO);
+    assert!(usda(&plain, &looks(), &sways(2)).contains("def SkelRoot"));
+    let mut document = raised(species::find("oak").expect("there are oaks"), 4);
+    let options = Model { detail: Detail::Set, hull: true, by_limb: true, ..sways(BONES) };
+    let text = usda(document.portrait(), &windy(), &options);
+    for part in text.split("def Mesh ").skip(1) {
+        let part = part.split("def Xform").next().expect("it is there");
+        let stands = part.starts_with("\"UCX_") || part.starts_with("\"Billboard");
+        assert_eq!(part.contains("SkelBindingAPI"), !stands, "hulls and billboards stand still");
+        assert_eq!(part.contains("rel skel:skeleton = </Plants/Tree/Bones>"), !stands);
+    }
+    assert!(!usda(document.portrait(), &windy(), &Model::default()).contains("Skel"));
 }
 
 #[test]
