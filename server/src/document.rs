@@ -48,6 +48,8 @@ pub enum Format {
     Glb,
     /// Wavefront OBJ with its materials and textures, in a ZIP file.
     Obj,
+    /// A model with textures of pivots, in a ZIP file.
+    Pivots,
     /// USD as text.
     Usda,
     /// The same with its textures.
@@ -172,6 +174,19 @@ pub const FORMATS: &[FormatRow] = &[
         ],
         option::MESHES,
         [480e3, 2900.0, 1600.0],
+    ),
+    row(
+        Format::Pivots,
+        ["pivots.zip", "triangles with pivots for Unreal", "application/zip"],
+        [
+            ["Model with pivots (Unreal)", "Modell mit Drehpunkten (Unreal)"],
+            [
+                "A glTF model and the textures of Pivot Painter 2, by which Unreal sways each limb in a shader.",
+                "Ein glTF-Modell und die Texturen von Pivot Painter 2, nach denen Unreal jeden Ast im Shader schwingt.",
+            ],
+        ],
+        option::PIVOTS,
+        [540e3, 1400.0, 880.0],
     ),
     row(
         Format::Usda,
@@ -454,6 +469,9 @@ pub fn write(
     match format {
         Format::Glb => espalier_export::glb(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Obj => espalier_export::obj(document.portrait(), &style, &appearance, &about, &model, out),
+        Format::Pivots => {
+            espalier_export::pivots(document.portrait(), &style, &appearance, &about, &model, out)
+        }
         Format::Usda => espalier_export::usda(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Usdz => espalier_export::usdz(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Skeleton => espalier_export::skeleton_json(document.portrait(), &style, &origin, out),

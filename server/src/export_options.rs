@@ -117,6 +117,8 @@ pub mod option {
     pub const LICENCE: &str = "licence";
     /// Those of all files of triangles.
     pub const MESHES: &[&str] = &[LOD, HULL, BY_LIMB, AUTHOR, LICENCE];
+    /// Those of models with pivots, whose triangles stay in one mesh for each kind.
+    pub const PIVOTS: &[&str] = &[LOD, AUTHOR, LICENCE];
     /// Those of pictures.
     pub const PICTURES: &[&str] = &[SIZE, TURN, RISE, FOV, DISTANCE, TARGET, FRAMES];
     /// Those of USD.

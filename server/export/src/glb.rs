@@ -23,6 +23,7 @@ use crate::{
     About, ExportError, Model, Sink,
     assembly::{Assembly, Builder, Part, Scatter, Surface},
     gltf::{Asset, Scene},
+    pivots::Elements,
     swaying::Swaying,
     wind_weights::WindWeights,
 };
@@ -55,27 +56,52 @@ pub fn glb(
             None => swaying,
         }
     });
-    let assembly = Assembly::of(plant, style, appearance, about.species, model).moved_by(swaying.as_ref());
-    let asset = Asset {
-        version: "2.0",
-        generator: about.program.to_owned(),
-        copyright: about.copyright(),
-        extras: about.extras(),
-    };
-    let capacity = match assembly.most_parts() {
-        0 => 0,
-        parts => {
-            let bones = model.sway.unwrap_or_default() as usize * assembly.plants();
-            let parts = parts * (CAPACITY_OF_PART + 8 * model.sway.unwrap_or_default() as usize);
-            CAPACITY + serde_json::to_vec(&asset)?.len() + parts + bones * CAPACITY_OF_BONE
-        }
-    };
-    let packing = Packing { is_quantised: model.quantised, is_compressed: model.compressed };
-    let weights = swaying.as_ref().filter(|_| model.wind_weights).map(WindWeights::of);
-    let writer = Writer::new(out, asset, scale, packing, capacity)?;
-    let mut file = File { writer, skeleton: None, weights };
-    assembly.build(&mut file)?;
-    file.writer.finish()
+    Source { plant, style, appearance, about, model }.write(swaying.as_ref(), None, out)
+}
+
+/// What a file is made of.
+#[derive(Clone, Copy)]
+pub(crate) struct Source<'a> {
+    pub plant: &'a Plant,
+    pub style: &'a Style,
+    pub appearance: &'a Appearance,
+    pub about: &'a About<'a>,
+    pub model: &'a Model,
+}
+
+impl Source<'_> {
+    /// Writes the file: with how the plants sway, and with second places of vertices in textures of elements, where these
+    /// are asked for.
+    pub(crate) fn write(
+        &self,
+        swaying: Option<&Swaying>,
+        elements: Option<&Elements>,
+        out: &mut dyn Sink,
+    ) -> Result<(), ExportError> {
+        let Self { plant, style, appearance, about, model } = *self;
+        let scale = about.scale()?;
+        let assembly = Assembly::of(plant, style, appearance, about.species, model).moved_by(swaying);
+        let asset = Asset {
+            version: "2.0",
+            generator: about.program.to_owned(),
+            copyright: about.copyright(),
+            extras: about.extras(),
+        };
+        let capacity = match assembly.most_parts() {
+            0 => 0,
+            parts => {
+                let bones = model.sway.unwrap_or_default() as usize * assembly.plants();
+                let parts = parts * (CAPACITY_OF_PART + 8 * model.sway.unwrap_or_default() as usize);
+                CAPACITY + serde_json::to_vec(&asset)?.len() + parts + bones * CAPACITY_OF_BONE
+            }
+        };
+        let packing = Packing { is_quantised: model.quantised, is_compressed: model.compressed };
+        let weights = swaying.filter(|_| model.wind_weights).map(WindWeights::of);
+        let writer = Writer::new(out, asset, scale, packing, capacity)?;
+        let mut file = File { writer, skeleton: None, weights, elements };
+        assembly.build(&mut file)?;
+        file.writer.finish()
+    }
 }
 
 /// A file, the bones of the plant that is written, and how vertices move where they say so.
@@ -83,6 +109,7 @@ struct File<'w, 's> {
     writer: Writer<'w>,
     skeleton: Option<Skeleton<'s>>,
     weights: Option<WindWeights<'s>>,
+    elements: Option<&'s Elements>,
 }
 
 impl<'s> Builder<'s> for File<'_, 's> {
@@ -103,7 +130,8 @@ impl<'s> Builder<'s> for File<'_, 's> {
 
     fn part(&mut self, part: &Part<'_>) -> Result<(), ExportError> {
         // What is not quantised has no bounds.
-        let Self { writer, skeleton, weights } = self;
+        let Self { writer, skeleton, weights, elements } = self;
+        let elements = elements.filter(|_| part.rides);
         let skeleton = skeleton.as_ref().filter(|_| part.rides);
         let weights = weights.as_ref().filter(|_| part.rides);
         let reach = if writer.packing.is_quantised { part.reach(writer.origin())? } else { 1.0 };
@@ -113,6 +141,9 @@ impl<'s> Builder<'s> for File<'_, 's> {
         let mut vertices = writer.begin_part(part.repeats, reach);
         if let Some(map) = part.lightmap {
             vertices = vertices.with_lightmap(&map.about(writer.scale));
+        }
+        if elements.is_some() {
+            vertices = vertices.with_elements();
         }
         if skeleton.is_some() {
             vertices = vertices.with_bones();
@@ -126,8 +157,9 @@ impl<'s> Builder<'s> for File<'_, 's> {
             for (index, &place) in block.mesh.positions.iter().enumerate() {
                 let (normal, uv) = (block.mesh.normals[index], block.mesh.uvs[index]);
                 let (tangent, colour) = (block.tangents[index], block.colours[index]);
-                let lit = block.places.map_or(Vec2::ZERO, |places| places[index]);
                 let rider = block.riders.get(index).copied();
+                let texel = rider.zip(elements).map(|(rider, elements)| elements.texel(rider.row));
+                let lit = texel.or(block.places.map(|places| places[index])).unwrap_or_default();
                 let bound = rider.zip(skeleton).map(|(rider, skeleton)| skeleton.bound(rider));
                 let metres = place * writer.scale;
                 let wind = rider.zip(weights).map(|(rider, weights)| weights.of_vertex(rider, metres));

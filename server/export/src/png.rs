@@ -24,6 +24,11 @@ pub(crate) fn square<const CHANNELS: usize>(side: usize, pixels: &[[u8; CHANNELS
     file([side, side], colours, Filter::Adaptive, None, pixels.as_flattened())
 }
 
+/// A file of red, green, blue and cover in a byte each, as they are.
+pub(crate) fn rgba(size: [usize; 2], pixels: &[[u8; 4]]) -> Vec<u8> {
+    file(size, ColorType::Rgba, Filter::NoFilter, None, pixels.as_flattened())
+}
+
 /// A file of pictures that follow one another for ever, `seconds` for all `count` of them.
 pub(crate) fn animated(
     [width, height]: [usize; 2],

@@ -20,7 +20,7 @@ const LAMBERT = Math.PI;
 
 /** Draws the file at an address by a shot, so many seconds within its sway, and gives what its loader found in it. */
 globalThis.show = async (address, { eye, target, angle, light }, time) => {
-  const { tree, generator, clips = [] } = await read(address);
+  const { tree, generator, clips = [], texture = null } = await read(address);
   const renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
   renderer.setPixelRatio(devicePixelRatio);
   renderer.setSize(innerWidth, innerHeight);
@@ -77,7 +77,8 @@ globalThis.show = async (address, { eye, target, angle, light }, time) => {
     renderer.render(scene, camera);
   };
   const names = tree.children.map((node) => node.name);
-  return { generator, names, ...counts, seconds: sway?.duration ?? 0, box: boundsOf(tree) };
+  const floats = texture && { width: texture.width, height: texture.height, bits: [...texture.data] };
+  return { generator, names, ...counts, seconds: sway?.duration ?? 0, box: boundsOf(tree), floats };
 };
 
 /** How many triangles of a mesh are drawn: of several materials, those that have one. */

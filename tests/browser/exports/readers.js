@@ -1,7 +1,18 @@
 // Reads what the program writes by the loaders that three.js has for it.
-import { BufferAttribute, Color, DoubleSide, FileLoader, LoadingManager, Points, PointsMaterial, Vector3 } from "three";
+import {
+  BufferAttribute,
+  Color,
+  DoubleSide,
+  FileLoader,
+  HalfFloatType,
+  LoadingManager,
+  Points,
+  PointsMaterial,
+  Vector3,
+} from "three";
 import { unzipSync } from "three/examples/jsm/libs/fflate.module.js";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
+import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { MTLLoader } from "three/examples/jsm/loaders/MTLLoader.js";
 import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
@@ -16,6 +27,13 @@ const READERS = {
     return { tree: scene, generator: asset.generator, clips: animations };
   },
   "obj.zip": async (address) => ({ tree: await objOf(await bytesAt(address)), generator: null }),
+  "pivots.zip": async (address) => {
+    const files = unzipSync(new Uint8Array(await bytesAt(address)));
+    const bytes = (name) => files[name].slice().buffer;
+    const { scene, asset } = await new GLTFLoader().parseAsync(bytes("tree.glb"), "");
+    const texture = new EXRLoader().setDataType(HalfFloatType).parse(bytes("tree_pivot_index.exr"));
+    return { tree: scene, generator: asset.generator, texture };
+  },
   usda: async (address) => stageOf(address),
   usdz: async (address) => stageOf(address),
   ply: async (address) => ({ tree: cloudOf(await bytesAt(address)), generator: null }),

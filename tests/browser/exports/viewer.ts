@@ -26,6 +26,8 @@ export interface Found {
   readonly seconds: number;
   /** The least and the most of all vertices along each axis, in metres. */
   readonly box: readonly [readonly number[], readonly number[]];
+  /** A texture of 16-bit floats beside it, four to a texel, rows from below. */
+  readonly floats: { readonly width: number; readonly height: number; readonly bits: readonly number[] } | null;
 }
 
 /** What three.js made of a file. */

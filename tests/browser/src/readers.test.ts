@@ -106,6 +106,34 @@ it.each(["usda", "usdz"])("three.js moves the bones of a cherry in .%s as those 
   }
 });
 
+it("three.js reads a model with pivots, and each element finds the ground by its bearers", async () => {
+  const [eye, options] = [await shot("cherry"), ["--lod", "1"]];
+  const plain = await viewer.see({ ending: "glb", bytes: await exported("cherry", "glb", options) }, SIDE, SIDE, eye);
+  const bytes = await exported("cherry", "pivots.zip", options);
+  const { found, picture } = await viewer.see({ ending: "pivots.zip", bytes }, SIDE, SIDE, eye);
+  expect([found.triangles, found.box]).toEqual([plain.found.triangles, plain.found.box]);
+  expect((await agreement(plain.picture, picture)).overlap).toBe(1);
+  const { width, height, bits } = found.floats!;
+  expect(bits.length).toBe(4 * width * height);
+  const texel = (element: number) => {
+    const row = height - 1 - Math.floor(element / width);
+    const start = 4 * (row * width + (element % width));
+    return bits.slice(start, start + 4);
+  };
+  expect(texel(0), "the trunk turns at the origin and bears itself").toEqual([0, 0, 0, 1024]);
+  let deepest = 0;
+  for (let element = 0; element < width * height; element++) {
+    const parent = (of: number) => texel(of)[3]! - 1024;
+    let level = 0;
+    for (let at = element; at !== 0; at = parent(at)) {
+      expect(parent(at)).toBeLessThan(at);
+      level += 1;
+    }
+    deepest = Math.max(deepest, level);
+  }
+  expect(deepest).toBe(3);
+});
+
 describe("three.js reads packed glTF", () => {
   let plain: Seen;
   let eye: Shot;

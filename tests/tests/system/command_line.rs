@@ -268,7 +268,7 @@ fn what_a_grammar_writes_leaves_in_every_format_and_sways() {
     let text = "axiom: A\nA --> F[+(30)FA][-(30)FA]/(90)FA\n";
     fs::write(&path, text).expect("it can be written");
     let path = path.to_str().expect("a plain name");
-    for ending in ["glb", "usda", "obj.zip", "mtg", "ply", "joints.csv", "png"] {
+    for ending in ["glb", "usda", "obj.zip", "pivots.zip", "mtg", "ply", "joints.csv", "png"] {
         let out = scratch.path(&format!("tree.{ending}"));
         let file = out.to_str().expect("a plain name");
         let finished = program::run(&["grow", "--grammar", path, "--depth", "5", "--export", file]);

@@ -306,6 +306,11 @@ impl Part {
         Self { layout: self.layout.with_wind(), ..self }.saying("wind", about)
     }
 
+    /// Its vertices have places in textures with a texel for each element; none have been added yet.
+    pub(super) fn with_elements(self) -> Self {
+        Self { layout: self.layout.with_lightmap(), ..self }
+    }
+
     fn saying(mut self, key: &str, about: &Value) -> Self {
         self.extras.get_or_insert_with(|| json!({}))[key] = about.clone();
         self

@@ -2,6 +2,7 @@
 
 mod lightmap;
 mod models;
+mod pivots;
 mod reader;
 mod saplings;
 mod scenes;

@@ -26,7 +26,7 @@ fn file(format: Format, model: &Model) -> Vec<u8> {
 }
 
 /// The members of a ZIP file by its own list, each with where its data begin.
-fn members(zip: &[u8]) -> BTreeMap<String, (usize, Vec<u8>)> {
+pub fn members(zip: &[u8]) -> BTreeMap<String, (usize, Vec<u8>)> {
     let half = |at: usize| usize::from(u16::from_le_bytes([zip[at], zip[at + 1]]));
     let word = |at: usize| u32::from_le_bytes(zip[at..at + 4].try_into().expect("four bytes")) as usize;
     let end = zip.len() - 22;
