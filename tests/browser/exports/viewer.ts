@@ -34,12 +34,22 @@ export interface Found {
 export interface Seen {
   readonly found: Found;
   readonly picture: Buffer;
-  /** The same picture without all that is not wood. */
-  readonly wood: Buffer;
+  /** The same picture without all that is not wood, where that is asked for. */
+  readonly wood: Buffer | null;
+}
+
+/** What is asked for besides a picture. */
+export interface Wish {
+  /** How far it has come in its loop of sway, in seconds; without it stands as it grew. */
+  readonly time?: number;
+  readonly wood?: boolean;
 }
 
 /** Pixels drawn for each one of the picture, along each side, as for those of the page. */
 const DETAIL = FINAL.oversampling;
+
+/** A processor that has other work as well may need long for a picture, in milliseconds. */
+const PATIENCE = 240_000;
 
 /** The client's own copy of three.js. */
 const three = dirname(
@@ -76,10 +86,16 @@ export class Viewer {
     return new Viewer(browser, chunk.code);
   }
 
-  /** `time` is how far it has come in its loop of sway, in seconds; without it stands as it grew. */
-  async see({ ending, bytes }: Exported, width: number, height: number, shot: Shot, time?: number): Promise<Seen> {
+  async see(
+    { ending, bytes }: Exported,
+    width: number,
+    height: number,
+    shot: Shot,
+    { time, wood = false }: Wish = {},
+  ): Promise<Seen> {
     const page = await this.browser.newPage({ viewport: { width, height }, deviceScaleFactor: DETAIL });
     try {
+      page.setDefaultTimeout(PATIENCE);
       const address = "http://viewer.test/";
       await page.route(`${address}**`, (route) =>
         route.request().url().endsWith(`.${ending}`)
@@ -90,6 +106,7 @@ export class Viewer {
       await page.addScriptTag({ content: this.script });
       const found = (await page.evaluate(`show("/tree.${ending}", ${JSON.stringify(shot)}, ${time ?? null})`)) as Found;
       const picture = await page.screenshot();
+      if (!wood) return { found, picture, wood: null };
       await page.evaluate("showWood()");
       return { found, picture, wood: await page.screenshot() };
     } finally {

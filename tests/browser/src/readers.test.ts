@@ -73,13 +73,14 @@ describe("three.js reads USD", () => {
     ["maple", "usdz"],
   ])("and shows the wood of a %s in .%s, with the faces of its cuts, as in glTF", async (species, ending) => {
     const [eye, level] = [await shot(species), ["--lod", "1"]];
-    const plain = await viewer.see({ ending: "glb", bytes: await exported(species, "glb", level) }, SIDE, SIDE, eye);
+    const gltf = await exported(species, "glb", level);
+    const plain = await viewer.see({ ending: "glb", bytes: gltf }, SIDE, SIDE, eye, { wood: true });
     const bytes = await exported(species, ending, level);
     expect(bytes.includes('def GeomSubset "Cut"'), "a thick tip ends in the face of a cut").toBe(true);
-    const { found, wood, picture } = await viewer.see({ ending, bytes }, SIDE, SIDE, eye);
+    const { found, wood, picture } = await viewer.see({ ending, bytes }, SIDE, SIDE, eye, { wood: true });
     expect(found.wood).toBe(plain.found.wood);
     expect(found.triangles).toBe(plain.found.triangles);
-    const ofWood = await agreement(plain.wood, wood);
+    const ofWood = await agreement(plain.wood!, wood!);
     expect(ofWood.overlap, JSON.stringify(ofWood)).toBeGreaterThan(0.95);
     const ofAll = await agreement(plain.picture, picture);
     // Text has no pictures, so its leaves are whole cards.
@@ -90,13 +91,13 @@ describe("three.js reads USD", () => {
 });
 
 it.each(["usda", "usdz"])("three.js moves the bones of a cherry in .%s as those in glTF", async (ending) => {
-  const [eye, options] = [await shot("cherry"), ["--lod", "1", "--sway", "64"]];
-  const still = await exported("cherry", "glb", ["--lod", "1"]);
+  const [eye, options] = [await shot("cherry"), ["--lod", "2", "--sway", "64"]];
+  const still = await exported("cherry", "glb", ["--lod", "2"]);
   const { found: atRest } = await viewer.see({ ending: "glb", bytes: still }, SIDE, SIDE, eye);
   const [gltf, usd] = [await exported("cherry", "glb", options), await exported("cherry", ending, options)];
   for (const time of [0, 2.5]) {
-    const one = await viewer.see({ ending: "glb", bytes: gltf }, SIDE, SIDE, eye, time);
-    const { found, picture } = await viewer.see({ ending, bytes: usd }, SIDE, SIDE, eye, time);
+    const one = await viewer.see({ ending: "glb", bytes: gltf }, SIDE, SIDE, eye, { time });
+    const { found, picture } = await viewer.see({ ending, bytes: usd }, SIDE, SIDE, eye, { time });
     expect(found.bones).toBeGreaterThan(20);
     expect([found.bones, found.seconds, found.triangles]).toEqual([one.found.bones, 8, one.found.triangles]);
     // Shares of bones are rounded to a thousandth in one file, to a 255th in the other.
@@ -107,7 +108,7 @@ it.each(["usda", "usdz"])("three.js moves the bones of a cherry in .%s as those 
 });
 
 it("three.js reads a model with pivots, and each element finds the ground by its bearers", async () => {
-  const [eye, options] = [await shot("cherry"), ["--lod", "1"]];
+  const [eye, options] = [await shot("cherry"), ["--lod", "2"]];
   const plain = await viewer.see({ ending: "glb", bytes: await exported("cherry", "glb", options) }, SIDE, SIDE, eye);
   const bytes = await exported("cherry", "pivots.zip", options);
   const { found, picture } = await viewer.see({ ending: "pivots.zip", bytes }, SIDE, SIDE, eye);
