@@ -16,6 +16,7 @@ export class SlowLink {
   #sockets = new Set<Socket>();
   #slowness: Slowness | null = null;
   #isCut = false;
+  #isStalled = false;
 
   private constructor(to: number) {
     this.#server = createServer((near) => {
@@ -31,6 +32,7 @@ export class SlowLink {
         this.#sockets.add(from);
         from.setNoDelay(true);
         this.#carry(from, into);
+        if (this.#isStalled) from.pause();
         from.on("error", () => into.destroy());
         from.on("close", () => {
           this.#sockets.delete(from);
@@ -58,12 +60,14 @@ export class SlowLink {
     this.#slowness = slowness;
   }
 
-  /** Whatever is said waits until it is let go, as on a link that stalls. */
+  /** Whatever is said waits until it is let go, as on a link that stalls; whoever comes anew waits as well. */
   stall(): void {
+    this.#isStalled = true;
     for (const socket of this.#sockets) socket.pause();
   }
 
   flow(): void {
+    this.#isStalled = false;
     for (const socket of this.#sockets) socket.resume();
   }
 

@@ -9,8 +9,9 @@ import type { Studio } from "../studio";
 import { place, seen, told } from "../together/cameras";
 import { pointerAt } from "../together/own-pointer";
 import { onWood } from "../together/wood-place";
+import { say } from "../words/say";
 import * as api from "./comment-api";
-import { isUnread } from "./filters";
+import { callsFor, unreadIn } from "./filters";
 import { type Line, picture } from "./view-picture";
 
 /** A comment that is being written. */
@@ -19,6 +20,14 @@ export interface Draft {
   readonly thread: number | null;
   /** Where a new one is pinned; null for the tree as a whole. */
   readonly pin: PinPlace | null;
+}
+
+/** Comments that were not seen. */
+export interface News {
+  readonly count: number;
+  /** Whether one of them is for whoever looks. */
+  readonly isForMe: boolean;
+  readonly text: string;
 }
 
 /** All that is said of the tree on the page, and what is being said. */
@@ -35,7 +44,21 @@ export class Conversation {
   /** What was drawn over it. */
   readonly lines = signal<readonly Line[]>([]);
   readonly sending = signal(false);
-  readonly unread = computed(() => [...(this.threads.value?.values() ?? [])].filter(isUnread).length);
+  /** What this person is called here: by themselves, and by whoever invited them. */
+  readonly self = computed<readonly string[]>(() => {
+    const { settings, together } = this.#studio;
+    const here = together.people.value;
+    const own = here?.people.find(({ devices }) => devices.some(({ device }) => device === here.you));
+    return [settings.author.value.trim(), own?.name ?? ""].filter((name) => name !== "");
+  });
+  /** What was not seen, in words; null where all was. */
+  readonly news = computed<News | null>(() => {
+    const threads = [...(this.threads.value?.values() ?? [])];
+    const count = threads.reduce((sum, thread) => sum + unreadIn(thread).length, 0);
+    const isForMe = threads.some((thread) => callsFor(thread, this.self.value));
+    const text = say(isForMe ? "comments.unread.me" : "comments.unread", { count });
+    return count === 0 ? null : { count, isForMe, text };
+  });
   #studio: Studio;
   #session: string | null = null;
 
@@ -268,6 +291,11 @@ export class Conversation {
   }
 
   async #failed(error: unknown): Promise<void> {
-    this.#studio.toasts.show(await explained(error));
+    const { layout, toasts, comments } = this.#studio;
+    // Whoever has asked for nothing is not told that it could not be had; opening the panel asks again.
+    if (layout.panel.peek() !== "comments" && comments.pins.peek().size === 0) {
+      return;
+    }
+    toasts.show(await explained(error));
   }
 }

@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { Comment, Pin, Thread } from "../../wire/generated";
-import { authorsOf, FILTERS, isUnread, isWanted } from "./filters";
+import { authorsOf, callsFor, FILTERS, isUnread, isWanted, unreadIn } from "./filters";
 
 function comment(number: number, author: string, rest: Partial<Comment> = {}): Comment {
   const written_at = "2026-05-01T12:00:00.000Z";
@@ -30,20 +30,26 @@ it.each([
   ["detached", [3]],
   ["all", [1, 2, 3]],
 ] as const)("CT4: %s shows threads %j", (filter, expected) => {
-  const shown = THREADS.filter((one) => isWanted(one, PINS.get(one.thread), { filter, person: null, self: "Ann" }));
+  const shown = THREADS.filter((one) => isWanted(one, PINS.get(one.thread), { filter, person: null, self: ["Ann"] }));
   expect(shown.map((one) => one.thread)).toEqual(expected);
 });
 
 it("CT4: threads of a person are those in which they have said something", () => {
   const of = (person: string) =>
-    THREADS.filter((one) => isWanted(one, undefined, { filter: "all", person, self: "" })).map((one) => one.thread);
+    THREADS.filter((one) => isWanted(one, undefined, { filter: "all", person, self: [] })).map((one) => one.thread);
   expect([of("Bo"), of("Cy"), of("Ed")]).toEqual([[1, 2], [3], []]);
   expect(authorsOf(THREADS)).toEqual(["Ann", "Bo", "Cy"]);
 });
 
 it("CT4: nobody without a name is named, and nothing of one's own is unread", () => {
-  const unnamed = THREADS.filter((one) => isWanted(one, undefined, { filter: "mentions", person: null, self: "" }));
+  const unnamed = THREADS.filter((one) => isWanted(one, undefined, { filter: "mentions", person: null, self: [""] }));
   expect(unnamed).toEqual([]);
   expect(isUnread(thread(9, [comment(1, "Ann", { own: true })]))).toBe(false);
   expect(FILTERS).toHaveLength(6);
+});
+
+it("CT4: what was not seen is counted, and told apart where it is for whoever looks", () => {
+  const both = thread(9, [comment(1, "Bo", { mentions: ["Ann"] }), comment(2, "Bo"), comment(3, "Cy")], { seen: 1 });
+  expect(unreadIn(both).map(({ comment }) => comment)).toEqual([2, 3]);
+  expect([callsFor(both, ["Ann"]), callsFor({ ...both, seen: 0 }, ["?", "ann"])]).toEqual([false, true]);
 });

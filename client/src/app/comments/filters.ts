@@ -1,4 +1,5 @@
-import type { Pin, Thread } from "../../wire/generated";
+import type { Comment, Pin, Thread } from "../../wire/generated";
+import { isSameName } from "./mentions";
 
 /** Which threads a list shows. */
 export const FILTERS = ["open", "mine", "mentions", "unread", "detached", "all"] as const;
@@ -9,13 +10,28 @@ export interface Wanted {
   readonly filter: Filter;
   /** What somebody must have taken part, if anybody must. */
   readonly person: string | null;
-  /** What whoever looks is called. */
-  readonly self: string;
+  /** What whoever looks is called, by whatever names. */
+  readonly self: readonly string[];
 }
 
 /** Whether there is something in a thread that whoever looks has not seen. */
-export function isUnread({ comments, seen }: Thread): boolean {
-  return comments.some(({ comment, own }) => comment > seen && !own);
+export function isUnread(thread: Thread): boolean {
+  return unreadIn(thread).length > 0;
+}
+
+/** What whoever looks has not seen of a thread. */
+export function unreadIn({ comments, seen }: Thread): Comment[] {
+  return comments.filter(({ comment, own }) => comment > seen && !own);
+}
+
+/** Whether a comment is for whoever is called so. */
+export function isFor({ mentions }: Comment, self: readonly string[]): boolean {
+  return mentions.some((name) => self.some((own) => isSameName(name, own)));
+}
+
+/** Whether something in a thread that was not seen is for whoever is called so. */
+export function callsFor(thread: Thread, self: readonly string[]): boolean {
+  return unreadIn(thread).some((comment) => isFor(comment, self));
 }
 
 /** Whether a list shows a thread. */
@@ -29,7 +45,7 @@ export function isWanted(thread: Thread, pin: Pin | undefined, { filter, person,
     case "mine":
       return thread.comments.some(({ own }) => own);
     case "mentions":
-      return thread.comments.some(({ mentions }) => mentions.some((name) => isSame(name, self)));
+      return thread.comments.some((comment) => isFor(comment, self));
     case "unread":
       return isUnread(thread);
     case "detached":
@@ -43,8 +59,4 @@ export function isWanted(thread: Thread, pin: Pin | undefined, { filter, person,
 export function authorsOf(threads: Iterable<Thread>): string[] {
   const names = new Set([...threads].flatMap(({ comments }) => comments.map(({ author }) => author)));
   return [...names].sort((a, b) => a.localeCompare(b));
-}
-
-function isSame(name: string, other: string): boolean {
-  return other !== "" && name.localeCompare(other, undefined, { sensitivity: "base" }) === 0;
 }

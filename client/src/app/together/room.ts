@@ -9,6 +9,7 @@ import { Others } from "./others";
 import { pointerAt, thinned } from "./own-pointer";
 import { type Here, OwnWords } from "./own-words";
 import { companions, isFollowed } from "./people";
+import { Pointing } from "./pointing";
 import type { Gathered, Listener } from "./together";
 
 /** How often a page says what is new of itself, in milliseconds. */
@@ -19,9 +20,7 @@ export class Room implements Listener {
   readonly others: Others;
   #studio: Studio;
   #words = new OwnWords();
-  /** Where the pointer is on the canvas. */
-  #place: { readonly x: number; readonly y: number } | null = null;
-  #pointer: Here["pointer"] | null = null;
+  #pointing = new Pointing();
   /** How often the user had moved the camera when this page began to follow. */
   #moves = 0;
 
@@ -40,16 +39,19 @@ export class Room implements Listener {
     together.listener = this;
     const stop = new AbortController();
     const options = { signal: stop.signal };
-    const at = ({ offsetX: x, offsetY: y, isPrimary }: PointerEvent) => {
+    const at = ({ offsetX: x, offsetY: y, isPrimary, pointerType }: PointerEvent) => {
       // Of several fingers the first points.
       if (isPrimary) {
-        this.#place = { x, y };
-        this.#pointer = null;
+        this.#pointing.at(x, y, pointerType === "touch");
       }
     };
+    const lift = ({ isPrimary }: PointerEvent) => isPrimary && this.#pointing.lift(performance.now());
     canvas.addEventListener("pointermove", at, options);
     canvas.addEventListener("pointerdown", at, options);
-    canvas.addEventListener("pointerleave", ({ pointerType }) => pointerType === "touch" || this.#leave(), options);
+    canvas.addEventListener("pointerup", lift, options);
+    canvas.addEventListener("pointercancel", lift, options);
+    const leave = ({ pointerType }: PointerEvent) => pointerType === "touch" || this.#pointing.leave();
+    canvas.addEventListener("pointerleave", leave, options);
     // The first touch of one's own ends what others lead.
     canvas.addEventListener("pointerdown", () => this.follow(null), options);
     canvas.addEventListener("wheel", () => this.follow(null), options);
@@ -129,11 +131,6 @@ export class Room implements Listener {
     return view !== undefined && link.tell({ type: "gather", camera: told(view) });
   }
 
-  #leave(): void {
-    this.#place = null;
-    this.#pointer = null;
-  }
-
   #speak(): void {
     const { together, link, stage, document: figures, settings } = this.#studio;
     const here = together.people.peek();
@@ -187,16 +184,16 @@ export class Room implements Listener {
 
   #pointerNow(): Here["pointer"] | null {
     const { stage, table } = this.#studio;
-    if (this.#place === null || !stage.view) {
+    const { view } = stage;
+    if (!view) {
       return null;
     }
-    const { x, y } = this.#place;
-    // It stays on the wood that it was put on, whatever becomes of that.
-    this.#pointer ??= pointerAt(x, y, stage.view, table, {
-      placeOf: (row) => stage.placeOf(row),
-      parentOf: (row) => table.parent[row] ?? -1,
-    });
-    return this.#pointer;
+    const wood = {
+      placeOf: (row: number) => stage.placeOf(row),
+      parentOf: (row: number) => table.parent[row] ?? -1,
+    };
+    const seenNow = JSON.stringify(told(view.camera.rig.view));
+    return this.#pointing.pointer(seenNow, performance.now(), (x, y) => pointerAt(x, y, view, table, wood));
   }
 
   #line(points: readonly (readonly [number, number])[]): [number, number, number][] {

@@ -141,12 +141,14 @@ function Workspace({ studio }: { studio: Studio }) {
   );
 }
 
-/** Whether anything is said of the tree, as far as it is known, or somebody looks whether it is. */
-function hasComments({ comments, layout }: Studio): boolean {
+/** Whether anything may be said of the tree, as far as it is known. */
+function hasComments({ comments, layout, link }: Studio): boolean {
   return (
     comments.pins.value.size > 0 ||
     comments.stale.value.size > 0 ||
     layout.panel.value === "comments" ||
+    // Of what was said of the tree as a whole no pin tells.
+    (link.phase.value === "connected" && !link.replaying.value) ||
     comments.conversation.value !== null
   );
 }

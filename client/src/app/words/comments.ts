@@ -26,6 +26,13 @@ export const COMMENTS = {
   "comments.pin": ["Thread {number}: {text}", "Beitrag {number}: {text}"],
   "comments.answers": ["Answers: {count}", "Antworten: {count}"],
   "comments.unread": ["Unread comments: {count}", "Ungelesene Kommentare: {count}"],
+  "comments.unread.me": [
+    "Unread comments: {count}, some of them for you",
+    "Ungelesene Kommentare: {count}, auch welche an dich",
+  ],
+  "comments.new.in": ["New: {count}", "Neu: {count}"],
+  "comments.new.me": ["For you", "An dich"],
+  "comments.mention": ["Whom it is for", "Für wen es ist"],
   "comments.resolve": ["Resolve", "Erledigt"],
   "comments.reopen": ["Reopen", "Wieder öffnen"],
   "comments.resolved": ["Resolved by {name}", "Erledigt von {name}"],

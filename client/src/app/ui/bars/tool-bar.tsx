@@ -60,6 +60,8 @@ const sheet = (name: SheetName) => (studio: Studio) => {
   studio.layout.sheet.value = name;
 };
 
+const COMMENTS = "panels.comments";
+
 /** What is done with the page and with a tree as a whole. */
 const TOOL_ACTIONS: readonly ToolAction[] = [
   {
@@ -81,7 +83,7 @@ const TOOL_ACTIONS: readonly ToolAction[] = [
   { label: "bars.save", Icon: SaveIcon, may: (rights) => rights.mayChange.value, act: sheet("save") },
   { label: "bars.library", Icon: LibraryIcon, act: sheet("library") },
   { label: "bars.share", Icon: ShareIcon, act: sheet("share") },
-  { label: "panels.comments", Icon: CommentIcon, act: (studio) => studio.layout.togglePanel("comments") },
+  { label: COMMENTS, Icon: CommentIcon, act: (studio) => studio.layout.togglePanel("comments") },
   { label: "bars.download", Icon: DownloadIcon, act: sheet("download") },
   { label: "bars.settings", Icon: SettingsIcon, act: sheet("settings") },
   { label: "bars.help", title: "bars.help.title", Icon: HelpIcon, act: sheet("help") },
@@ -129,13 +131,32 @@ export function ToolBar({ studio }: { studio: Studio }) {
             data-place={place}
             aria-label={say(label)}
             title={say(title)}
+            aria-description={label === COMMENTS ? news(studio)?.text : undefined}
             onClick={() => act(studio)}
           >
             <Icon />
+            {label === COMMENTS && <Unread studio={studio} />}
           </button>
         ))
       )}
     </header>
+  );
+}
+
+/** What was said and not seen by whoever is here; null for nothing, or where nobody knows yet. */
+function news({ comments }: Studio) {
+  return comments.conversation.value?.news.value ?? null;
+}
+
+/** How much that is, on the button that leads there; in another colour where some of it is for whoever is here. */
+function Unread({ studio }: { readonly studio: Studio }) {
+  const unread = news(studio);
+  return (
+    unread && (
+      <span class="unread" data-me={unread.isForMe} aria-hidden="true">
+        {unread.isForMe ? "@" : Math.min(unread.count, 99)}
+      </span>
+    )
   );
 }
 
@@ -157,10 +178,12 @@ function Menu({ studio, panels, actions }: MenuProps) {
         data-place="more"
         aria-label={say("bars.more")}
         title={say("bars.more")}
+        aria-description={news(studio)?.text}
         aria-expanded={open}
         onClick={() => setOpen(!open)}
       >
         <MoreIcon />
+        <Unread studio={studio} />
       </button>
       {open && (
         <ul class="panel menu" aria-label={say("bars.more")}>
@@ -168,6 +191,7 @@ function Menu({ studio, panels, actions }: MenuProps) {
             <li key={label}>
               <button
                 type="button"
+                aria-description={label === COMMENTS ? news(studio)?.text : undefined}
                 onClick={() => {
                   setOpen(false);
                   act(studio);
@@ -175,6 +199,7 @@ function Menu({ studio, panels, actions }: MenuProps) {
               >
                 <Icon />
                 {say(label)}
+                {label === COMMENTS && <Unread studio={studio} />}
               </button>
             </li>
           ))}

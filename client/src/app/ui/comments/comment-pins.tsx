@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
 import { Conversation } from "../../comments/conversation";
-import { isUnread } from "../../comments/filters";
+import { callsFor, isUnread } from "../../comments/filters";
 import type { Studio } from "../../studio";
 import { language, say } from "../../words/say";
 import { useAnimationFrames } from "../use-animation-frames";
@@ -63,7 +63,13 @@ export function CommentPins({ studio }: { studio: Studio }) {
     <>
       <div class="comment-pins" ref={layer} lang={language.value}>
         {all.map((thread) => (
-          <div key={thread.thread} class="comment-pin" data-thread={thread.thread} data-unread={isUnread(thread)}>
+          <div
+            key={thread.thread}
+            class="comment-pin"
+            data-thread={thread.thread}
+            data-unread={isUnread(thread)}
+            data-me={callsFor(thread, conversation.self.value)}
+          >
             <svg class="overlay" aria-hidden="true">
               <line />
             </svg>

@@ -1,7 +1,8 @@
-import { useState } from "preact/hooks";
+import { useRef, useState } from "preact/hooks";
 import { MAX_COMMENT_CHARACTERS } from "../../../wire/generated";
 import type { Conversation } from "../../comments/conversation";
 import { authorsOf } from "../../comments/filters";
+import { asked, completed, isSameName, matching, mentionedIn } from "../../comments/mentions";
 import type { Studio } from "../../studio";
 import { companions } from "../../together/people";
 import { say } from "../../words/say";
@@ -15,11 +16,28 @@ interface ComposeProps {
 export function Compose({ studio, conversation }: ComposeProps) {
   const [text, setText] = useState("");
   const [chosen, setChosen] = useState<readonly string[]>([]);
-  const [showsView, setShowsView] = useState(true);
-  const own = studio.settings.author.value.trim();
+  // An answer is mostly about the view that is there already.
+  const [showsView, setShowsView] = useState(conversation.draft.peek()?.thread === null);
+  const [caret, setCaret] = useState(0);
+  const [closed, setClosed] = useState(false);
+  const field = useRef<HTMLTextAreaElement>(null);
+  const self = conversation.self.value;
   const here = companions(studio.together.people.value).map(({ name }) => name);
   const known = authorsOf(conversation.threads.value?.values() ?? []);
-  const names = [...new Set([...here, ...known])].filter((name) => name !== own).slice(0, 12);
+  const names = [...new Set([...here, ...known])].filter((name) => !self.some((own) => isSameName(name, own)));
+  const typed = closed ? null : asked(text, caret);
+  const offered = typed === null ? [] : matching(names, typed).slice(0, 6);
+  const [first] = offered;
+  const mention = (name: string) => {
+    const next = completed(text, caret, name);
+    setText(next.text);
+    setCaret(next.caret);
+    // Once the field has the new text.
+    requestAnimationFrame(() => {
+      field.current?.focus();
+      field.current?.setSelectionRange(next.caret, next.caret);
+    });
+  };
   const sketching = conversation.sketching.value;
   const hasLines = conversation.lines.value.length > 0;
   const sending = conversation.sending.value;
@@ -29,7 +47,8 @@ export function Compose({ studio, conversation }: ComposeProps) {
       onSubmit={(event) => {
         event.preventDefault();
         if (text.trim() !== "") {
-          void conversation.send(text, chosen, showsView).then((sent) => sent && setText(""));
+          const mentions = [...new Set([...chosen, ...mentionedIn(text, names)])];
+          void conversation.send(text, mentions, showsView).then((sent) => sent && setText(""));
         }
       }}
     >
@@ -39,13 +58,38 @@ export function Compose({ studio, conversation }: ComposeProps) {
           rows={3}
           maxLength={MAX_COMMENT_CHARACTERS}
           value={text}
-          onInput={({ currentTarget }) => setText(currentTarget.value)}
+          ref={field}
+          onInput={({ currentTarget }) => {
+            setText(currentTarget.value);
+            setCaret(currentTarget.selectionStart);
+            setClosed(false);
+          }}
+          onSelect={({ currentTarget }) => setCaret(currentTarget.selectionStart)}
+          onKeyDown={(event) => {
+            if (first !== undefined && (event.key === "Enter" || event.key === "Tab")) {
+              event.preventDefault();
+              mention(first);
+            } else if (first !== undefined && event.key === "Escape") {
+              event.preventDefault();
+              event.stopPropagation();
+              setClosed(true);
+            }
+          }}
         />
       </label>
-      {names.length > 0 && (
+      {offered.length > 0 && (
+        <fieldset class="comment-names" aria-label={say("comments.mention")}>
+          {offered.map((name) => (
+            <button type="button" class="small" key={name} onClick={() => mention(name)}>
+              @{name}
+            </button>
+          ))}
+        </fieldset>
+      )}
+      {names.length > 0 && offered.length === 0 && (
         <fieldset class="comment-names">
           <legend>{say("comments.for")}</legend>
-          {names.map((name) => (
+          {names.slice(0, 12).map((name) => (
             <button
               type="button"
               class="small"
@@ -94,7 +138,7 @@ export function Compose({ studio, conversation }: ComposeProps) {
         </div>
       )}
       <div class="actions">
-        <button type="button" onClick={() => conversation.giveUp()}>
+        <button type="button" class="small" onClick={() => conversation.giveUp()}>
           {say("comments.cancel")}
         </button>
         <button type="submit" class="primary" disabled={sending || text.trim() === ""}>

@@ -2,6 +2,7 @@ import { useState } from "preact/hooks";
 import type { Comment, Pin, Thread } from "../../../wire/generated";
 import { pictureAddress } from "../../comments/comment-api";
 import type { Conversation } from "../../comments/conversation";
+import { isSameName, mentionedIn, piecesOf } from "../../comments/mentions";
 import type { Studio } from "../../studio";
 import { momentText } from "../../words/date-text";
 import { say } from "../../words/say";
@@ -49,7 +50,7 @@ export function ThreadView({ studio, conversation, thread }: ThreadViewProps) {
           >
             {say("comments.reply")}
           </button>
-          <button type="button" onClick={() => void conversation.resolve(thread)}>
+          <button type="button" class="small" onClick={() => void conversation.resolve(thread)}>
             {say(thread.resolved ? "comments.reopen" : "comments.resolve")}
           </button>
         </div>
@@ -66,6 +67,30 @@ export function stateText({ at }: Thread, pin: Pin | undefined): string {
   return pin === undefined ? "" : say(`comments.state.${pin.state}`, { step: pin.step ?? 0 });
 }
 
+interface WordsProps {
+  readonly text: string;
+  readonly mentions: readonly string[];
+  /** What whoever reads is called. */
+  readonly self: readonly string[];
+}
+
+/** What was said, with those it is for. */
+function Words({ text, mentions, self }: WordsProps) {
+  return (
+    <>
+      {piecesOf(text, mentions).map(({ text, name }, i) =>
+        name === null ? (
+          text
+        ) : (
+          <mark class="mention" key={i} data-me={self.some((own) => isSameName(name, own))}>
+            {text}
+          </mark>
+        ),
+      )}
+    </>
+  );
+}
+
 interface CommentViewProps extends ThreadViewProps {
   readonly comment: Comment;
 }
@@ -77,6 +102,9 @@ function CommentView({ studio, conversation, thread, comment }: CommentViewProps
   const now = studio.time.timeline.value;
   const isOtherStep =
     bookmark !== undefined && now !== null && bookmark.line === now.line && bookmark.step !== now.step;
+  // Who is named in the words themselves is not named twice.
+  const named = mentionedIn(text, mentions);
+  const others = mentions.filter((name) => !named.includes(name));
   const mayDelete = studio.rights.mayComment && (comment.own || studio.rights.mayGovern);
   return (
     <li data-own={comment.own}>
@@ -87,12 +115,14 @@ function CommentView({ studio, conversation, thread, comment }: CommentViewProps
           {edited_at !== undefined && ` · ${say("comments.edited")}`}
         </span>
       </p>
-      {mentions.length > 0 && (
+      {others.length > 0 && (
         <p class="quiet">
-          {say("comments.for")} {mentions.join(", ")}
+          {say("comments.for")} {others.join(", ")}
         </p>
       )}
-      <p class="comment-text">{text}</p>
+      <p class="comment-text">
+        <Words text={text} mentions={mentions} self={conversation.self.value} />
+      </p>
       {comment.picture && tree !== null && (
         <img
           src={pictureAddress(tree, thread.thread, comment.comment)}

@@ -2,7 +2,7 @@ import { useEffect, useState } from "preact/hooks";
 import type { Thread } from "../../../wire/generated";
 import { reviewAddress } from "../../comments/comment-api";
 import type { Conversation } from "../../comments/conversation";
-import { authorsOf, FILTERS, type Filter, isUnread, isWanted } from "../../comments/filters";
+import { authorsOf, callsFor, FILTERS, type Filter, isUnread, isWanted, unreadIn } from "../../comments/filters";
 import type { Studio } from "../../studio";
 import { dateText } from "../../words/date-text";
 import { language, say } from "../../words/say";
@@ -74,7 +74,7 @@ function ThreadList({ studio, conversation, threads }: ThreadListProps) {
   const [filter, setFilter] = useState<Filter>("open");
   const [person, setPerson] = useState<string | null>(null);
   const pins = studio.comments.pins.value;
-  const self = studio.settings.author.value.trim();
+  const self = conversation.self.value;
   const wanted = threads.filter((thread) => isWanted(thread, pins.get(thread.thread), { filter, person, self }));
   const authors = authorsOf(threads);
   const tree = conversation.tree.value;
@@ -92,7 +92,7 @@ function ThreadList({ studio, conversation, threads }: ThreadListProps) {
           >
             {say("comments.new")}
           </button>
-          <button type="button" onClick={() => conversation.write({ thread: null, pin: null })}>
+          <button type="button" class="small" onClick={() => conversation.write({ thread: null, pin: null })}>
             {say("comments.new.whole")}
           </button>
         </div>
@@ -144,6 +144,13 @@ function ThreadList({ studio, conversation, threads }: ThreadListProps) {
               <span>
                 <strong>{thread.comments[0]?.author}</strong>{" "}
                 <span class="quiet">{dateText(thread.comments[0]?.written_at ?? "")}</span>
+                {isUnread(thread) && (
+                  <span class="comment-new" data-me={callsFor(thread, self)}>
+                    {say(callsFor(thread, self) ? "comments.new.me" : "comments.new.in", {
+                      count: unreadIn(thread).length,
+                    })}
+                  </span>
+                )}
                 <br />
                 <span class="comment-excerpt">{thread.comments[0]?.text}</span>
                 <span class="quiet">
