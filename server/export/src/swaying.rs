@@ -11,6 +11,8 @@ use glam::{DQuat, DVec3, DVec4, Vec3};
 
 /// The wind that moves files of trees that stand in a calm, m/s.
 const BREEZE: f32 = 4.0;
+/// The most bones of a scene through whose gust bodies are stepped; they take some two seconds.
+const MOST_BODIES: usize = 2048;
 /// Which gusts come: those that clients draw.
 const SEED: u32 = 7;
 
@@ -53,11 +55,15 @@ impl Swaying {
         Self { limbs, wood, joints, clips, stir, reach }
     }
 
-    /// The same with the gust of jointed bodies, one for each piece between the bones that the plants' files will have.
+    /// The same with the gust of jointed bodies, one for each piece between the bones that the plants' files will have. In
+    /// scenes with very many each joint goes on answering by itself: nothing can stop bodies once they are on their way.
     pub(crate) fn blown(mut self, plant: &Plant, look: &WindLook, most: u32) -> Self {
         let is_standing = |&id: &MetamerId| plant.is_seed(id) && plant.is_alive(id);
         let seeds = (0..plant.metamer_count()).map(MetamerId::new).filter(is_standing);
         let rigs: Vec<Rig> = seeds.map(|seed| self.rig(seed, most)).collect();
+        if rigs.iter().map(|rig| rig.bones().len()).sum::<usize>() > MOST_BODIES {
+            return self;
+        }
         let Self { limbs, wood, joints, clips: [_, gust], .. } = &mut self;
         blow(gust, &rigs, joints, limbs, wood, &weather(look));
         self
