@@ -194,8 +194,8 @@ pub const FORMATS: &[FormatRow] = &[
         [
             ["Scene (USD, text)", "Szene (USD, Text)"],
             [
-                "The same triangles as USD in text, each material with one colour.",
-                "Dieselben Dreiecke als USD in Textform, jedes Material mit einer Farbe.",
+                "The same triangles as USD in text, each vertex with its colour and without textures.",
+                "Dieselben Dreiecke als USD in Textform, jede Ecke mit ihrer Farbe und ohne Texturen.",
             ],
         ],
         option::SCENES,
