@@ -11,6 +11,7 @@ use crate::{
     http::SaidComment,
     live::StoredPin,
     store::{Comments, Library, Picture, StoreError, StoredThread, StoredTree},
+    time::readable,
 };
 
 /// Bytes of pictures in one file; the threads that follow are without theirs.
@@ -123,14 +124,14 @@ pub async fn summary(
             (Some(_), None) => "",
         };
         let standing = match resolved {
-            Some((by, at)) => format!("{} {by}, {at}", language.of(DONE)),
+            Some((by, at)) => format!("{} {by}, {}", language.of(DONE), readable(at)),
             None => language.of(OPEN).to_owned(),
         };
         out.begin_thread(*number, place, &standing, resolved.is_some());
         for comment in comments {
             let said = SaidComment::from_json(&comment.said)?;
             let changed = comment.edited_at.as_ref().map(|_| language.of(CHANGED));
-            let mut when = comment.written_at.clone();
+            let mut when = readable(&comment.written_at);
             if let Some(bookmark) = &said.bookmark {
                 let _ = write!(when, " · {} {}", language.of(STEP), bookmark.step);
             }
@@ -197,7 +198,7 @@ impl Page {
             escaped(&title),
             escaped(&title),
             language.of(MADE),
-            escaped(at),
+            escaped(&readable(at)),
         );
         Self { html, language }
     }

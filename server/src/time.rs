@@ -31,9 +31,26 @@ pub fn written(time: SystemTime) -> String {
     humantime::format_rfc3339_millis(time).to_string()
 }
 
+/// A time for people to read, to the minute: `2026-01-31 12:30 UTC`; what is no time stays as it is.
+pub fn readable(time: &str) -> String {
+    match humantime::parse_rfc3339(time) {
+        Ok(time) => {
+            let text = humantime::format_rfc3339_seconds(time).to_string();
+            text.get(..16).map_or_else(|| text.clone(), |minute| format!("{} UTC", minute.replace('T', " ")))
+        }
+        Err(_) => time.to_owned(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn people_read_times_to_the_minute() {
+        assert_eq!(readable("2026-05-01T12:34:56.789Z"), "2026-05-01 12:34 UTC");
+        assert_eq!(readable("soon"), "soon");
+    }
 
     #[test]
     fn lb7_a_time_is_taken_in_one_form() {
