@@ -169,12 +169,6 @@ vec3 hazed(vec3 colour, float distance) {
 vec3 unlit(vec3 albedo) {
   return pow(clamp(albedo * 1.2, 0.0, 1.0), vec3(0.4545));
 }
-/** Where the very triangle looks, on the side of the eye. */
-vec3 facet(vec3 world, vec3 sight) {
-  vec3 face = cross(dFdx(world), dFdy(world));
-  face = dot(face, face) > 0.0 ? normalize(face) : sight;
-  return dot(face, sight) < 0.0 ? -face : face;
-}
 /** Light as a film takes it, after AgX (T. Sobotka) in the polynomial form of B. Wrensch: bright greens stay green, and nothing burns out. */
 vec3 finished(vec3 colour) {
   const mat3 INSET = mat3(0.842479, 0.042328, 0.042376, 0.078434, 0.878469, 0.078434, 0.079224, 0.079166, 0.879143);

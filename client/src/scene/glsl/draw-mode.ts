@@ -12,6 +12,12 @@ float traitOf(int row) { return uMode > ${WIREFRAME} ? texelFetch(uTraits, ivec2
 
 /** For fragment shaders: the last word on a colour; after \`LIGHT\`. */
 export const MODES = /* glsl */ `
+/** Where the very triangle looks, on the side of the eye. */
+vec3 facet(vec3 world, vec3 sight) {
+  vec3 face = cross(dFdx(world), dFdy(world));
+  face = dot(face, face) > 0.0 ? normalize(face) : sight;
+  return dot(face, sight) < 0.0 ? -face : face;
+}
 uniform int uMode;
 uniform vec2 uTraitEnds; // numbers with the first and the last colour
 uniform vec3 uRamp[${RAMP_COLOURS}]; // as the screen shows them

@@ -15,3 +15,15 @@ it("no shader chooses between structures with a ternary, which WebGL refuses", (
   expect(chosen.test("Bark bark = uShown.z > 0.5 ? barkAt(a) : plainBark(a);")).toBe(true);
   expect(texts.filter(([, text]) => chosen.test(text)).map(([file]) => file)).toEqual([]);
 });
+
+const modules = import.meta.glob<Record<string, unknown>>("./glsl/*.ts", { eager: true });
+
+it("no vertex shader asks how something differs from pixel to pixel, which only fragments know", () => {
+  const exported = Object.values(modules).flatMap((module) => Object.entries(module));
+  const vertices = exported.filter(([name]) => /vertex/i.test(name));
+  expect(vertices.length).toBeGreaterThan(5);
+  for (const [name, made] of vertices) {
+    const text = typeof made === "function" ? (made as () => unknown)() : made;
+    expect(String(text), name).not.toMatch(/\b(dFdx|dFdy|fwidth)\b/);
+  }
+});
