@@ -16,6 +16,7 @@ const PATIENCE = 150_000;
 const HEADS: Readonly<Record<string, string>> = {
   glb: "glTF",
   "obj.zip": "PK",
+  "pivots.zip": "PK",
   usda: "#usda 1.0",
   usdz: "PK",
   ply: "ply\n",
