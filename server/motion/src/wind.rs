@@ -22,7 +22,7 @@ const INTENSITY: f64 = 0.5;
 const ACROSS: f64 = 0.75;
 const UPWARD: f64 = 0.5;
 /// Gusts travel at this share of the mean speed.
-const CONVECTION: f64 = 0.9;
+pub(crate) const CONVECTION: f64 = 0.9;
 /// Davenport's decay of coherence: exp(−c f Δ / U) for two places Δ apart across the wind.
 const DECAY: f64 = 10.0;
 /// Where the mean speed is measured, m, and how it grows from the ground: a power law between open land and wood.

@@ -2,7 +2,7 @@ import type { Grown } from "./joints";
 import type { MotionRows } from "./limbs";
 import { sagOf } from "./moving";
 import { turnsUnder } from "./statics";
-import type { Scale, Wood } from "./wood";
+import { LEAF_DRAG, LEAF_FORM, type Scale, type Wood } from "./wood";
 
 export const GRAVITY = 9.81;
 /** Fresh snow, kg/m³. */
@@ -11,9 +11,6 @@ const SNOW_DENSITY = 100;
 const FILM = 0.2;
 /** Share of a leaf's area that snow lies on: blades overlap, and not all are level. */
 const LEVEL = 0.35;
-/** Area of a leaf as a share of its length squared, as `wood.ts` has it. */
-const LEAF_FORM = 0.4;
-const LEAF_DRAG = 0.2;
 /** Cosines of the slopes on which snow begins to slide off wood, and on which none stays: 40° and 55°. */
 const [HOLDS, SLIDES] = [0.77, 0.57];
 

@@ -5,8 +5,8 @@ import type { Limbs, MotionRows } from "./limbs";
 const WOOD_DENSITY = 950;
 const LEAF_DENSITY = 0.2;
 /** Area of a leaf as a share of its length squared, and the share of it that the wind takes hold of. */
-const LEAF_FORM = 0.4;
-const LEAF_DRAG = 0.2;
+export const LEAF_FORM = 0.4;
+export const LEAF_DRAG = 0.2;
 /** Young's modulus of green wood along the grain, Pa. */
 export const STIFFNESS = 7e9;
 /** e^0.01: the ratio of neighbouring codes of radii. */

@@ -9,7 +9,7 @@ use crate::{
     bodies::{AHEAD, Bodies, Gathered, Hinge},
     shelter::behind_crowns,
     sway::limited,
-    wind::profile,
+    wind::{CONVECTION, profile},
 };
 
 /// When the gust comes, when it goes, and from when on what still swings is brought to rest, s.
@@ -22,8 +22,6 @@ const FRONT: f64 = 1.2;
 const STRONGER: f64 = 1.6;
 /// The longest that its front takes from the first to the last of a scene, s.
 const CROSSES: f64 = 1.5;
-/// Gusts travel at this share of their speed.
-const CONVECTION: f64 = 0.9;
 /// Steps of bodies for each key.
 const STEPS: u32 = 4;
 
@@ -77,11 +75,13 @@ pub(super) fn together(
     let mut bodies = Bodies::hinged(wood, AHEAD, hinge);
     let mut air = Air::around(&mut bodies, wood, weather);
     let step = 1.0 / f64::from(STEPS * KEYS_A_SECOND);
+    let tips: Vec<Option<u32>> = (0..joints.all().len() as u32)
+        .map(|joint| rigs.iter().find_map(|rig| rig.ends(joint).last()))
+        .collect();
     for key in 0..clip.keys.len() {
         let time = clip.time(key);
-        for (joint, bend) in clip.keys[key].iter_mut().enumerate() {
-            if let Some(row) = rigs.iter().find_map(|rig| rig.ends(joint as u32).last()) {
-                let joint = &joints.all()[joint];
+        for ((joint, &tip), bend) in joints.all().iter().zip(&tips).zip(&mut clip.keys[key]) {
+            if let Some(row) = tip {
                 let turn = |row: u32| bodies.turn(row).unwrap_or(DQuat::IDENTITY);
                 let own = turn(joint.node).inverse() * turn(row);
                 // The shorter way round.
