@@ -1,5 +1,6 @@
 import type { Overlay } from "../src/scene/overlay/overlays";
 import { TreeTable } from "../src/scene/table/tree-table";
+import type { Vec3 } from "../src/scene/vector";
 import { MIN_RADIUS, RADIUS_LOG_STEP } from "../src/wire/generated";
 
 /** A metamer of a small tree: its parent's row, where it ends, and what else is not as usual. */
@@ -52,25 +53,40 @@ export function tableOf(twigs: readonly Twig[], table = new TreeTable(() => 0)):
 /** A view straight from the front in which an internode is 100 pixels, the origin at (500, 900). */
 export function frontView(table: TreeTable) {
   const overlays = new Set<Overlay>();
+  /** A wind that carries all wood as far to the right, in internodes, and what it was told. */
+  const wind = { carries: 0, blowing: true, sways: true, released: [] as number[][], cuts: [] as number[][] };
   const placeOf = (row: number) =>
     [table.position[3 * row]!, table.position[3 * row + 1]!, table.position[3 * row + 2]!] as const;
   const glass = ([x, y]: readonly number[]) => [500 + 100 * x!, 900 - 100 * y!] as const;
+  const seenAt = (row: number) => {
+    const [x, y, z] = placeOf(row);
+    return [x + wind.carries, y, z] as const;
+  };
   return {
     overlays,
     placeOf,
+    seenAt,
+    wind,
+    air: {
+      get sways() {
+        return wind.sways;
+      },
+      release: (rows: readonly number[]) => void wind.released.push([...rows]),
+      cut: (rows: readonly number[]) => void wind.cuts.push([...rows]),
+    },
     glass,
     pointOnPlane: (x: number, y: number, through: readonly number[]) =>
       [(x - 500) / 100, (900 - y) / 100, through[2]!] as const,
     projector: () => glass,
     /** The living row whose end is nearest, within the tolerance. */
     pick(x: number, y: number, tolerance: number) {
-      let best: { row: number; point: readonly [number, number, number] } | null = null;
+      let best: { row: number; point: Vec3; seen: Vec3 } | null = null;
       let least = tolerance;
       for (let row = 1; row < table.rows; row += 1) {
-        const [px, py] = glass(placeOf(row));
+        const [px, py] = glass(seenAt(row));
         const gap = Math.hypot(px - x, py - y);
         if (table.radiusCode[row] !== 0 && gap <= least) {
-          best = { row, point: placeOf(row) };
+          best = { row, point: placeOf(row), seen: seenAt(row) };
           least = gap;
         }
       }

@@ -69,7 +69,7 @@ export class Viewport {
   private loading: boolean | null = null;
   private gone = false;
   /** What moves the tree; null as long as no wind has blown. */
-  private air: Air | null = null;
+  air: Air | null = null;
   /** Whether the graphics card has taken its context away, and all that was drawn with it. */
   private lost = false;
   /** Whether a picture is being made of what the scene is now. */
@@ -268,9 +268,14 @@ export class Viewport {
     this.stir();
   }
 
-  /** Where a row is drawn. */
+  /** Where a row is drawn while no wind moves it. */
   placeOf(row: number): Vec3 {
     return this.world.tree.overlays.placeOf(this.table, row);
+  }
+
+  /** Where a row is seen, in the wind as well. */
+  seenAt(row: number): Vec3 {
+    return this.air?.seenAt(row, this.world.tree.overlays) ?? this.placeOf(row);
   }
 
   /** The obstacle under a place on the canvas. */

@@ -217,7 +217,7 @@ export class Conversation {
     }
     const pin = this.#studio.comments.pins.peek().get(thread.thread);
     const row = pin?.row;
-    const wood = this.#wood();
+    const wood = this.#wood((row) => this.#studio.stage.seenAt(row));
     const stands = pin?.state === "standing" || pin?.state === "regrown";
     const end = row === undefined ? null : wood.placeOf(row);
     const begin = row === undefined ? null : wood.placeOf(wood.parentOf(row));
@@ -257,10 +257,10 @@ export class Conversation {
     return view ? { camera: told(view), step: line?.step ?? 0, line: line?.line ?? 0, mode: drawMode.peek() } : null;
   }
 
-  #wood() {
-    const { stage, table } = this.#studio;
+  #wood(placeOf = (row: number) => this.#studio.stage.placeOf(row)) {
+    const { table } = this.#studio;
     return {
-      placeOf: (row: number) => (row < 0 ? null : stage.placeOf(row)),
+      placeOf: (row: number) => (row < 0 ? null : placeOf(row)),
       parentOf: (row: number) => table.parent[row] ?? -1,
     };
   }

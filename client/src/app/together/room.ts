@@ -28,7 +28,7 @@ export class Room implements Listener {
     this.#studio = studio;
     const { stage, table } = studio;
     this.others = new Others({
-      placeOf: (row) => stage.placeOf(row),
+      placeOf: (row) => stage.seenAt(row),
       parentOf: (row) => table.parent[row] ?? -1,
     });
   }

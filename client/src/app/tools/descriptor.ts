@@ -56,6 +56,8 @@ export interface ToolDescriptor<Made extends AnyTool = AnyTool> {
   readonly growsIntoStrokes?: boolean;
   /** What it draws is repeated as the symmetry has it. */
   readonly isSymmetric?: boolean;
+  /** Its strokes go through the whole tree, which rests for them. */
+  readonly stillsTree?: boolean;
   /** It works with the brush's radius. */
   readonly usesRadius?: boolean;
   /** What to do first, as long as the user has not done it. */

@@ -34,6 +34,7 @@ function setUp(table = new TreeTable()) {
     drawingPlane: (through: Vec3) => ({ origin: [...through], right: [1, 0, 0], up: [0, 1, 0] }),
     pick: (x: number) => (Math.abs(x - 500) < 24 ? { row: 3, point: [50, 0, 0] } : null),
     placeOf: (row: number) => [50, row, 0],
+    seenAt: (row: number) => [50, row, 0],
     projector: () => (point: Vec3) => [10 * point[0], 1000 - 10 * point[1]],
     addOverlay: (bent: BendOverlay) => world.overlays.add(bent),
     removeOverlay: (bent: BendOverlay) => world.overlays.delete(bent),
@@ -128,6 +129,45 @@ describe("toolbox", () => {
     begin(ring);
     tools.abandon();
     expect(world.held).toBe(0);
+  });
+
+  it("knows what hands are at, from the first touch on until they are gone", async () => {
+    const { tools, view, world, begin, bends } = setUp(tableOf(SMALL));
+    const blown: { air: unknown } = view;
+    blown.air = { blowing: true, sways: false };
+    const at = (x: number) => ({ x, y: 300, pressure: null });
+    tools.gesture({ kind: "stroke-begin", point: at(500) });
+    expect(tools.touched.value).toEqual({ rows: [3], elsewhere: 0.25 });
+    tools.gesture({ kind: "stroke-end" });
+    expect(tools.touched.value).toBeNull();
+    begin(ring);
+    expect(tools.touched.value, "beside every branch").toEqual({ rows: [], elsewhere: 0.25 });
+    tools.cancel();
+    expect(tools.touched.value).toBeNull();
+    tools.gesture({ kind: "hold-begin", x: 500, y: 300, milliseconds: 400 });
+    expect(tools.touched.value?.rows).toEqual([3]);
+    tools.gesture({ kind: "hold-end" });
+    expect(tools.touched.value).toBeNull();
+    tools.choose("prune");
+    begin(ring);
+    expect(tools.touched.value, "a line through the tree").toEqual({ rows: [], elsewhere: 0 });
+    tools.abandon();
+    expect(tools.touched.value).toBeNull();
+    await tools.load("bend");
+    tools.choose("bend");
+    bends.receive({ epoch: 1, sequence: 1, bend: 4, motions: [] });
+    expect([tools.touched.value, world.held], "others' hands are not this page's").toEqual([null, 0]);
+    tools.gesture({ kind: "grip-begin", id: 1, x: 500, y: 300, slop: 5 });
+    tools.gesture({ kind: "grip-begin", id: 2, x: 505, y: 300, slop: 5 });
+    expect(tools.touched.value).toEqual({ rows: [3, 3], elsewhere: 0.25 });
+    tools.gesture({ kind: "grip-end", id: 1 });
+    expect(tools.touched.value?.rows).toEqual([3, 3]);
+    tools.gesture({ kind: "grip-end", id: 2 });
+    expect(tools.touched.value).toBeNull();
+    blown.air = null;
+    tools.choose("brush");
+    tools.gesture({ kind: "stroke-begin", point: at(500) });
+    expect(tools.touched.value?.rows, "nothing is looked for where no wind blows").toEqual([]);
   });
 
   it("widths that come before the tools are not lost", async () => {

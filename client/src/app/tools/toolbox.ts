@@ -1,4 +1,5 @@
 import { signal } from "@preact/signals";
+import { ELSEWHERE, type Hand } from "../../scene/motion/hand";
 import type { Viewport } from "../../scene/viewport";
 import type { Command } from "../../wire/generated";
 import type { Gesture, Grip, StrokePoint } from "../input/gesture-recogniser";
@@ -45,6 +46,8 @@ export class Toolbox {
   readonly hold = signal<Hold | null>(null);
   /** What the stroke in progress is repeated about. */
   readonly centre = signal<SymmetryCentre | null>(null);
+  /** What hands are at, with the rows they were laid on while wind blew; null where there are none. */
+  readonly touched = signal<Hand | null>(null);
   /** Each tool by its name, once its code is there; null without a view. */
   readonly made = signal<MadeTools | null>(null);
 
@@ -174,9 +177,11 @@ export class Toolbox {
         break;
       case "hold-begin":
         this.hold.value = gesture;
+        this.#touch(gesture.x, gesture.y);
         break;
       case "hold-end":
         this.hold.value = null;
+        this.#untouch();
         break;
       case "choose":
         this.#options.choose(gesture.x, gesture.y);
@@ -308,6 +313,7 @@ export class Toolbox {
   abandon(): void {
     this.#stopPacing();
     this.hold.value = null;
+    this.#untouch();
     const tool = this.#active;
     this.#rest();
     tool?.abandon();
@@ -332,6 +338,7 @@ export class Toolbox {
       this.#work(tool);
     }
     this.#grips.add(gesture.id);
+    this.#touch(gesture.x, gesture.y);
     tool.gripBegin(gesture.id, gesture.x, gesture.y, gesture.slop);
   }
 
@@ -367,6 +374,7 @@ export class Toolbox {
     this.#grips.clear();
     if (this.#active) {
       this.#active = null;
+      this.#untouch();
       this.#letGo();
       this.drawing.value = false;
       this.centre.value = null;
@@ -380,7 +388,23 @@ export class Toolbox {
     }
     this.end();
     this.#work(tool);
+    this.#touch(point.x, point.y);
     tool.begin(point);
+  }
+
+  /** A finger lies at a place, be it on a branch or not. */
+  #touch(x: number, y: number): void {
+    const view = this.#kit?.view;
+    // Picking looks at the whole tree; where no wind blows it is to no purpose.
+    const row = view?.air?.blowing ? view.pick(x, y, PICK_TOLERANCE)?.row : undefined;
+    const rows = [...(this.touched.peek()?.rows ?? []), ...(row === undefined ? [] : [row])];
+    this.touched.value = { rows, elsewhere: descriptorOf(this.chosen.peek()).stillsTree ? 0 : ELSEWHERE };
+  }
+
+  #untouch(): void {
+    if (this.#active === null) {
+      this.touched.value = null;
+    }
   }
 
   #moves(point: StrokePoint): boolean {

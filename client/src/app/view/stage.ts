@@ -255,9 +255,14 @@ export class Stage {
     return this.#view?.projector() ?? null;
   }
 
-  /** Where a row is drawn. */
+  /** Where a row is drawn while no wind moves it. */
   placeOf(row: number): Vec3 | null {
     return row < this.#table.rows ? (this.#view?.placeOf(row) ?? null) : null;
+  }
+
+  /** Where a row is seen, in the wind as well: for what is drawn over it. */
+  seenAt(row: number): Vec3 | null {
+    return row < this.#table.rows ? (this.#view?.seenAt(row) ?? null) : null;
   }
 
   /** The screen's own directions in the world: right, up, and out of it towards the eye. */

@@ -4,7 +4,10 @@ import type { Vec3 } from "../vector";
 /** The row under a place on the screen. */
 export interface Pick {
   row: number;
+  /** Where on it, as it is at rest. */
   point: Vec3;
+  /** Where that is seen, if the wind has moved it from there. */
+  seen?: Vec3;
 }
 
 /** A column-major matrix from the world to clip space, and the picture it is for. */

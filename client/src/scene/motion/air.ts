@@ -1,10 +1,13 @@
 import type { WebGLRenderer } from "three";
 import { type DrawnElsewhere, type Pick, type Projection, pickBranch } from "../camera/picking";
 import type { QualityControl } from "../rendering/quality";
+import type { Vec3 } from "../vector";
 import type { World } from "../world";
 import { type AirSettings, blows, CALM, stirs, velocityOf } from "./air-settings";
 import { Amount } from "./amount";
 import { Answers } from "./answers";
+import type { Hand } from "./hand";
+import { Hands, pluckedAnew } from "./hands";
 import { JointMaker } from "./joint-maker";
 import type { JointOrder, JointsMade } from "./joint-work";
 import { loaded } from "./loads";
@@ -12,7 +15,7 @@ import { motionRows } from "./motion-rows";
 import { MovedRows } from "./moved-rows";
 import type { Moving } from "./moving";
 import { Pace } from "./pace";
-import { restingPlace, swayedPlace } from "./places";
+import { type PlaceOf, restingPlace, swayedPlace } from "./places";
 import { pose, STAND } from "./pose";
 import { Riding } from "./riding";
 import type { SharedClock } from "./shared-clock";
@@ -51,6 +54,7 @@ export class Air {
   private readonly maker: JointMaker;
   private readonly pace = new Pace();
   private readonly amount = new Amount();
+  private readonly hands = new Hands();
   private wanted: AirSettings = CALM;
   private scale: Scale = { internodeLength: 0.1, leafSize: 1 };
   private leaves = 1;
@@ -61,6 +65,10 @@ export class Air {
   private sway: Sway | null = null;
   private bends = new Float64Array(0);
   private stands = new Float64Array(0);
+  /** What each joint gets of the wind now: less where a hand is. */
+  private exposed = new Float64Array(0);
+  /** Where rows are seen. */
+  private placeOf: PlaceOf | null = null;
   /** What joints and the wind were made for, and when: to be made anew when they are others. */
   private made = { joints: "", direction: Number.NaN, tuned: "", at: Number.NEGATIVE_INFINITY };
   private seen = { epoch: 0, sequence: null as number | null, at: Number.NEGATIVE_INFINITY };
@@ -68,7 +76,6 @@ export class Air {
   private measured = Number.NEGATIVE_INFINITY;
   private margin: number;
   private held: number | null = null;
-  private touched = false;
   private disposed = false;
 
   constructor(
@@ -86,6 +93,11 @@ export class Air {
   /** Whether trees are drawn as the wind moves them. */
   get blowing(): boolean {
     return this.materials.swaying;
+  }
+
+  /** Whether anything may be seen elsewhere in the next frame. */
+  get sways(): boolean {
+    return this.blowing && !this.hands.holdsAll;
   }
 
   /** How trees are to sway from now on; `leaves` is how much theirs flutter beside those of others. */
@@ -110,10 +122,29 @@ export class Air {
     this.stage.invalidate();
   }
 
-  /** A hand works at the tree, which comes to rest under it. */
-  touch(touched: boolean): void {
-    this.touched = touched;
+  /** A hand works at the tree, which comes to rest under it; or none does. */
+  touch(hand: Hand | null): void {
+    this.hands.touch(hand);
     this.stage.invalidate();
+  }
+
+  /** Branches at these rows have been bent and are let go. */
+  release(rows: readonly number[]): void {
+    this.hands.release(rows);
+    this.stage.invalidate();
+  }
+
+  /** Branches are cut off at these rows. */
+  cut(rows: readonly number[]): void {
+    if (this.blowing) this.hands.cut(rows);
+  }
+
+  /** Where a row is seen, but for the shiver of twigs. */
+  seenAt(row: number, drawn: DrawnElsewhere): Vec3 {
+    const { table } = this.stage.world;
+    if (!this.blowing || !this.riding) return drawn.placeOf(table, row);
+    this.placeOf ??= swayedPlace(this.stands, this.riding, drawn);
+    return this.placeOf(table, row);
   }
 
   /** Whether it is too early for a frame that only the wind asks for. */
@@ -123,25 +154,28 @@ export class Air {
 
   /** Has everything stand as it does in a frame that begins now; says whether it goes on. */
   step(began: number): boolean {
-    const still = this.touched || this.stage.world.ghost.group.visible;
-    const amount = this.amount.at(began, blows(this.wanted), still);
+    // Beside what would become of it the tree stands as it grew.
+    const amount = this.amount.at(began, blows(this.wanted), this.stage.world.ghost.group.visible);
     if (amount === 0 && !blows(this.wanted)) {
       this.rest();
       return false;
     }
     if (document.hidden) return false;
     if (!this.prepare(began)) return false;
-    const { moving, sway, stage } = this;
-    if (!moving || !sway) return false;
+    const { moving, sway, stage, riding } = this;
+    if (!moving || !sway || !riding) return false;
     const { time, jumped } = this.clock.read();
     if (jumped && this.held === null) this.mix(began);
     const at = this.held ?? time;
     this.tune(began, at);
     sway.forget(at);
     sway.bends(at, this.bends);
+    this.exposed.set(this.exposure);
+    const { table } = stage.world;
+    const handled = this.hands.apply(began, at, { table, riding, moving, sway }, this.bends, this.exposed);
     for (let i = 0; i < this.bends.length; i += 1) this.bends[i]! *= amount;
     pose(moving.hinges, this.bends, this.stands);
-    this.rows.stand(moving.hinges, this.stands, this.exposure);
+    this.rows.stand(moving.hinges, this.stands, this.exposed);
     const share = Math.min(1, Math.max(0, (began - this.mixing) / MIXED));
     this.rows.draw(stage.renderer, {
       wind: this.wind,
@@ -157,7 +191,7 @@ export class Air {
     stage.world.shadow.stale ||= this.pace.shadow(began);
     this.reach(began);
     const blown = amount > 0 && this.held === null && (stirs(this.wanted) || this.changing(at));
-    const moves = blown || share < 1 || this.amount.changing || this.made.joints === "";
+    const moves = blown || handled || share < 1 || this.amount.changing || this.made.joints === "";
     if (moves && this.pace.heavy(began)) stage.control.moved(began);
     return moves;
   }
@@ -172,7 +206,7 @@ export class Air {
       placeOf: seen,
       hides: (row) => drawn?.hides(row) ?? false,
     });
-    return pick && { row: pick.row, point: restingPlace(table, pick, seen, drawn) };
+    return pick && { row: pick.row, point: restingPlace(table, pick, seen, drawn), seen: pick.point };
   }
 
   /** What draws rows does so otherwise from now on. */
@@ -213,7 +247,9 @@ export class Air {
   private follow(began: number): void {
     const { table } = this.stage.world;
     // What is opened is there at once; what grows is waited for.
-    const at = this.moving === null || this.seen.epoch !== table.epoch ? Number.NEGATIVE_INFINITY : began;
+    const opened = this.moving === null || this.seen.epoch !== table.epoch;
+    const at = opened || this.hands.waits ? Number.NEGATIVE_INFINITY : began;
+    if (opened) this.hands.forget();
     this.seen = { epoch: table.epoch, sequence: table.sequence, at };
     this.made.joints = "";
     const first = this.riding?.follow(table) ?? null;
@@ -248,16 +284,23 @@ export class Air {
       return;
     }
     const { joints } = moving;
-    if (this.moving) this.mix();
+    const { moving: before, sway } = this;
+    const { table } = this.stage.world;
+    if (before) this.mix();
     this.moving = moving;
     this.exposure = exposure;
-    this.sway = null;
     this.riding = new Riding(moving, grown!.rows.parent, grown!.rows.quantised);
     this.bends = new Float64Array(3 * joints.count);
     this.stands = new Float64Array(STAND * joints.count);
-    this.riding.follow(this.stage.world.table);
+    this.exposed = new Float64Array(joints.count);
+    this.placeOf = null;
+    this.riding.follow(table);
     this.rows.ride(this.riding.rows, this.riding.count);
+    this.hands.adopt(moving, before, { table, riding: this.riding }, grown!.rows.radiusCode);
     this.sway = new Sway(this.answers());
+    for (const pluck of before && sway ? pluckedAnew(sway.plucked, before.first, moving.first) : []) {
+      this.sway.pluck(pluck);
+    }
     this.stage.invalidate();
   };
 
@@ -325,6 +368,7 @@ export class Air {
     this.moving = null;
     this.riding = null;
     this.sway = null;
+    this.hands.forget();
     this.made.joints = "";
   }
 }

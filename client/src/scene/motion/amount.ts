@@ -1,8 +1,8 @@
-/** Milliseconds in which wind rises or dies away, and in which a tree comes to rest under a hand. */
+/** Milliseconds in which wind rises or dies away, and in which a whole tree comes to rest. */
 const RISES = 1200;
 const RESTS = 250;
 
-/** How much of the wind there is, from 0 to 1: it rises and dies away, and there is none under a hand. */
+/** How much of the wind there is, from 0 to 1: it rises and dies away, and there is none where the whole tree is to rest. */
 export class Amount {
   private value = 0;
   private last: number | null = null;
@@ -14,11 +14,11 @@ export class Amount {
   }
 
   /** The amount at a time in milliseconds. */
-  at(now: number, blows: boolean, touched: boolean): number {
+  at(now: number, blows: boolean, rests: boolean): number {
     const gone = this.last === null ? 0 : Math.max(0, now - this.last);
     this.last = now;
-    this.towards = blows && !touched ? 1 : 0;
-    const most = gone / (touched && blows ? RESTS : RISES);
+    this.towards = blows && !rests ? 1 : 0;
+    const most = gone / (rests && blows ? RESTS : RISES);
     const gap = this.towards - this.value;
     this.value = Math.abs(gap) <= most ? this.towards : this.value + Math.sign(gap) * most;
     return this.value * this.value * (3 - 2 * this.value);

@@ -15,6 +15,8 @@ export const PHASE = RIDE + 3;
 export interface Moving {
   /** Rows it was made from. */
   readonly rowCount: number;
+  /** The lowest row of each joint. */
+  readonly first: Int32Array;
   readonly joints: SwayingJoints;
   /** How each joint turns under what may lie on the tree. */
   readonly loads: Loads;
@@ -53,6 +55,7 @@ export function movingOf({ limbs, wood, joints }: Grown, loads: Loads, internode
   const { count: jointCount, frequency, damping, drag, compliance, centre, area } = joints;
   return {
     rowCount: count,
+    first: joints.first,
     joints: { count: jointCount, frequency, damping, drag, compliance, centre, area },
     loads,
     hinges,

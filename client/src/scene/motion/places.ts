@@ -7,7 +7,8 @@ import { NODE, nodeOn } from "./pose";
 import { JOINT } from "./rides";
 import type { Riding } from "./riding";
 
-type PlaceOf = (table: TreeTable, row: number) => Vec3;
+/** Where a row is. */
+export type PlaceOf = (table: TreeTable, row: number) => Vec3;
 
 /** Where rows are as the wind moves them: what shaders do, but for the shiver of twigs. */
 export function swayedPlace(stands: Float64Array, { rows, count }: Riding, drawn: DrawnElsewhere | null): PlaceOf {

@@ -18,7 +18,11 @@ export interface Pluck {
   readonly at: number;
   /** How far out of its place it was, as a rotation vector. */
   readonly bend: Vec3;
+  /** How fast it moved then, radians a second along each axis; not at all where that is left out. */
+  readonly speed?: Vec3;
 }
+
+const STOOD: Vec3 = [0, 0, 0];
 
 /** How joints stand, as a function of time: the wind of now, winds of before that fade, and plucks. */
 export class Sway {
@@ -56,10 +60,20 @@ export class Sway {
     if (over > 0) this.winds.splice(0, over);
     const { damping, rate } = this.present;
     for (let i = this.plucks.length - 1; i >= 0; i -= 1) {
-      const { joint, at, bend } = this.plucks[i]!;
-      if (Math.hypot(...bend) * Math.exp(-damping[joint]! * rate[joint]! * (time - at)) < STILL)
-        this.plucks.splice(i, 1);
+      const { joint, at, bend, speed = STOOD } = this.plucks[i]!;
+      const size = Math.hypot(...bend) + Math.hypot(...speed) / rate[joint]!;
+      if (size * Math.exp(-damping[joint]! * rate[joint]! * (time - at)) < STILL) this.plucks.splice(i, 1);
     }
+  }
+
+  /** The plucks that are not over. */
+  get plucked(): readonly Pluck[] {
+    return this.plucks;
+  }
+
+  /** How fast a joint swings by itself, in s⁻¹, undamped. */
+  rateOf(joint: number): number {
+    return this.present.rate[joint]!;
   }
 
   /** Whether something is still on its way at a time, however even the wind: another wind, or a pluck. */
@@ -90,14 +104,14 @@ export class Sway {
     return this.winds.at(-1)!.answers;
   }
 
-  private addPluck({ joint, at, bend }: Pluck, time: number, out: Float64Array): void {
+  private addPluck({ joint, at, bend, speed = STOOD }: Pluck, time: number, out: Float64Array): void {
     const gone = time - at;
     if (gone < 0) return;
     const [rate, damping] = [this.present.rate[joint]!, this.present.damping[joint]!];
     const damped = rate * Math.sqrt(1 - damping * damping);
-    const swing = Math.cos(damped * gone) + ((damping * rate) / damped) * Math.sin(damped * gone);
-    const left = Math.exp(-damping * rate * gone) * swing;
-    for (let a = 0; a < 3; a += 1) out[3 * joint + a]! += bend[a]! * left;
+    const [left, sine] = [Math.exp(-damping * rate * gone), Math.sin(damped * gone) / damped];
+    const swing = Math.cos(damped * gone) + damping * rate * sine;
+    for (let a = 0; a < 3; a += 1) out[3 * joint + a]! += left * (bend[a]! * swing + speed[a]! * sine);
   }
 }
 

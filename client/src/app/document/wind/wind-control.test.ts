@@ -2,18 +2,26 @@ import { signal } from "@preact/signals";
 import { describe, expect, it } from "vitest";
 import type { Air } from "../../../scene/motion/air";
 import { type AirSettings, CALM } from "../../../scene/motion/air-settings";
+import type { Hand } from "../../../scene/motion/hand";
 import { DEFAULT_PARAMETERS, type LeafKind } from "../../../wire/generated";
 import { placeOnDisc, windAt } from "./compass";
 import { WindControl } from "./wind-control";
 import { PRESET_NAMES, presetOf, WIND_PRESETS } from "./wind-presets";
 
 function page({ calmly = false } = {}) {
-  const told = { made: 0, settings: null as AirSettings | null, leaves: 0, touched: false, held: false, warm: false };
-  const [touched, leaves] = [signal(false), signal<LeafKind>("ovate")];
+  const told = {
+    made: 0,
+    settings: null as AirSettings | null,
+    leaves: 0,
+    touched: null as Hand | null,
+    held: false,
+    warm: false,
+  };
+  const [touched, leaves] = [signal<Hand | null>(null), signal<LeafKind>("ovate")];
   const settings = signal<AirSettings>(CALM);
   const air = {
     set: (settings: AirSettings, _: unknown, leaves: number) => Object.assign(told, { settings, leaves }),
-    touch: (touched: boolean) => Object.assign(told, { touched }),
+    touch: (touched: Hand | null) => Object.assign(told, { touched }),
     hold: (held: boolean) => Object.assign(told, { held }),
     warm: () => Object.assign(told, { warm: true }),
   } as unknown as Air;
@@ -73,8 +81,10 @@ describe("the wind on a page", () => {
     expect(told.held).toBe(true);
     wind.toggle();
     expect(told.held).toBe(false);
-    touched.value = true;
-    expect(told.touched).toBe(true);
+    touched.value = { rows: [7], elsewhere: 0.25 };
+    expect(told.touched).toEqual({ rows: [7], elsewhere: 0.25 });
+    touched.value = null;
+    expect(told.touched).toBeNull();
   });
 
   it("does not move where less motion is asked for, until it is asked for itself", () => {
@@ -100,8 +110,8 @@ describe("the wind on a page", () => {
     const { wind, told, touched } = page();
     wind.set({ speed: 5 });
     wind.dispose();
-    touched.value = true;
-    expect(told.touched).toBe(false);
+    touched.value = { rows: [], elsewhere: 0.25 };
+    expect(told.touched).toBeNull();
   });
 });
 

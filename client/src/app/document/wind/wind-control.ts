@@ -1,6 +1,7 @@
 import { effect, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import type { Air, AirStage } from "../../../scene/motion/air";
 import { type AirSettings, blows, CALM } from "../../../scene/motion/air-settings";
+import type { Hand } from "../../../scene/motion/hand";
 import type { Scale } from "../../../scene/motion/wood";
 import { DEFAULT_PARAMETERS, type LeafKind, type Parameters } from "../../../wire/generated";
 
@@ -13,8 +14,8 @@ export interface WindPage {
   readonly commit: (patch: Partial<AirSettings>) => void;
   readonly parameters: ReadonlySignal<Parameters | null>;
   readonly leaves: () => LeafKind;
-  /** Whether a hand works at the tree. */
-  readonly touched: () => boolean;
+  /** What hands on this page are at; those of others calm nothing here. */
+  readonly touched: () => Hand | null;
   /** The picture; null where there is none. */
   readonly enliven: (make: (stage: AirStage) => Air) => Air | null;
   /** Makes the wind in the picture. */

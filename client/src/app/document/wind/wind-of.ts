@@ -1,5 +1,6 @@
 import { computed } from "@preact/signals";
 import { Air } from "../../../scene/motion/air";
+import { ELSEWHERE, type Hand } from "../../../scene/motion/hand";
 import { SharedClock } from "../../../scene/motion/shared-clock";
 import { typing } from "../../input/keyboard";
 import type { Studio } from "../../studio";
@@ -25,7 +26,7 @@ export function windOf(studio: Studio): WindControl {
     commit: (patch) => studio.looks.commit({ wind: patch }),
     parameters: studio.parameters,
     leaves: () => studio.appearance.value.leaves.shape,
-    touched: () => studio.tools.drawing.value || studio.branches.held.row.value !== null,
+    touched: () => handOn(studio),
     enliven: (make) => studio.stage.enliven(make),
     air: (stage) => new Air(stage, clock),
     calmly: matchMedia("(prefers-reduced-motion: reduce)").matches,
@@ -38,4 +39,10 @@ export function windOf(studio: Studio): WindControl {
     }
   });
   return wind;
+}
+
+/** What this page's user is at: what fingers are on, and the branch that is held for turning. */
+function handOn({ tools, branches }: Studio): Hand | null {
+  const [touched, held] = [tools.touched.value, branches.held.row.value];
+  return held === null ? touched : { elsewhere: ELSEWHERE, ...touched, rows: [...(touched?.rows ?? []), held] };
 }

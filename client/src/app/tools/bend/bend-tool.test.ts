@@ -138,6 +138,23 @@ describe("bending", () => {
     expect([tool.base.value, tool.handles.value], "for the next drag").toEqual([2, [7]]);
   });
 
+  it("where the wind has carried a branch is no part of its bend, and it is let go to swing", () => {
+    const { tool, sent, view, at } = setUp();
+    view.wind.carries = 0.4;
+    const [x, y] = [at(9)[0] + 40, at(9)[1]];
+    expect(view.pick(x, y, 1)?.row, "the finger is where it is seen").toBe(9);
+    tool.gripBegin(1, x, y, 5);
+    tool.gripMove(1, x + 20, y);
+    expect(sent.find(({ kind }) => kind === "bend_begin")).toMatchObject({ touches: [9] });
+    tool.gripMove(1, x + 50, y - 50);
+    expect(view.wind.released).toEqual([]);
+    tool.gripEnd(1);
+    const moved = sent.flatMap((command) => (command.kind === "bend_move" ? [command] : [])).at(-1);
+    expect(moved?.targets[0]?.[0]).toBeCloseTo(4 + 0.5);
+    expect(moved?.targets[0]?.[1]).toBeCloseTo(2 + 0.5);
+    expect(view.wind.released).toEqual([[2, 6, 7, 8, 9]]);
+  });
+
   it("a second tap on the same place lets go of it", () => {
     const { tool, tap } = setUp();
     tap(2);

@@ -39,7 +39,7 @@ export interface BendOptions {
 
 interface Finger {
   readonly row: number | null;
-  /** Where it took hold, in the world. */
+  /** Where it took hold, in the world as it is seen. */
   readonly point: Vec3;
   readonly from: { readonly x: number; readonly y: number };
   readonly slop: number;
@@ -117,7 +117,8 @@ export class BendTool implements GripTool {
 
   gripBegin(id: number, x: number, y: number, slop: number): void {
     const picked = this.#pick(x, y);
-    const point = picked?.point ?? [0, 0, 0];
+    // What is seen under the finger is what it holds: how far the wind has carried it there is no part of the bend.
+    const point = picked?.seen ?? picked?.point ?? [0, 0, 0];
     if (this.#bending) {
       // One more finger makes another bend of it, as soon as this one is in the table.
       this.#finish();
@@ -406,6 +407,7 @@ export class BendTool implements GripTool {
     bending.solver.relax();
     this.#pose(bending.overlay, bending.solver);
     this.#settling.add(bending.overlay, bending.number);
+    this.#options.view.air?.release(bending.hold.path);
   }
 
   #pick(x: number, y: number) {

@@ -7,9 +7,10 @@ interface Rows {
   readonly radiusCode: ArrayLike<number>;
 }
 
-/** Which metamers a line on the screen crosses, as long as the view stands still. */
+/** Which metamers a line on the screen crosses, as they were seen last. */
 export class CutLine {
   #rows: Rows;
+  #see: (row: number) => readonly [number, number] | null;
   /** x and y of each row's end on the screen; not a number behind the eye. */
   #places: Float32Array;
   #last: readonly [number, number] | null = null;
@@ -17,9 +18,15 @@ export class CutLine {
   /** `project` tells where a row's end lies on the screen. */
   constructor(rows: Rows, placeOf: (row: number) => Vec3, project: (point: Vec3) => readonly [number, number] | null) {
     this.#rows = rows;
+    this.#see = (row) => project(placeOf(row));
     this.#places = new Float32Array(2 * rows.rows);
-    for (let row = 0; row < rows.rows; row += 1) {
-      const [x, y] = project(placeOf(row)) ?? [Number.NaN, Number.NaN];
+    this.look();
+  }
+
+  /** Sees anew where rows are, which may have moved. */
+  look(): void {
+    for (let row = 0; 2 * row < this.#places.length; row += 1) {
+      const [x, y] = this.#see(row) ?? [Number.NaN, Number.NaN];
       this.#places[2 * row] = x;
       this.#places[2 * row + 1] = y;
     }

@@ -13,6 +13,7 @@ export const PRUNE: ToolDescriptor<PruneTool> = {
   group: "shaping",
   atOnce: true,
   serves: "cut",
+  stillsTree: true,
   make: ({ table, view, submit, unsettled, widths, say, predict }) =>
     new PruneTool({ table, view, submit, unsettled, limits: () => widths.rows.peek(), say, predict }),
   hasViews: true,

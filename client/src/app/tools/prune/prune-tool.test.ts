@@ -105,6 +105,19 @@ describe("a line through branches", () => {
     expect([looks(), tool.line.value]).toEqual([[["hidden", 4, 6, 12]], null]);
   });
 
+  it("crosses what it is seen to cross while the wind moves it, and the wind hears of the cut", () => {
+    const { tool, sent, view } = setUp();
+    const at = (x: number, y: number) => ({ x, y, pressure: null });
+    view.wind.carries = -0.4;
+    tool.begin(at(650, 800));
+    view.wind.carries = 1;
+    tool.move([at(650, 600)]);
+    expect(tool.marked.value, "the limb that the wind carries there").toBe(1);
+    tool.end();
+    expect(sent).toEqual([{ kind: "prune", rows: [6] }]);
+    expect(view.wind.cuts).toEqual([[6]]);
+  });
+
   it("the trunk is left out, and alone it is explained", () => {
     const { tool, sent, said, draw } = setUp();
     draw([480, 850], [520, 850]);

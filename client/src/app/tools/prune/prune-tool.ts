@@ -58,7 +58,7 @@ export class PruneTool implements StrokeTool {
 
   begin({ x, y }: StrokePoint): void {
     const { table, view } = this.#options;
-    const line = new CutLine(table, (row) => view.placeOf(row), view.projector());
+    const line = new CutLine(table, (row) => view.seenAt(row), view.projector());
     line.to(x, y);
     this.#cutting = { rule: this.#rule(), line, crossed: new Set(), length: 0 };
     this.line.value = [[x, y]];
@@ -72,6 +72,9 @@ export class PruneTool implements StrokeTool {
     }
     const before = cutting.crossed.size;
     const next = [...drawn];
+    if (this.#options.view.air?.sways) {
+      cutting.line.look();
+    }
     for (const { x, y } of points) {
       const last = next[next.length - 1];
       cutting.length += last ? Math.hypot(x - last[0], y - last[1]) : 0;
@@ -207,6 +210,7 @@ export class PruneTool implements StrokeTool {
   }
 
   #fell(cuts: readonly number[]): void {
+    this.#options.view.air?.cut(cuts);
     const felled = new CutOverlay(cuts, "hidden");
     this.#falling.add(felled);
     this.#options.view.addOverlay(felled);

@@ -20,7 +20,7 @@ export const WIDTH: ToolDescriptor<WidthTool> = {
       widths,
       girth,
       scaleAt: (row) => scaleAt(view, view.placeOf(row)),
-      placeOnGlass: (row) => view.projector()(view.placeOf(row)),
+      placeOnGlass: (row) => view.projector()(view.seenAt(row)),
     });
   },
   hasViews: true,

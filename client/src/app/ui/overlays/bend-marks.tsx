@@ -23,7 +23,7 @@ export function BendMarks({ tool: bend, page }: ToolViewProps<BendTool>) {
   useAnimationFrames(marks.length > 0, () => {
     const project = page.stage.projector();
     const place = (row: number) => {
-      const at = page.stage.placeOf(row);
+      const at = page.stage.seenAt(row);
       return at ? project?.(at) : null;
     };
     for (const [i, { row }] of marks.entries()) {

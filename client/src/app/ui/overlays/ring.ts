@@ -22,8 +22,8 @@ export function ringAt(
 ): Ring | null {
   const project = stage.projector();
   const axes = stage.screenAxes();
-  const middle = stage.placeOf(row);
-  const below = stage.placeOf(table.parent[row] ?? row);
+  const middle = stage.seenAt(row);
+  const below = stage.seenAt(table.parent[row] ?? row);
   const spot = middle && project?.(middle);
   if (!project || !axes || !middle || !below || !spot) {
     return null;

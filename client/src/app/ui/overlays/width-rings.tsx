@@ -157,7 +157,7 @@ function Widget({ page, width, row, diameter }: WidgetProps) {
         onPointerMove={(event) => {
           if (event.currentTarget.hasPointerCapture(event.pointerId)) {
             to.current = page.stage.pickRow(...onCanvas(event), ALONG);
-            const at = to.current === null ? null : page.stage.placeOf(to.current);
+            const at = to.current === null ? null : page.stage.seenAt(to.current);
             const spot = at && page.stage.projector()?.(at);
             if (spot) {
               event.currentTarget.style.setProperty("--to-x", `${spot[0]}px`);
@@ -252,7 +252,7 @@ function onCanvas(event: PointerEvent): [number, number] {
 }
 
 function awayFrom(page: ToolPage, row: number, event: PointerEvent): number {
-  const at = page.stage.placeOf(row);
+  const at = page.stage.seenAt(row);
   const spot = at && page.stage.projector()?.(at);
   const [x, y] = onCanvas(event);
   return spot ? Math.hypot(x - spot[0], y - spot[1]) : 0;
