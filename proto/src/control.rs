@@ -382,6 +382,9 @@ pub enum ServerMessage {
     Appearance {
         /// The appearance in force.
         appearance: Box<Appearance>,
+        /// When its wind took the place of another, in milliseconds since the server started; 0 if it never did (`WD3`).
+        #[ts(type = "number")]
+        wind_since: u64,
     },
     /// The obstacles in the scene, all of them: after the welcome if there are any, and when they change (`OB3`).
     Obstacles {

@@ -450,7 +450,7 @@ impl Client {
             ServerMessage::Widths { widths } => self.widths = widths,
             ServerMessage::Design { design } => self.design = design.map(|design| *design),
             ServerMessage::Grammar { grammar } => self.grammar = grammar.map(|grammar| *grammar),
-            ServerMessage::Appearance { appearance } => {
+            ServerMessage::Appearance { appearance, .. } => {
                 self.appearance = *appearance;
                 self.appearances += 1;
             }

@@ -14,6 +14,7 @@ import type { GrammarSignal } from "./document/grammar/grammar-signal";
 import type { GrowControl } from "./document/growth/grow-control";
 import type { ProgrammeControl } from "./document/growth/programme-control";
 import type { OwnUndo } from "./document/timeline/own-undo";
+import type { WindTold } from "./document/wind/wind-control";
 import type { UnsavedTrees } from "./library/unsaved-trees";
 import type { Layout } from "./page/layout";
 import { explained, plainWords } from "./problems/explained";
@@ -35,6 +36,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly growing: Draft<Parameters, null>;
   readonly programme: Pick<ProgrammeControl, "receive">;
   readonly looks: LookDraft;
+  readonly windTold: Signal<WindTold | null>;
   readonly growth: GrowControl;
   readonly outline: OutlineTrace;
   readonly trail: StrokeTrail;
@@ -80,7 +82,10 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
     },
     parameters: ({ parameters }) => page.growing.receive(parameters),
     programme: ({ programme, by_hand }) => page.programme.receive(programme, by_hand),
-    appearance: ({ appearance }) => page.looks.receive(appearance),
+    appearance: ({ appearance, wind_since: since }) => {
+      page.windTold.value = { settings: appearance.wind, since };
+      page.looks.receive(appearance);
+    },
     // An empty list may also mean a welcome, after which ids mean what they now mean (`OB5`).
     obstacles: ({ obstacles }) => (obstacles.length === 0 ? page.obstacles.clear() : page.obstacles.receive(obstacles)),
     timeline: (timeline) => {

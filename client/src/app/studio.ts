@@ -17,6 +17,7 @@ import { ProgrammeControl } from "./document/growth/programme-control";
 import { ObstacleList } from "./document/obstacles/obstacle-list";
 import { OwnUndo } from "./document/timeline/own-undo";
 import { TimelineControl } from "./document/timeline/timeline-control";
+import type { WindTold } from "./document/wind/wind-control";
 import { Tour } from "./help/tour";
 import { Exports, keepFile } from "./library/exports";
 import { Trees } from "./library/trees";
@@ -80,6 +81,8 @@ export class Studio {
     clock: browserClock,
   });
   readonly appearance = this.looks.value;
+  /** The wind among them as the server told it, and since when it blows. */
+  readonly windTold = signal<WindTold | null>(null);
   readonly rows = signal(0);
   /** Counts the frames of rows that came in. */
   readonly revision = signal(0);

@@ -2481,7 +2481,11 @@ by_hand: Array<string>, } | { "type": "appearance",
 /**
  * The appearance in force.
  */
-appearance: Appearance, } | { "type": "obstacles", 
+appearance: Appearance, 
+/**
+ * When its wind took the place of another, in milliseconds since the server started; 0 if it never did (`WD3`).
+ */
+wind_since: number, } | { "type": "obstacles", 
 /**
  * In order of their ids.
  */

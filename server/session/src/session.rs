@@ -75,6 +75,8 @@ pub struct Session {
     parameters: ParameterValues,
     programme: ProgrammeInForce,
     appearance: Appearance,
+    /// When its wind took the place of another (`WD3`); 0 where it has blown since the session was opened.
+    wind_since: u64,
     scenery: Scenery,
     timeline: Timeline,
     /// As clients have it.
@@ -208,6 +210,7 @@ impl Session {
             parameters: work.document.parameters(),
             programme: ProgrammeInForce::of(&work.document),
             appearance: *work.document.appearance(),
+            wind_since: 0,
             scenery: Scenery::of(&work.document),
             told_timeline: timeline.clone(),
             check_due: 0,

@@ -19,6 +19,11 @@ export function blows(settings: AirSettings): boolean {
   return stirs(settings) || settings.sag > 0 || settings.snow > 0 || settings.rain > 0;
 }
 
+/** Whether two are the same in every number. */
+export function sameAir(one: AirSettings, other: AirSettings): boolean {
+  return (Object.keys(CALM) as AirName[]).every((name) => one[name] === other[name]);
+}
+
 /** Mean wind 10 m above the ground, m/s. */
 export function velocityOf({ speed, direction, rise }: Pick<AirSettings, "speed" | "direction" | "rise">): Vec3 {
   const turn = (direction * Math.PI) / 180;

@@ -22,14 +22,13 @@ import type { SharedClock } from "./shared-clock";
 import { Sway } from "./sway";
 import { SwayMaterials } from "./sway-materials";
 import { LIVE_PERIOD, type Wind, windOf } from "./wind";
+import { Winds } from "./winds";
 import type { Scale } from "./wood";
 
 /** Milliseconds without a change of rows after which joints are made anew. */
 const SETTLED = 300;
 /** Milliseconds in which what joints were made anew shows takes the place of what was shown. */
 const MIXED = 500;
-/** Winds follow each other by so many milliseconds at least, for each takes its time to fade. */
-const RETUNED = 250;
 /** Milliseconds between two looks at how far the tree reaches, and rows that are looked at. */
 const MEASURED = 1000;
 const SAMPLES = 600;
@@ -55,6 +54,7 @@ export class Air {
   private readonly pace = new Pace();
   private readonly amount = new Amount();
   private readonly hands = new Hands();
+  private readonly winds = new Winds();
   private wanted: AirSettings = CALM;
   private scale: Scale = { internodeLength: 0.1, leafSize: 1 };
   private leaves = 1;
@@ -67,10 +67,10 @@ export class Air {
   private stands = new Float64Array(0);
   /** What each joint gets of the wind now: less where a hand is. */
   private exposed = new Float64Array(0);
-  /** Where rows are seen. */
-  private placeOf: PlaceOf | null = null;
-  /** What joints and the wind were made for, and when: to be made anew when they are others. */
-  private made = { joints: "", direction: Number.NaN, tuned: "", at: Number.NEGATIVE_INFINITY };
+  /** How rows stand in the frame that is seen; joints may have been made anew since. */
+  private shown: { readonly stands: Float64Array; readonly riding: Riding; readonly placeOf: PlaceOf } | null = null;
+  /** What joints and shelter were made for: to be made anew when that is another. */
+  private made = { joints: "", direction: Number.NaN };
   private seen = { epoch: 0, sequence: null as number | null, at: Number.NEGATIVE_INFINITY };
   private mixing = Number.NEGATIVE_INFINITY;
   private measured = Number.NEGATIVE_INFINITY;
@@ -100,9 +100,13 @@ export class Air {
     return this.blowing && !this.hands.holdsAll;
   }
 
-  /** How trees are to sway from now on; `leaves` is how much theirs flutter beside those of others. */
-  set(settings: AirSettings, scale: Scale, leaves: number): void {
+  /**
+   * How trees are to sway from now on; `leaves` is how much theirs flutter beside those of others, `told` when it was set, in
+   * seconds of the time that all share, or null where the server has yet to say.
+   */
+  set(settings: AirSettings, scale: Scale, leaves: number, told: number | null): void {
     this.wanted = settings;
+    this.winds.set(settings, told);
     this.scale = scale;
     this.leaves = leaves;
     this.stage.invalidate();
@@ -142,9 +146,7 @@ export class Air {
   /** Where a row is seen, but for the shiver of twigs. */
   seenAt(row: number, drawn: DrawnElsewhere): Vec3 {
     const { table } = this.stage.world;
-    if (!this.blowing || !this.riding) return drawn.placeOf(table, row);
-    this.placeOf ??= swayedPlace(this.stands, this.riding, drawn);
-    return this.placeOf(table, row);
+    return (this.blowing && this.shown ? this.shown : drawn).placeOf(table, row);
   }
 
   /** Whether it is too early for a frame that only the wind asks for. */
@@ -155,7 +157,9 @@ export class Air {
   /** Has everything stand as it does in a frame that begins now; says whether it goes on. */
   step(began: number): boolean {
     // Beside what would become of it the tree stands as it grew.
-    const amount = this.amount.at(began, blows(this.wanted), this.stage.world.ghost.group.visible);
+    const { time, jumped } = this.clock.read();
+    const missed = 1000 * this.winds.lateness(time);
+    const amount = this.amount.at(began, blows(this.wanted), this.stage.world.ghost.group.visible, missed);
     if (amount === 0 && !blows(this.wanted)) {
       this.rest();
       return false;
@@ -164,7 +168,6 @@ export class Air {
     if (!this.prepare(began)) return false;
     const { moving, sway, stage, riding } = this;
     if (!moving || !sway || !riding) return false;
-    const { time, jumped } = this.clock.read();
     if (jumped && this.held === null) this.mix(began);
     const at = this.held ?? time;
     this.tune(began, at);
@@ -175,6 +178,10 @@ export class Air {
     const handled = this.hands.apply(began, at, { table, riding, moving, sway }, this.bends, this.exposed);
     for (let i = 0; i < this.bends.length; i += 1) this.bends[i]! *= amount;
     pose(moving.hinges, this.bends, this.stands);
+    if (this.shown?.riding !== riding) {
+      const { overlays } = stage.world.tree;
+      this.shown = { stands: this.stands, riding, placeOf: swayedPlace(this.stands, riding, overlays) };
+    }
     this.rows.stand(moving.hinges, this.stands, this.exposed);
     const share = Math.min(1, Math.max(0, (began - this.mixing) / MIXED));
     this.rows.draw(stage.renderer, {
@@ -199,9 +206,9 @@ export class Air {
   /** The branch under or near a place on the canvas, as it is seen; its point is where that is at rest. */
   pick(view: Projection, x: number, y: number, tolerance: number, drawn: DrawnElsewhere | null): Pick | null {
     const { table } = this.stage.world;
-    const { riding, stands } = this;
-    if (!this.blowing || !riding) return pickBranch(table, view, x, y, tolerance, drawn);
-    const seen = swayedPlace(stands, riding, drawn);
+    const { shown } = this;
+    if (!this.blowing || !shown) return pickBranch(table, view, x, y, tolerance, drawn);
+    const seen = drawn ? shown.placeOf : swayedPlace(shown.stands, shown.riding, null);
     const pick = pickBranch(table, view, x, y, tolerance, {
       placeOf: seen,
       hides: (row) => drawn?.hides(row) ?? false,
@@ -279,7 +286,7 @@ export class Air {
       // Whoever made the joints may be gone; all is made anew then.
       if (exposure.length === this.exposure.length) this.exposure = exposure;
       else this.made.joints = "";
-      this.made.tuned = "";
+      this.winds.shelter();
       this.stage.invalidate();
       return;
     }
@@ -293,41 +300,41 @@ export class Air {
     this.bends = new Float64Array(3 * joints.count);
     this.stands = new Float64Array(STAND * joints.count);
     this.exposed = new Float64Array(joints.count);
-    this.placeOf = null;
     this.riding.follow(table);
     this.rows.ride(this.riding.rows, this.riding.count);
     this.hands.adopt(moving, before, { table, riding: this.riding }, grown!.rows.radiusCode);
-    this.sway = new Sway(this.answers());
+    this.winds.begin(this.wanted);
+    this.sway = new Sway(this.answers(this.wanted));
     for (const pluck of before && sway ? pluckedAnew(sway.plucked, before.first, moving.first) : []) {
       this.sway.pluck(pluck);
     }
     this.stage.invalidate();
   };
 
-  /** The wind as it is wanted, and what all joints answer it. */
-  private answers(): Answers {
-    const { turbulence, damping } = this.wanted;
-    this.wind = windOf({ velocity: velocityOf(this.wanted), turbulence, seed: SEED }, LIVE_PERIOD);
-    this.made.tuned = tuningOf(this.wanted);
-    const sag = loaded(this.moving!.loads, this.wanted);
+  /** A wind, and what all joints answer it. */
+  private answers(settings: AirSettings): Answers {
+    const { turbulence, damping } = settings;
+    this.wind = windOf({ velocity: velocityOf(settings), turbulence, seed: SEED }, LIVE_PERIOD);
+    const sag = loaded(this.moving!.loads, settings);
     return new Answers(this.moving!.joints, this.wind, this.exposure, { damping, sag });
   }
 
-  /** Has another wind take over, if another is wanted. While none is, what blew last dies away. */
+  /** Has other winds take over that were set. */
   private tune(began: number, time: number): void {
-    if (this.made.tuned === tuningOf(this.wanted) || !blows(this.wanted)) return;
-    if (began - this.made.at < RETUNED && this.held === null) return;
-    this.made.at = began;
-    if (this.held === null) this.sway!.change(this.answers(), time);
-    else {
-      this.mix(began);
-      this.sway = new Sway(this.answers());
+    const answers = (settings: AirSettings) => this.answers(settings);
+    if (this.held === null) {
+      this.winds.pass(this.sway!, time, answers, () => this.mix(began));
+      return;
     }
+    const latest = this.winds.latest(time);
+    if (!latest) return;
+    this.mix(began);
+    this.sway = new Sway(answers(latest));
   }
 
   /** Whether one wind still takes over from another. */
   private changing(time: number): boolean {
-    return this.made.tuned !== tuningOf(this.wanted) || (this.sway?.changing(time) ?? false);
+    return this.winds.waiting || (this.sway?.changing(time) ?? false);
   }
 
   /** What is shown now is held, and what comes then shows over it by and by. */
@@ -367,13 +374,9 @@ export class Air {
     this.rest();
     this.moving = null;
     this.riding = null;
+    this.shown = null;
     this.sway = null;
     this.hands.forget();
     this.made.joints = "";
   }
-}
-
-/** All that a wind and the answers to it depend on. */
-function tuningOf({ speed, direction, rise, turbulence, sag, damping, snow, rain }: AirSettings): string {
-  return [speed, direction, rise, turbulence, sag, damping, snow, rain].join(" ");
 }

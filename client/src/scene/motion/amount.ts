@@ -13,11 +13,13 @@ export class Amount {
     return this.value !== this.towards;
   }
 
-  /** The amount at a time in milliseconds. */
-  at(now: number, blows: boolean, rests: boolean): number {
-    const gone = this.last === null ? 0 : Math.max(0, now - this.last);
+  /** The amount at a time in milliseconds; what changes it now has done so `late` milliseconds ago. */
+  at(now: number, blows: boolean, rests: boolean, late = 0): number {
+    const towards = blows && !rests ? 1 : 0;
+    const since = this.last === null ? 0 : Math.max(0, now - this.last);
+    const gone = towards === this.towards || rests ? since : since + late;
     this.last = now;
-    this.towards = blows && !rests ? 1 : 0;
+    this.towards = towards;
     const most = gone / (rests && blows ? RESTS : RISES);
     const gap = this.towards - this.value;
     this.value = Math.abs(gap) <= most ? this.towards : this.value + Math.sign(gap) * most;

@@ -48,6 +48,12 @@ export class Sway {
     });
   }
 
+  /** The last wind took the place of the one before at another time. */
+  retime(at: number): void {
+    const [before, last] = this.winds.slice(-2);
+    if (last && at > before!.since) last.since = at;
+  }
+
   /** A joint is let go. Of more than 32 plucks the oldest are forgotten. */
   pluck(pluck: Pluck): void {
     if (this.plucks.length === MOST_PLUCKS) this.plucks.shift();

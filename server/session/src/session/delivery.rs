@@ -80,6 +80,9 @@ impl Session {
         }
         let appearance = *work.document.appearance();
         if appearance != self.appearance {
+            if appearance.wind != self.appearance.wind {
+                self.wind_since = self.now;
+            }
             self.appearance = appearance;
             self.broadcast(&self.appearance_message());
         }
@@ -169,7 +172,7 @@ impl Session {
 
     /// How the tree looks, as it is sent to clients (`AP3`).
     pub(super) fn appearance_message(&self) -> ServerMessage {
-        ServerMessage::Appearance { appearance: Box::new(self.appearance) }
+        ServerMessage::Appearance { appearance: Box::new(self.appearance), wind_since: self.wind_since }
     }
 
     /// All obstacles as they are sent to clients (`OB3`).

@@ -21,7 +21,7 @@ fn background(sky: Sky) -> Value {
 /// The seasons a client was told, in order.
 fn seasons(peer: &Peer) -> Vec<f32> {
     let season = |text: &ServerMessage| match text {
-        ServerMessage::Appearance { appearance } => Some(appearance.leaves.season),
+        ServerMessage::Appearance { appearance, .. } => Some(appearance.leaves.season),
         _ => None,
     };
     peer.texts.iter().filter_map(season).collect()
@@ -107,7 +107,7 @@ fn wd1_all_see_one_wind_and_it_moves_no_row() {
     world.settle();
     let told = |client| {
         let looks = world.peer(client).texts.iter().rev().find_map(|text| match text {
-            ServerMessage::Appearance { appearance } => Some(appearance.wind),
+            ServerMessage::Appearance { appearance, .. } => Some(appearance.wind),
             _ => None,
         });
         looks.expect("looks are told")
@@ -125,11 +125,9 @@ fn wd1_all_see_one_wind_and_it_moves_no_row() {
     let late = world.join("cedar-01");
     world.settle();
     assert!(
-        world
-            .peer(late)
-            .texts
-            .iter()
-            .any(|text| matches!(text, ServerMessage::Appearance { appearance } if appearance.wind == both))
+        world.peer(late).texts.iter().any(
+            |text| matches!(text, ServerMessage::Appearance { appearance, .. } if appearance.wind == both)
+        )
     );
     assert_eq!(world.document().hash(), world.replayed_hash());
 }
@@ -182,4 +180,35 @@ fn wd2_a_pong_tells_the_time() {
         world.send(client, &espalier_proto::ClientMessage::Ping { nonce });
         assert_eq!(world.peer(client).texts.last(), Some(&ServerMessage::Pong { nonce, at: world.now }));
     }
+}
+
+#[test]
+fn wd3_looks_tell_since_when_their_wind_blows() {
+    let mut world = World::new();
+    let [birch, maple] = ["birch-01", "maple-01"].map(|name| world.join(name));
+    let told = |world: &World, client| {
+        let since = world.peer(client).texts.iter().rev().find_map(|text| match text {
+            ServerMessage::Appearance { wind_since, .. } => Some(*wind_since),
+            _ => None,
+        });
+        since.expect("looks are told")
+    };
+    assert_eq!(told(&world, birch), 0, "a wind that has always blown");
+    world.pass(7_000);
+    world.command(birch, 1, wind(json!({ "speed": 8.0 })));
+    world.settle();
+    let changed = told(&world, birch);
+    assert!(changed >= 7_000 && changed <= world.now, "told {changed} at {}", world.now);
+    assert_eq!(told(&world, maple), changed);
+    world.pass(3_000);
+    world.command(maple, 1, leaves(2.0, None));
+    world.settle();
+    assert_eq!(told(&world, birch), changed, "other looks leave it");
+    let late = world.join("cedar-01");
+    assert_eq!(told(&world, late), changed, "whoever comes later is told the same");
+    world.pass(2_000);
+    world.command(birch, 2, json!({ "kind": "undo" }));
+    world.command(birch, 3, json!({ "kind": "undo" }));
+    world.settle();
+    assert!(told(&world, maple) >= changed + 5_000, "undo changes it as well");
 }

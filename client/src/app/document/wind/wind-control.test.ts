@@ -5,7 +5,7 @@ import { type AirSettings, CALM } from "../../../scene/motion/air-settings";
 import type { Hand } from "../../../scene/motion/hand";
 import { DEFAULT_PARAMETERS, type LeafKind } from "../../../wire/generated";
 import { placeOnDisc, windAt } from "./compass";
-import { WindControl } from "./wind-control";
+import { WindControl, type WindTold } from "./wind-control";
 import { PRESET_NAMES, presetOf, WIND_PRESETS } from "./wind-presets";
 
 function page({ calmly = false } = {}) {
@@ -13,14 +13,17 @@ function page({ calmly = false } = {}) {
     made: 0,
     settings: null as AirSettings | null,
     leaves: 0,
+    since: null as number | null,
     touched: null as Hand | null,
     held: false,
     warm: false,
   };
   const [touched, leaves] = [signal<Hand | null>(null), signal<LeafKind>("ovate")];
   const settings = signal<AirSettings>(CALM);
+  const heard = signal<WindTold | null>(null);
   const air = {
-    set: (settings: AirSettings, _: unknown, leaves: number) => Object.assign(told, { settings, leaves }),
+    set: (settings: AirSettings, _: unknown, leaves: number, since: number | null) =>
+      Object.assign(told, { settings, leaves, since }),
     touch: (touched: Hand | null) => Object.assign(told, { touched }),
     hold: (held: boolean) => Object.assign(told, { held }),
     warm: () => Object.assign(told, { warm: true }),
@@ -30,6 +33,7 @@ function page({ calmly = false } = {}) {
   };
   const wind = new WindControl({
     settings,
+    told: heard,
     drag: put,
     commit: put,
     parameters: signal(DEFAULT_PARAMETERS),
@@ -42,7 +46,7 @@ function page({ calmly = false } = {}) {
     air: () => air,
     calmly,
   });
-  return { wind, told, touched, leaves, put };
+  return { wind, told, touched, leaves, put, heard };
 }
 
 describe("the wind on a page", () => {
@@ -72,6 +76,16 @@ describe("the wind on a page", () => {
     expect(told.made).toBe(1);
     expect(told.settings).toEqual({ ...CALM, speed: 12, direction: 90 });
     expect(wind.settings.value.speed).toBe(12);
+  });
+
+  it("has blown since when the server says, once that has told of it", () => {
+    const { wind, told, put, heard } = page();
+    wind.set({ speed: 5 });
+    expect(told.since).toBeNull();
+    heard.value = { settings: { ...CALM, speed: 5 }, since: 12_340 };
+    expect(told.since).toBe(12.34);
+    put({ speed: 6 });
+    expect(told.since, "a change of one's own that it has yet to answer").toBeNull();
   });
 
   it("is held and let go, and rests under a hand", () => {

@@ -1,14 +1,22 @@
 import { effect, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import type { Air, AirStage } from "../../../scene/motion/air";
-import { type AirSettings, blows, CALM } from "../../../scene/motion/air-settings";
+import { type AirSettings, blows, CALM, sameAir } from "../../../scene/motion/air-settings";
 import type { Hand } from "../../../scene/motion/hand";
 import type { Scale } from "../../../scene/motion/wood";
 import { DEFAULT_PARAMETERS, type LeafKind, type Parameters } from "../../../wire/generated";
+
+/** A wind as the server tells it. */
+export interface WindTold {
+  readonly settings: AirSettings;
+  readonly since: number;
+}
 
 /** What the wind needs of the page. */
 export interface WindPage {
   /** What all in the session share of it. */
   readonly settings: ReadonlySignal<AirSettings>;
+  /** The wind that the server told last, and when that was set, in milliseconds of the time that all share; null before. */
+  readonly told: ReadonlySignal<WindTold | null>;
   /** Sets some of it for all: while a control moves, and once it is let go. */
   readonly drag: (patch: Partial<AirSettings>) => void;
   readonly commit: (patch: Partial<AirSettings>) => void;
@@ -51,7 +59,9 @@ export class WindControl {
       // Nothing is loaded or made for a page on which no wind has blown.
       if (this.#air === null && blows(settings)) this.#air = page.enliven(page.air);
       const scale: Scale = { internodeLength, leafSize };
-      this.#air?.set(mode === "still" ? CALM : settings, scale, leaves);
+      const told = page.told.value;
+      const since = told && sameAir(told.settings, settings) ? told.since / 1000 : null;
+      this.#air?.set(mode === "still" ? CALM : settings, scale, leaves, since);
       this.#air?.touch(touched);
       this.#air?.hold(mode === "held");
     });

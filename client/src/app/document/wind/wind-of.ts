@@ -22,6 +22,7 @@ export function windOf(studio: Studio): WindControl {
   );
   const wind = new WindControl({
     settings: computed(() => studio.appearance.value.wind),
+    told: studio.windTold,
     drag: (patch) => studio.looks.drag({ wind: patch }),
     commit: (patch) => studio.looks.commit({ wind: patch }),
     parameters: studio.parameters,
