@@ -13,6 +13,18 @@ export const STRENGTH = 40e6;
 /** The strongest gust of some minutes, in standard deviations above the mean. */
 const PEAK = 3.5;
 
+/** What is asked of whoever finds what would break. */
+export interface StrainOrder {
+  readonly rows: MotionRows;
+  readonly scale: Scale;
+  readonly air: AirSettings;
+}
+
+/** The rows that would break. */
+export function brokenBy({ rows, scale, air }: StrainOrder): Int32Array {
+  return Int32Array.from(breaking(stressesOf(rows, scale, air)));
+}
+
 /**
  * The greatest bending stress at the lower end of each row in the strongest gust of a wind and under all that lies on the tree,
  * in Pa: moment over section modulus, 4 M / π r³. What the tree weighs by itself counts only as far as it sags, for it grew under

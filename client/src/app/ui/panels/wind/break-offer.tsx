@@ -1,7 +1,7 @@
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { blows } from "../../../../scene/motion/air-settings";
 import { motionRows } from "../../../../scene/motion/motion-rows";
-import { breaking, stressesOf } from "../../../../scene/motion/strain";
+import { StrainAsker } from "../../../../scene/motion/strain-asker";
 import { DEFAULT_PARAMETERS, MAX_PRUNED_ROWS } from "../../../../wire/generated";
 import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
@@ -29,15 +29,27 @@ export function BreakOffer({ studio }: { studio: Studio }) {
   const { internode_length: internodeLength, leaf_size: leafSize } = studio.parameters.value ?? DEFAULT_PARAMETERS;
   const revision = studio.revision.value;
   const weather = JSON.stringify(air);
+  /** The rows that it was asked of last. */
+  const of = useRef(revision);
+  const asker = useMemo(
+    () =>
+      new StrainAsker((rows) => {
+        // Rows that have changed since are asked about next.
+        if (studio.revision.peek() !== of.current) return;
+        const marked = studio.tools.toolFor("cut")?.mark?.(Array.from(rows)) ?? { cuts: [], kept: 0 };
+        setFound({ ...marked, revision: of.current });
+      }),
+    [studio],
+  );
   useEffect(() => {
     if (!asked) return;
     const timer = setTimeout(() => {
-      const stresses = stressesOf(motionRows(studio.table), { internodeLength, leafSize }, air);
-      const marked = studio.tools.toolFor("cut")?.mark?.(breaking(stresses)) ?? { cuts: [], kept: 0 };
-      setFound({ ...marked, revision });
+      of.current = revision;
+      asker.ask({ rows: motionRows(studio.table), scale: { internodeLength, leafSize }, air });
     }, SETTLED);
     return () => clearTimeout(timer);
-  }, [asked, round, revision, weather, internodeLength, leafSize, studio]);
+  }, [asked, round, revision, weather, internodeLength, leafSize, studio, asker]);
+  useEffect(() => (asked ? () => asker.forget() : undefined), [asked, asker]);
   useEffect(() => {
     const unmark = () => void studio.tools.toolFor("cut")?.mark?.([]);
     return asked ? unmark : undefined;
