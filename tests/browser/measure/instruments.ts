@@ -24,6 +24,8 @@ declare global {
     firstSight: Promise<number>;
     /** What is drawn is counted but not passed on, so that script never waits for the graphics card. */
     blind: boolean;
+    /** When rows that sway were drawn, in milliseconds since the navigation. */
+    swayed: number[];
     /** When the first rows came, in milliseconds since the navigation. */
     rowsAt: number;
   }
@@ -41,6 +43,7 @@ export interface Watching {
 /** Counts what a page draws and times its script; runs in the page before anything else. */
 export function instrument({ aTree, waits }: Watching): void {
   const shadowMap = 2048;
+  const CHUNK_ROWS = 256;
   let seen: (at: number) => void = () => {};
   let sighted: ((at: number) => void) | null = null;
   window.firstSight = new Promise((resolve) => {
@@ -52,6 +55,7 @@ export function instrument({ aTree, waits }: Watching): void {
   window.measured = [];
   window.blind = false;
   window.rowsAt = Number.NaN;
+  window.swayed = [];
   window.WebSocket = class extends WebSocket {
     constructor(...address: ConstructorParameters<typeof WebSocket>) {
       super(...address);
@@ -68,6 +72,8 @@ export function instrument({ aTree, waits }: Watching): void {
   const { viewport } = prototype;
   prototype.viewport = function (x, y, w, h) {
     width = w === h ? w : 0;
+    // How rows move is drawn into a texture with as many texels a line as a chunk has rows.
+    if (w === CHUNK_ROWS && w !== h) window.swayed.push(performance.now());
     return viewport.call(this, x, y, w, h);
   };
   const count = (mode: number, vertices: number, instances: number) => {

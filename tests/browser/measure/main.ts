@@ -7,10 +7,11 @@ import { withClient } from "../src/client-build";
 import { inTime, Server, until } from "../src/server";
 import { A_TREE, type FrameRecord, instrument } from "./instruments";
 import { measureLever } from "./lever";
+import { done, grow, openMeasured, quantile, SCREEN, traced } from "./pages";
+import { measureWind } from "./wind";
 
 /** Metamers of the tree that budgets are for; it has about twice as many leaves. */
 const METAMERS = 100_000;
-const SCREEN = { width: 1194, height: 834 };
 /** Frames whose script is timed, after some in which everything is used for the first time. */
 const FRAMES = 240;
 const WARMING = 40;
@@ -22,18 +23,19 @@ const TURNED = 10_000;
 /** So long a picture may take to come to rest, in milliseconds. */
 const REST = 150_000;
 
-/** What the browser calls all callbacks of one animation frame in its traces. */
-const ALL_CALLBACKS = "PageAnimator::serviceScriptedAnimations";
-
 const BUDGET = { calls: 25, triangles: 1_500_000, script: 4, gzip: 200_000, first: 1000 };
 
 /**
  * Measures the client with a large tree and prints what it costs; `--metamers N` for another size, `lever` for how exactly
- * growth by hand ends. Gives the exit code: 0 if every goal was kept.
+ * growth by hand ends, `wind` for what trees that sway cost. Gives the exit code: 0 if every goal was kept.
  */
 export async function main(words: readonly string[]): Promise<number> {
   if (words[0] === "lever") {
     await measureLever();
+    return 0;
+  }
+  if (words[0] === "wind") {
+    await measureWind();
     return 0;
   }
   const at = words.indexOf("--metamers");
@@ -58,7 +60,7 @@ export async function main(words: readonly string[]): Promise<number> {
     const rested = await restedAfter(openings.at(-1)!.page);
     await openings.at(-1)!.page.context().close();
     // What a graphics card draws is the whole picture at rest.
-    const { page, first } = await openMeasured(browser, address, { "espalier.whole-picture": "true" });
+    const { page, first } = await openMeasured(browser, address, { settings: { "espalier.whole-picture": "true" } });
     const middle = (what: "rows" | "first" | "drawn") =>
       quantile(
         openings.map((opening) => opening[what]),
@@ -127,65 +129,6 @@ function lineOf(figure: Figure): string {
   const { what, value, most, print } = figure;
   const goal = most === undefined ? ["", ""] : [print(most), isKept(figure) ? "kept" : "not kept"];
   return `| ${[what, print(value), ...goal].join(" | ")} |`;
-}
-
-interface Tree {
-  readonly metamers: number;
-  readonly leaves: number;
-}
-
-/** Grows step by step until the tree is large enough, as the server tells a page without the client. */
-async function grow(blank: Page, browser: Browser, address: string, session: string, metamers: number): Promise<Tree> {
-  let tree: Tree = { metamers: 0, leaves: 0 };
-  const watcher = await browser.newPage();
-  watcher.on("websocket", (socket) =>
-    socket.on("framereceived", ({ payload }) => {
-      const state = typeof payload === "string" ? /"metamers":(\d+).*?"leaves":(\d+)/s.exec(payload) : null;
-      if (state) tree = { metamers: Number(state[1]), leaves: Number(state[2]) };
-    }),
-  );
-  // The picture is of no use here.
-  await watcher.addInitScript(() => {
-    window.requestAnimationFrame = () => 0;
-  });
-  await watcher.goto(address);
-  for (let step = 0; tree.metamers < metamers; step += 1) {
-    if (step > 400) throw new Error(`the tree stopped at ${tree.metamers} metamers`);
-    const before = tree.metamers;
-    await perform(blank, session, ['{"kind":"grow","steps":1}']);
-    await until("the step is told", () => tree.metamers > before);
-  }
-  await watcher.close();
-  return tree;
-}
-
-/** A page that has just drawn its first tree, and times in milliseconds since the navigation. */
-interface Opening {
-  readonly page: Page;
-  readonly rows: number;
-  /** When that tree was handed to the graphics card, and when it was drawn. */
-  readonly first: number;
-  readonly drawn: number;
-}
-
-async function openMeasured(
-  browser: Browser,
-  address: string,
-  settings: Readonly<Record<string, string>> = {},
-): Promise<Opening> {
-  const context = await browser.newContext({ viewport: SCREEN, hasTouch: true, deviceScaleFactor: 1 });
-  await withClient(context);
-  const page = await context.newPage();
-  await page.addInitScript((settings) => Object.assign(localStorage, settings), settings);
-  await page.addInitScript(instrument, { aTree: A_TREE, waits: false });
-  await page.goto(address, { waitUntil: "commit" });
-  // Asked once: a page that is asked again and again takes longer.
-  const first = await inTime(
-    "a tree is drawn",
-    page.evaluate(() => window.firstTree),
-  );
-  const drawn = await done(page);
-  return { page, first, drawn, rows: await page.evaluate(() => window.rowsAt) };
 }
 
 /** When a page that opens shows the tree for the first time, be it by lines, in milliseconds since the navigation; several times. */
@@ -269,15 +212,6 @@ async function restedAfter(page: Page): Promise<number> {
   return done(page);
 }
 
-/** Waits until all that was asked of WebGL is drawn, which it says only by giving pixels back; gives the time, since the navigation. */
-async function done(page: Page): Promise<number> {
-  return page.evaluate(() => {
-    const gl = document.querySelector<HTMLCanvasElement>("#workspace")!.getContext("webgl2")!;
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-    return performance.now();
-  });
-}
-
 /** Turns the tree for a while, all of it drawn: milliseconds a frame takes, and for how long it is drawn on afterwards. */
 async function turningShown(page: Page): Promise<{ frame: number; behind: number }> {
   const { began, ended, frames } = await page.getByRole("slider", { name: "Turn the tree" }).evaluate(
@@ -309,23 +243,7 @@ async function turning(browser: Browser, page: Page): Promise<{ clock: number[];
   });
   await turn(page, WARMING);
   const clock = await turn(page, FRAMES);
-  const session = await browser.newBrowserCDPSession();
-  const processor: number[] = [];
-  session.on("Tracing.dataCollected", ({ value }) => {
-    for (const event of value as readonly { name?: string; tdur?: number }[]) {
-      if (event.name === ALL_CALLBACKS && event.tdur !== undefined) processor.push(event.tdur / 1000);
-    }
-  });
-  await session.send("Tracing.start", {
-    transferMode: "ReportEvents",
-    traceConfig: { includedCategories: ["blink"] },
-  });
-  await turn(page, FRAMES);
-  const complete = new Promise((resolve) => session.once("Tracing.tracingComplete", resolve));
-  await session.send("Tracing.end");
-  await complete;
-  if (processor.length < FRAMES) throw new Error("this browser does not say what frames cost");
-  return { clock, processor };
+  return { clock, processor: await traced(browser, FRAMES, () => turn(page, FRAMES)) };
 }
 
 /** Turns a little in each frame until so many were drawn; gives the script of each. */
@@ -346,11 +264,6 @@ async function turn(page: Page, enough: number): Promise<number[]> {
       }),
     enough,
   );
-}
-
-function quantile(values: readonly number[], share: number): number {
-  const sorted = [...values].sort((a, b) => a - b);
-  return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] ?? Number.NaN;
 }
 
 function units(value: number): string {
