@@ -3,6 +3,7 @@ import { type DrawnElsewhere, type Pick, type Projection, pickBranch } from "../
 import type { QualityControl } from "../rendering/quality";
 import type { Vec3 } from "../vector";
 import type { World } from "../world";
+import { soundAir } from "./air-numbers";
 import { type AirSettings, blows, CALM, stirs, velocityOf } from "./air-settings";
 import { Amount } from "./amount";
 import { Answers } from "./answers";
@@ -105,8 +106,8 @@ export class Air {
    * seconds of the time that all share, or null where the server has yet to say.
    */
   set(settings: AirSettings, scale: Scale, leaves: number, told: number | null): void {
-    this.wanted = settings;
-    this.winds.set(settings, told);
+    this.wanted = soundAir(settings);
+    this.winds.set(this.wanted, told);
     this.scale = scale;
     this.leaves = leaves;
     this.stage.invalidate();
