@@ -274,7 +274,7 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::{document as exports, export_options::ExportOptions};
+    use crate::{export_options::ExportOptions, formats as exports};
 
     fn exported(document: &mut Document, format: exports::Format) -> Vec<u8> {
         let options = ExportOptions::default();

@@ -272,8 +272,8 @@ mod tests {
 
     use super::*;
     use crate::{
-        document::FORMATS,
         export_options::ExportOptions,
+        formats::FORMATS,
         recipe::Recipe,
         store::{User, UserChange, Users},
     };

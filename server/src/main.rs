@@ -8,6 +8,7 @@ mod document;
 mod drawn;
 mod export_options;
 mod figures;
+mod formats;
 mod headless;
 mod hosts;
 mod http;

@@ -8,7 +8,7 @@ use std::{
 
 use espalier_export::{ExportError, Sink};
 
-use crate::{document::FormatRow, progress::Bar};
+use crate::{formats::FormatRow, progress::Bar};
 
 /// What stands for standard output.
 pub const STDOUT: &str = "-";

@@ -45,7 +45,7 @@ mod tests {
     use espalier_settings::ParameterValues;
 
     use super::*;
-    use crate::document::FORMATS;
+    use crate::formats::FORMATS;
 
     #[test]
     fn a_species_that_is_none_is_answered_with_the_nearest() {

@@ -3,13 +3,10 @@
 use std::{
     fs::File,
     io::{self, BufWriter, ErrorKind, Seek, SeekFrom, Write},
-    sync::{
-        Arc,
-        atomic::{AtomicU64, Ordering},
-    },
     time::Duration,
 };
 
+use tokio::sync::watch;
 use tokio_util::sync::CancellationToken;
 
 use crate::pool::SimulationPool;
@@ -28,13 +25,18 @@ struct Slices {
     file: File,
     pool: SimulationPool,
     stop: CancellationToken,
-    written: Arc<AtomicU64>,
+    written: watch::Sender<u64>,
     bytes_left: u64,
 }
 
 impl Spool {
-    /// Writes to an empty file. It counts in `written` the bytes that it has taken, and takes none after `stop`.
-    pub fn new(file: File, pool: SimulationPool, stop: CancellationToken, written: Arc<AtomicU64>) -> Self {
+    /// Writes to an empty file. It counts in `written` the bytes that lie in it, and takes none after `stop`.
+    pub fn new(
+        file: File,
+        pool: SimulationPool,
+        stop: CancellationToken,
+        written: watch::Sender<u64>,
+    ) -> Self {
         Self(BufWriter::with_capacity(SLICE, Slices { file, pool, stop, written, bytes_left: u64::MAX }))
     }
 
@@ -80,11 +82,11 @@ impl Slices {
 impl Write for Slices {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.go_on()?;
-        if self.written.load(Ordering::Relaxed).saturating_add(bytes.len() as u64) > self.bytes_left {
+        if self.written.borrow().saturating_add(bytes.len() as u64) > self.bytes_left {
             return Err(ErrorKind::QuotaExceeded.into());
         }
         let count = self.file.write(bytes)?;
-        self.written.fetch_add(count as u64, Ordering::Relaxed);
+        self.written.send_modify(|written| *written += count as u64);
         Ok(count)
     }
 
@@ -109,7 +111,7 @@ mod tests {
 
     fn spool(stop: &CancellationToken) -> Spool {
         let pool = SimulationPool::new(std::num::NonZeroUsize::new(1)).unwrap();
-        Spool::new(tempfile::tempfile().unwrap(), pool, stop.clone(), Arc::default())
+        Spool::new(tempfile::tempfile().unwrap(), pool, stop.clone(), watch::Sender::default())
     }
 
     #[test]

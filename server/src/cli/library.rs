@@ -9,7 +9,7 @@ use super::{
     results::{Export, parse_export, parse_format},
 };
 use crate::{
-    document::FormatRow, export_options::ExportOptions, import_options::ImportOptions, library::Address,
+    export_options::ExportOptions, formats::FormatRow, import_options::ImportOptions, library::Address,
     review::Language, store::Sort,
 };
 

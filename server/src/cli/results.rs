@@ -5,8 +5,8 @@ use std::{num::NonZeroUsize, path::PathBuf};
 use clap::{Args, ValueEnum};
 
 use crate::{
-    document::{FORMATS, FormatRow},
     export_options::ExportOptions,
+    formats::{FORMATS, FormatRow},
     output::{STDOUT, Target},
     similar::similar,
 };
@@ -116,7 +116,7 @@ fn endings() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::Format;
+    use crate::formats::Format;
 
     #[test]
     fn the_extension_chooses_the_format() {

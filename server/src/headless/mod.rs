@@ -24,8 +24,8 @@ pub use self::species::species;
 pub use self::stats::resident_memory_bytes;
 use crate::{
     cli::{self, Grow, NoFormat, Replay, Results, SEED, Start},
-    document,
     export_options::NotOfFormat,
+    formats,
     import::{self as imports, ImportNote, Imported},
     output::OutputError,
     pool::SimulationPool,
@@ -305,7 +305,7 @@ fn finish(
     if let Some(target) = &target {
         let begun = Instant::now();
         target.write(|out| {
-            document::write(bench.document_mut(), species, target.row.format, &results.options, out)
+            formats::write(bench.document_mut(), species, target.row.format, &results.options, out)
         })?;
         stats.exported(begun.elapsed());
     }

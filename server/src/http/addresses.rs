@@ -33,8 +33,8 @@ use super::{
 };
 use crate::{
     access::Action,
-    document::{FORMATS, FormatRow},
     export_options::ExportOptions,
+    formats::{FORMATS, FormatRow},
     store::EXPORT,
 };
 

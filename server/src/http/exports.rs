@@ -25,7 +25,7 @@ use espalier_proto::{
 use futures_util::stream;
 use serde::Deserialize;
 use tokio::{
-    sync::{OwnedSemaphorePermit, oneshot},
+    sync::{OwnedSemaphorePermit, oneshot, watch},
     task::spawn_blocking,
 };
 use tokio_util::sync::CancellationToken;
@@ -34,20 +34,22 @@ use super::{
     Shared,
     failure::{Failure, Path},
     file_name, ranges,
+    sending::{Made, Ready, Sending},
     sessions::{open, saved_document, unreadable},
     trees,
     turns::Place,
 };
 use crate::{
-    document::{FORMATS, FileError, FormatRow, Stored},
+    document::{FileError, Stored},
     export_options::{ExportOptions, NotOfFormat, option},
+    formats::{FORMATS, FormatRow},
     memory::Use,
     spool::Spool,
     store::Library,
 };
 
 /// Bytes read from the disk at once.
-const PIECE: usize = 256 * 1024;
+pub(super) const PIECE: usize = 256 * 1024;
 /// Pixels of all pictures of a file together: nobody waits for hours for those of another.
 const MOST_DRAWN: u64 = 400_000_000;
 /// Characters of a ticket: so many that nobody guesses one.
@@ -60,7 +62,7 @@ pub struct Progresses(Arc<Mutex<BTreeMap<String, Arc<Progress>>>>);
 /// Bytes of a file that is being made.
 #[derive(Debug)]
 struct Progress {
-    written: Arc<AtomicU64>,
+    written: watch::Sender<u64>,
     expected: AtomicU64,
     /// Where it stands among those that are to be made.
     place: Place,
@@ -81,7 +83,8 @@ impl Progresses {
     }
 
     fn hold(&self, ticket: Option<String>, place: Place) -> Result<(Arc<Progress>, Option<Held>), Failure> {
-        let progress = Arc::new(Progress { written: Arc::default(), expected: AtomicU64::default(), place });
+        let (written, expected) = (watch::Sender::default(), AtomicU64::default());
+        let progress = Arc::new(Progress { written, expected, place });
         let Some(ticket) = ticket else { return Ok((progress, None)) };
         if !TICKET.contains(&ticket.len()) || self.lock().contains_key(&ticket) {
             let allowed =
@@ -143,7 +146,7 @@ fn progress_of(shared: &Shared, ticket: &str) -> Result<Json<ExportProgress>, Fa
     let found = found.ok_or_else(|| {
         Failure::none_such("export", "ticket", "the ticket of an export that is being made")
     })?;
-    let written = found.written.load(Ordering::Relaxed);
+    let written = *found.written.borrow();
     let expected = found.expected.load(Ordering::Relaxed).max(written);
     let ahead = u32::try_from(found.place.ahead()).unwrap_or(u32::MAX);
     Ok(Json(ExportProgress { written, expected, ahead }))
@@ -234,31 +237,47 @@ impl Wanted {
         if ranges::is_known(asked, &tag) {
             return Ok(ranges::not_modified(headers, &tag));
         }
+        let (out, reader) = on_disk(row.format.is_forward() && !asked.contains_key(header::RANGE))
+            .map_err(|error| not_made(name, &error.into()))?;
         // Whoever goes away takes this along, and with it what is being made.
         let stop = CancellationToken::new();
         let gone = stop.clone().drop_guard();
         let (made, whether_made) = oneshot::channel();
-        let pool = shared.pool.clone();
+        let sending = Sending { written: progress.written.subscribe(), made: whether_made, gone };
+        let (pool, of_tree) = (shared.pool.clone(), name.to_owned());
         spawn_blocking(move || {
-            let file = make(bytes.as_ref(), row, &options, &progress, |written| {
-                Ok(Spool::new(tempfile::tempfile()?, pool, stop, written))
-            });
+            let out = Spool::new(out, pool, stop, progress.written.clone());
+            let file = make(bytes.as_ref(), row, &options, &progress.expected, out);
             drop((bytes, held, claim, progress, turn));
-            // Fails when nobody waits any more.
-            drop(made.send(file));
-        });
-        let (file, length) = match whether_made.await {
-            Ok(Ok(made)) => made,
-            Ok(Err(FileError::Document(error))) => return Err(unreadable(name, &error)),
-            Ok(Err(error)) => {
-                tracing::error!(name, %error, "a document cannot be exported");
-                return Err(Failure::new(Reason::NotExported, "The tree cannot be exported."));
+            if let Err(Err(error)) = made.send(file) {
+                tracing::debug!(name = of_tree, %error, "an export was given up");
             }
-            Err(_) => return Err(crate::pool::Panicked.into()),
-        };
-        drop(gone.disarm());
-        ranges::answer(asked, headers, &tag, file, length)
+        });
+        match sending.ready(reader).await {
+            Ready::Whole(Ok(Ok((file, length)))) => ranges::answer(asked, headers, &tag, file, length),
+            Ready::Whole(Ok(Err(FileError::Document(error)))) => Err(unreadable(name, &error)),
+            Ready::Whole(Ok(Err(error))) => Err(not_made(name, &error)),
+            Ready::Whole(Err(_)) => Err(crate::pool::Panicked.into()),
+            Ready::Begun(body) => Ok(ranges::begun(headers, &tag, body)),
+        }
     }
+}
+
+fn not_made(name: &str, error: &FileError) -> Failure {
+    tracing::error!(name, %error, "a document cannot be exported");
+    Failure::new(Reason::NotExported, "The tree cannot be exported.")
+}
+
+/// An empty file that is gone with its handles, and where it is sent while it is written another handle to read it by.
+pub(super) fn on_disk(is_sent_meanwhile: bool) -> io::Result<(File, Option<File>)> {
+    if !is_sent_meanwhile {
+        return Ok((tempfile::tempfile()?, None));
+    }
+    let named = tempfile::NamedTempFile::new()?;
+    let reader = named.reopen()?;
+    let (file, path) = named.into_parts();
+    path.close()?;
+    Ok((file, Some(reader)))
 }
 
 /// What is said of a file of this tree that is sent.
@@ -273,27 +292,31 @@ pub(super) fn headers(row: &FormatRow, tree: &str) -> [(HeaderName, String); 2] 
 /// whoever reads slowly.
 pub(super) fn body_of(file: impl Read + Send + 'static) -> Body {
     Body::from_stream(stream::try_unfold(file, async |file| {
-        let read = spawn_blocking(|| {
-            let mut file = file;
-            let mut piece = vec![0; PIECE];
-            let count = file.read(&mut piece)?;
-            piece.truncate(count);
-            Ok::<_, io::Error>((count > 0).then(|| (Bytes::from(piece), file)))
-        });
-        read.await.map_err(io::Error::other)?
+        let (piece, file) = piece_of(file, PIECE as u64).await?;
+        Ok::<_, io::Error>((!piece.is_empty()).then_some((piece, file)))
     }))
+}
+
+/// What is read next, so many bytes at most; none at the end.
+pub(super) async fn piece_of<F: Read + Send + 'static>(mut file: F, most: u64) -> io::Result<(Bytes, F)> {
+    let read = spawn_blocking(move || {
+        let mut piece = vec![0; usize::try_from(most).map_or(PIECE, |most| most.min(PIECE))];
+        let count = file.read(&mut piece)?;
+        piece.truncate(count);
+        Ok((Bytes::from(piece), file))
+    });
+    read.await.map_err(io::Error::other)?
 }
 
 fn make(
     bytes: &[u8],
     row: &FormatRow,
     options: &ExportOptions,
-    progress: &Progress,
-    spool: impl FnOnce(Arc<AtomicU64>) -> io::Result<Spool>,
-) -> Result<(File, u64), FileError> {
+    expected: &AtomicU64,
+    mut out: Spool,
+) -> Made {
     let mut stored = Stored::read(bytes)?;
-    progress.expected.store(stored.expected(row, options), Ordering::Relaxed);
-    let mut out = spool(Arc::clone(&progress.written))?;
+    expected.store(stored.expected(row, options), Ordering::Relaxed);
     stored.write(row.format, options, &mut out)?;
     Ok(out.into_file()?)
 }

@@ -18,7 +18,7 @@ use serde::{Deserialize, de::DeserializeOwned};
 
 use crate::{
     access::{self, Unknown},
-    document::FormatRow,
+    formats::FormatRow,
     live::{Ended, OpenError, Unread},
     memory::{AGAIN, Full},
     pool::Panicked,

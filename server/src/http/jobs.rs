@@ -38,8 +38,8 @@ use super::{
 };
 use crate::{
     access::{Action, Caller},
-    document::{FORMATS, FormatRow},
     export_options::ExportOptions,
+    formats::{FORMATS, FormatRow},
     jobs::{self, Job, NotTaken, Order},
     pool::Class,
     recipe::{Recipe, SeedRange},

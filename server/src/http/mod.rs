@@ -30,6 +30,7 @@ mod replays;
 mod reviews;
 mod revision;
 mod schematic;
+mod sending;
 mod session_list;
 mod sessions;
 mod species;

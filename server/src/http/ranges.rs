@@ -6,6 +6,7 @@ use std::{
 };
 
 use axum::{
+    body::Body,
     http::{HeaderMap, StatusCode, header},
     response::{IntoResponse, IntoResponseParts, Response},
 };
@@ -69,6 +70,12 @@ pub(super) fn answer_with(
 ) -> Result<Response, Failure> {
     let (tag, length) = (tag(&[&bytes]), bytes.len() as u64);
     answer(asked, said, &tag, Cursor::new(bytes), length)
+}
+
+/// Answers with a file whose length nobody knows yet. Where it is cut off, the rest can be asked for as a part.
+pub(super) fn begun(said: impl IntoResponseParts, tag: &str, body: Body) -> Response {
+    let known = [(header::ACCEPT_RANGES, "bytes".to_owned()), (header::ETAG, tag.to_owned())];
+    (said, known, body).into_response()
 }
 
 /// Whether whoever asks has the file of this tag already (`If-None-Match`).

@@ -27,9 +27,9 @@ use tower::ServiceExt;
 use super::*;
 use crate::{
     access::{Caller, Peer, Reach, Secret, admission::TOKEN},
-    document::FORMATS,
     drawn::DrawnPictures,
     export_options::ExportOptions,
+    formats::FORMATS,
     jobs::Order,
     name,
     recipe::Recipe,

@@ -5,8 +5,8 @@ use std::{
     io::{self, ErrorKind, Read},
     path::{Path, PathBuf},
     sync::{
-        Arc, Mutex, MutexGuard, PoisonError,
-        atomic::{AtomicU32, AtomicU64, Ordering},
+        Mutex, MutexGuard, PoisonError,
+        atomic::{AtomicU32, Ordering},
     },
     thread,
     time::{Duration, Instant},
@@ -17,13 +17,15 @@ use espalier_growth::species::Species;
 use espalier_proto::{Command, Problem, Reason};
 use espalier_session::{Document, LeftOut, Principal};
 use tempfile::TempDir;
+use tokio::sync::watch;
 use tokio_util::sync::CancellationToken;
 
 use super::{BYTES_OF_ONE, KEPT, MOST_BYTES};
 use crate::{
     access::Caller,
-    document::{self, FileError, FormatRow},
+    document::FileError,
     export_options::ExportOptions,
+    formats::{self, FormatRow},
     memory::{self, Claim, Memory, Need, Use},
     pool::{Class, Person, SimulationPool},
     recipe::{Gardener, GrowError, Recipe},
@@ -121,7 +123,7 @@ pub struct Job {
     /// Taken where the job is given up.
     folder: Mutex<Option<TempDir>>,
     metamers: AtomicU32,
-    written: Arc<AtomicU64>,
+    written: watch::Sender<u64>,
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -146,7 +148,7 @@ impl Job {
             }),
             folder: Mutex::new(Some(folder)),
             metamers: AtomicU32::default(),
-            written: Arc::default(),
+            written: watch::Sender::default(),
         }
     }
 
@@ -217,7 +219,7 @@ impl Job {
 
     /// Metamers of the tree under way, and bytes of its file.
     pub fn under_way(&self) -> (u32, u64) {
-        (self.metamers.load(Ordering::Relaxed), self.written.load(Ordering::Relaxed))
+        (self.metamers.load(Ordering::Relaxed), *self.written.borrow())
     }
 
     /// The name of the file of a seed.
@@ -248,7 +250,7 @@ impl Job {
         bytes_left: u64,
     ) -> Result<Grown, Problem> {
         self.metamers.store(0, Ordering::Relaxed);
-        self.written.store(0, Ordering::Relaxed);
+        self.written.send_replace(0);
         let made = self.grow(seed, pool, memory, bytes_left);
         if made.is_err()
             && let Some(path) = self.path(seed)
@@ -276,8 +278,8 @@ impl Job {
         let path = self.path(seed).ok_or(GrowError::GivenUp)?;
         let file = File::create_new(&path)?;
         let stop = self.given_up.clone();
-        let mut out = Spool::new(file, pool.clone(), stop, Arc::clone(&self.written)).within(bytes_left);
-        document::write(&mut document, *species, row.format, options, &mut out)?;
+        let mut out = Spool::new(file, pool.clone(), stop, self.written.clone()).within(bytes_left);
+        formats::write(&mut document, *species, row.format, options, &mut out)?;
         let (_, bytes) = out.into_file()?;
         Ok(Grown { seed, metamers: document.metamers(), bytes, sum: sum_of(&path)? })
     }

@@ -25,6 +25,10 @@ export async function servedFile(
   try {
     const asked = new URLSearchParams([...options, ["ticket", ticket]]);
     const answer = await askFor("GET", `${place}/tree.${ending}?${asked}`, undefined, stop);
+    if (!answer.headers.has("content-length")) {
+      // It comes while it is made, so what is made of it is how far it is.
+      return await bytesOf(answer, () => {});
+    }
     isMaking = false;
     clearInterval(watch);
     return await bytesOf(answer, tell);

@@ -8,7 +8,7 @@ use futures_util::stream;
 use serde_json::{Value, json};
 
 use super::*;
-use crate::document::FORMATS;
+use crate::formats::FORMATS;
 
 /// Each address that reads a body as JSON: the fields that may not be left out, and a body with all fields.
 pub(super) fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
