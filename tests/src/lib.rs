@@ -12,3 +12,4 @@ pub mod scratch;
 pub mod server;
 pub mod strokes;
 pub mod table;
+pub mod tls;

@@ -53,8 +53,12 @@ pub fn run(arguments: &[&str]) -> Finished {
 
 /// The same with something on its standard input.
 pub fn run_with(arguments: &[&str], input: &str) -> Finished {
-    let mut command = command();
-    command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    finished(command().args(arguments), input)
+}
+
+/// Runs a command until it ends, with something on its standard input.
+pub fn finished(command: &mut Command, input: &str) -> Finished {
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().expect("the program starts");
     // One that does not read has closed it.
     let _ = child.stdin.take().expect("it is piped").write_all(input.as_bytes());

@@ -7,6 +7,7 @@ use serde::{Deserialize, de::DeserializeOwned};
 use ureq::{
     Agent, Body,
     http::{Method, Request, Response, header},
+    tls::{RootCerts, TlsConfig},
 };
 
 /// How long a connection may take to come about,
@@ -101,6 +102,8 @@ impl Site {
         let config = Agent::config_builder()
             .timeout_connect(Some(CONNECTING))
             .timeout_recv_response(Some(ANSWERING))
+            // A studio's own authority is one where its machines have been told of it.
+            .tls_config(TlsConfig::builder().root_certs(RootCerts::PlatformVerifier).build())
             // What a server refuses has its reasons in the body.
             .http_status_as_error(false)
             .user_agent(concat!("espalier/", env!("CARGO_PKG_VERSION")));

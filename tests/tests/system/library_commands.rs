@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path};
 
-use espalier_tests::{client::Client, http, program, scratch::Scratch, server::Server};
+use espalier_tests::{client::Client, http, program, scratch::Scratch, server::Server, tls::TlsProxy};
 use serde_json::{Value, json};
 
 /// A trunk and a branch, as a scanner's program has them.
@@ -262,4 +262,33 @@ async fn a_server_that_lets_nobody_in_asks_for_a_token() {
     let listed = asked(&server, &["ls", "--token", &token]);
     assert_eq!(listed.code, 0, "{}", listed.stderr);
     assert!(listed.stdout.starts_with("ID"), "{}", listed.stdout);
+}
+
+/// A studio's proxy has a certificate of its own authority, of which its machines have been told.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_server_behind_a_proxy_is_asked_over_tls() {
+    let scratch = Scratch::new();
+    let server = Server::start(&scratch.path("trees.db"));
+    let (certificate, stranger) = (scratch.path("proxy.pem"), scratch.path("stranger.pem"));
+    TlsProxy::before(server.port(), &stranger).await;
+    let proxy = TlsProxy::before(server.port(), &certificate).await;
+    let scan = scratch.path("Old oak.csv");
+    fs::write(&scan, SCAN).expect("the file is written");
+    let ask = |arguments: &[&str], trusted: &Path| {
+        let url = proxy.url();
+        let mut command = program::command();
+        command.arg("library").args(arguments).args(["--url", &url]).env("SSL_CERT_FILE", trusted);
+        program::finished(&mut command, "")
+    };
+    let put = ask(&["put", scan.to_str().expect("a plain name")], &certificate);
+    assert_eq!(put.code, 0, "{}", put.stderr);
+    let listed = ask(&["ls", "--json"], &certificate);
+    assert_eq!(lines(&listed.stdout)[0]["name"], "Old oak", "{}", listed.stderr);
+    let refused = ask(&["ls"], &stranger);
+    assert_ne!(refused.code, 0, "nothing is told to a proxy that nobody trusts");
+    assert!(
+        refused.stderr.contains("does not answer") && refused.stderr.contains("certificate"),
+        "{}",
+        refused.stderr
+    );
 }
