@@ -200,6 +200,13 @@ impl Caller {
         Ok(role.is_some_and(|role| now(role).may_as(role, action, Object::Server)))
     }
 
+    /// What they are called: as they log in, as they say, or as their device or program was named.
+    pub fn called(&self, said: Option<String>) -> Option<String> {
+        let known = self.entrant().name.map(|name| name.to_string());
+        let is_user = self.pass.as_ref().is_some_and(|held| held.kind == PassKind::Login);
+        if is_user { known.or(said) } else { said.or(known) }
+    }
+
     /// Somebody who has logged in.
     #[cfg(test)]
     pub fn logged_in(name: &str, role: Role) -> Self {

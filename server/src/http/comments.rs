@@ -13,7 +13,6 @@ use axum::{
 };
 use espalier_proto::{
     Problem, Reason,
-    access::Way,
     comment::{
         Bookmark, ChangeComment, ChangeThread, Comment, NewComment, NewPin, NewThread, Resolved, Seen,
         SketchNote, Thread, ThreadPlace,
@@ -294,12 +293,9 @@ async fn comment_of(
     found.comments.into_iter().find(|one| one.number == comment).ok_or_else(no_comment)
 }
 
-/// What whoever asks is called: as they log in, as they say, or as their device was named.
+/// What whoever asks is called, even where nobody knows.
 pub(super) fn called(caller: &Caller, said: Option<String>) -> String {
-    let known = caller.entrant().name.map(|name| name.to_string());
-    let is_user = caller.described().way == Way::Login;
-    let chosen = if is_user { known.or(said) } else { said.or(known) };
-    chosen.unwrap_or_else(|| UNNAMED.to_owned())
+    caller.called(said).unwrap_or_else(|| UNNAMED.to_owned())
 }
 
 /// A comment as the store keeps it.

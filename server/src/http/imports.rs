@@ -19,6 +19,7 @@ use super::{
     versions::{self, Said},
 };
 use crate::{
+    access::Caller,
     import::{self, Import, Imported},
     import_options::{ImportOptions, InternodeLength, Unit},
     pool::Class,
@@ -82,11 +83,13 @@ of_a_file! {
 pub(super) async fn upload(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
+    caller: Caller,
     Query(upload): Query<Upload>,
     file: File,
 ) -> Result<impl IntoResponse, Failure> {
     let import = upload.import(shared.metamer_budget);
-    let (version, notes) = made(&shared, &principal, import, file, Said::default()).await?;
+    let said = Said::by(&caller, None, None);
+    let (version, notes) = made(&shared, &principal, import, file, said).await?;
     Ok((
         StatusCode::CREATED,
         trees::add_noted(&shared, &principal, upload.name.into(), version, notes).await?,
@@ -97,6 +100,7 @@ pub(super) async fn upload(
 pub(super) async fn upload_version(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
+    caller: Caller,
     Path(tree): Path<String>,
     Expected(expected): Expected,
     Query(upload): Query<VersionUpload>,
@@ -104,7 +108,7 @@ pub(super) async fn upload_version(
 ) -> Result<impl IntoResponse, Failure> {
     trees::stored(&shared, &tree).await?;
     let import = upload.import(shared.metamer_budget);
-    let said = Said::new(upload.author, upload.note);
+    let said = Said::by(&caller, upload.author, upload.note);
     let (version, notes) = made(&shared, &principal, import, file, said).await?;
     versions::add_noted(&shared, &tree, expected, version, notes).await
 }

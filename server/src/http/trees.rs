@@ -231,7 +231,7 @@ pub(super) async fn copy(
     Body(copy): Body<CopyTree>,
 ) -> Result<impl IntoResponse, Failure> {
     shared.ask(&caller, Action::SaveTree, Named::Server).await?;
-    let said = Said::new(copy.author, copy.note);
+    let said = Said::by(&caller, copy.author, copy.note);
     let version = match copy.version {
         Some(version) => version,
         None => stored(&shared, &id).await?.head.number,

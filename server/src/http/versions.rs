@@ -87,7 +87,7 @@ pub(super) async fn read(
 ) -> Result<NewVersion, Failure> {
     let Saving { session, note, author, thumbnail } = saving;
     let thumbnail = thumbnail.as_deref().map(thumbnail::from_data_url).transpose()?;
-    let said = Said::new(author, note);
+    let said = Said::by(caller, author, note);
     shared.ask(caller, Action::TakeTree, Named::Session(&session)).await?;
     let read = sessions::open(shared, &session).await?.read().await?;
     let document = TreeDocument { simulation_version: SIMULATION_VERSION, bytes: read.bytes };
@@ -96,16 +96,16 @@ pub(super) async fn read(
     Ok(NewVersion { session: Some((session, read.through)), ..version })
 }
 
-/// What whoever saves says.
-#[derive(Default)]
+/// What is said of what is saved, and by whom.
 pub(super) struct Said {
     author: Option<String>,
     note: String,
 }
 
 impl Said {
-    pub(super) fn new(author: Option<Name>, note: Option<Note>) -> Self {
-        Self { author: author.map(String::from), note: note.map(String::from).unwrap_or_default() }
+    pub(super) fn by(caller: &Caller, author: Option<Name>, note: Option<Note>) -> Self {
+        let author = caller.called(author.map(String::from));
+        Self { author, note: note.map(String::from).unwrap_or_default() }
     }
 }
 
@@ -132,12 +132,13 @@ pub(super) async fn save(
 pub(super) async fn restore(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
+    caller: Caller,
     Path((tree, number)): Path<(String, u32)>,
     Expected(expected): Expected,
     Body(restore): Body<RestoreVersion>,
 ) -> Result<impl IntoResponse, Failure> {
     let contents = Contents::Of { tree: tree.clone(), version: number };
-    let said = Said::new(restore.author, restore.note);
+    let said = Said::by(&caller, restore.author, restore.note);
     let version = new(&principal, said, contents);
     add(&shared, &tree, expected, version).await
 }

@@ -17,7 +17,7 @@ const DOCUMENT: &str = "POST /api/v1/trees/import?name=Oak&format=espalier";
 const VERSION: &str = "POST /api/v1/trees/{tree}/versions/import?format=csv";
 
 /// A trunk and a branch, as a scanner's program has them.
-const SCAN: &str = include_str!("../../../../tests/fuzz/seeds/rtwig.csv");
+pub(super) const SCAN: &str = include_str!("../../../../tests/fuzz/seeds/rtwig.csv");
 /// A document with a section that no release reads.
 const LATER: &[u8] = include_bytes!("../../../session/golden/later.espalier");
 

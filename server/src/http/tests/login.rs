@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::*;
+use super::{files::SCAN, *};
 use crate::{
     access::password::Password,
     store::{Group, Groups, User, UserChange, Users},
@@ -158,4 +158,28 @@ async fn ac15_a_login_may_what_a_group_of_its_user_may() {
     assert_eq!(me(&server, &again).await["role"], "editor");
     store.leave_group("Studio", "Ada").await.unwrap();
     assert_eq!(me(&server, &cookie).await["role"], "viewer");
+}
+
+#[tokio::test]
+async fn lb1_whoever_has_logged_in_saves_by_their_own_name() {
+    let (server, _) = with_ada(Role::Editor).await;
+    let cookie = cookie_of(&log_in(&server, "Ada", "correct horse", AFAR).await);
+    for path in [
+        "/api/v1/trees/import?name=Scan&format=csv",
+        "/api/v1/trees/ash/versions/import?format=csv&author=Bo",
+        "/api/v1/trees/ash/versions/1/restore",
+        "/api/v1/trees/ash/copies",
+    ] {
+        let body = match path.rsplit_once('/').map(|(_, last)| last) {
+            Some("restore") => json!({ "author": "Bo" }).to_string(),
+            Some("copies") => json!({ "name": "Twin", "author": "Bo" }).to_string(),
+            _ => SCAN.to_owned(),
+        };
+        let asked = from_afar(&Method::POST, path, AFAR).header(header::COOKIE, &cookie);
+        let answer = server.clone().oneshot(asked.body(Body::from(body)).unwrap()).await.unwrap();
+        let status = answer.status();
+        let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+        let saved: Value = serde_json::from_slice(&bytes).unwrap();
+        assert_eq!((status, &saved["author"]), (StatusCode::CREATED, &json!("Ada")), "{path}: {saved}");
+    }
 }
