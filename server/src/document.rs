@@ -13,6 +13,7 @@ use espalier_settings::{Appearance, ParameterValues};
 use crate::{
     export_options::ExportOptions,
     formats::{self, Format, FormatRow},
+    memory::Full,
 };
 
 /// Pixels of a thumbnail across and down: the first whose file is not too large to be kept.
@@ -27,6 +28,9 @@ pub enum FileError {
     /// The format cannot hold it.
     #[error(transparent)]
     Export(#[from] ExportError),
+    /// There is no memory left for it.
+    #[error(transparent)]
+    Memory(#[from] Full),
     /// The disk is full, or there is none.
     #[error(transparent)]
     Disk(#[from] std::io::Error),
@@ -75,8 +79,12 @@ impl Stored {
 
     /// About how many bytes its file has.
     pub fn expected(&self, row: &FormatRow, options: &ExportOptions) -> u64 {
-        let leaves = style_options(&self.0.parameters()).leaves_per_node;
-        row.expected(self.0.metamers(), leaves.into(), options)
+        row.expected(self.0.metamers(), leaves_per_node(&self.0), options)
+    }
+
+    /// Bytes of memory that hold its file while it is made.
+    pub fn held(&self, row: &FormatRow, options: &ExportOptions) -> u64 {
+        row.held(self.0.metamers(), leaves_per_node(&self.0), options)
     }
 
     /// Writes its file.
@@ -88,6 +96,11 @@ impl Stored {
     ) -> Result<(), ExportError> {
         formats::write(&mut self.0, None, format, options, out)
     }
+}
+
+/// How many leaves a node of a document has at most.
+pub fn leaves_per_node(document: &Document) -> u32 {
+    style_options(&document.parameters()).leaves_per_node.into()
 }
 
 /// The species that grows by these parameters at some stage of its life and looks like this; none where somebody has

@@ -154,11 +154,11 @@ impl ExportOptions {
 
     /// Whether a format with these options has all that are given.
     pub fn check(&self, options: &[&str]) -> Result<(), NotOfFormat> {
-        let other = self.given().into_iter().find(|name| !options.contains(name));
-        // Leaves that are places of few meshes stand still: their sway would have to be left out.
+        if let Some(name) = self.given().into_iter().find(|name| !options.contains(name)) {
+            return Err(NotOfFormat::Unknown(name));
+        }
         let moves = [option::SWAY, option::WIND_WEIGHTS].into_iter().find(|name| self.given().contains(name));
-        let other = other.or(moves.filter(|_| self.instanced));
-        other.map_or(Ok(()), |name| Err(NotOfFormat(name)))
+        moves.filter(|_| self.instanced).map_or(Ok(()), |name| Err(NotOfFormat::Instanced(name)))
     }
 
     /// What it says about triangles.
@@ -187,21 +187,30 @@ impl ExportOptions {
         }
     }
 
-    /// Pictures of a turntable.
-    pub fn frames(&self) -> u16 {
-        self.frames.map_or(1, |frames| frames.0)
-    }
-
     /// Points of a cloud.
     pub fn points(&self) -> u32 {
         self.points.map_or(POINTS, |points| points.0)
     }
 }
 
-/// An option that the format does not have, or not together with the others that are given.
+/// An option that cannot be.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
-#[error("this format has no option `{0}`, or not together with the others")]
-pub struct NotOfFormat(pub &'static str);
+pub enum NotOfFormat {
+    /// The format does not have it.
+    #[error("this format has no option `{0}`")]
+    Unknown(&'static str),
+    /// Leaves that are places of few meshes stand still.
+    #[error("the options `{0}` and `instanced` exclude each other")]
+    Instanced(&'static str),
+}
+
+impl NotOfFormat {
+    /// Which it is.
+    pub fn option(&self) -> &'static str {
+        let (Self::Unknown(name) | Self::Instanced(name)) = self;
+        name
+    }
+}
 
 /// A text, or a number as it is written.
 #[derive(Deserialize)]
@@ -356,17 +365,25 @@ mod tests {
     #[test]
     fn a_format_refuses_what_it_has_not() {
         let options = ExportOptions { hull: true, ..ExportOptions::default() };
-        assert_eq!(options.check(&[option::LOD]), Err(NotOfFormat("hull")));
+        assert_eq!(options.check(&[option::LOD]), Err(NotOfFormat::Unknown("hull")));
         assert_eq!(options.check(&[option::HULL]), Ok(()));
         let options = ExportOptions { lightmap: Some(Texels(512)), ..ExportOptions::default() };
-        assert_eq!(options.check(option::MESHES), Err(NotOfFormat("lightmap")), "OBJ has no second places");
+        assert_eq!(
+            options.check(option::MESHES),
+            Err(NotOfFormat::Unknown("lightmap")),
+            "OBJ has no second places"
+        );
         assert_eq!(options.check(option::SCENES), Ok(()));
         let options = ExportOptions { sway: Some(Bones(64)), instanced: true, ..ExportOptions::default() };
         let both = [option::SWAY, option::INSTANCED];
-        assert_eq!(options.check(&both), Err(NotOfFormat("sway")), "leaves that are instances stand still");
+        assert_eq!(
+            options.check(&both),
+            Err(NotOfFormat::Instanced("sway")),
+            "leaves that are instances stand still"
+        );
         assert_eq!(ExportOptions { instanced: false, ..options }.check(&both), Ok(()));
         let options = ExportOptions { wind_weights: true, instanced: true, ..ExportOptions::default() };
         let both = [option::WIND_WEIGHTS, option::INSTANCED];
-        assert_eq!(options.check(&both), Err(NotOfFormat("wind_weights")));
+        assert_eq!(options.check(&both), Err(NotOfFormat::Instanced("wind_weights")));
     }
 }

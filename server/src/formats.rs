@@ -15,12 +15,10 @@ use crate::{
     memory,
 };
 
-/// Pixels of a picture across and down.
-const PICTURE: Size = Size(1000, 1000);
-/// The same of a moving picture.
-const MOVING: Size = Size(480, 540);
-/// Pictures of a loop of sway.
-const LOOP: u16 = 80;
+/// A picture that nobody says more of: pixels across and down, and how many pictures a file has.
+const STILL: (Size, u16) = (Size(1000, 1000), 1);
+/// The same of a loop of sway.
+const LOOP: (Size, u16) = (Size(480, 540), 80);
 /// What writes files, as they name it.
 const PROGRAM: &str = concat!("Espalier ", env!("CARGO_PKG_VERSION"));
 
@@ -60,6 +58,20 @@ impl Format {
     pub fn is_forward(self) -> bool {
         !matches!(self, Self::Glb | Self::Obj | Self::Pivots | Self::Usdz)
     }
+
+    /// How large its pictures are and how many a file has, where nobody says more; none where it has none.
+    fn pictures(self) -> Option<(Size, u16)> {
+        match self {
+            Self::Picture => Some(STILL),
+            Self::Sway => Some(LOOP),
+            _ => None,
+        }
+    }
+}
+
+/// What is drawn where somebody may say more.
+fn drawn((size, frames): (Size, u16), options: &ExportOptions) -> (Size, u16) {
+    (options.size.unwrap_or(size), options.frames.map_or(frames, |frames| frames.0))
 }
 
 /// What is known of a format.
@@ -101,14 +113,7 @@ impl FormatRow {
 
     /// How large a picture is, and how many of them one file has.
     fn picture(&self, options: &ExportOptions) -> Option<(Size, u16)> {
-        match self.format {
-            Format::Picture => Some((options.size.unwrap_or(PICTURE), options.frames())),
-            Format::Sway => {
-                let frames = options.frames.map_or(LOOP, |frames| frames.0);
-                Some((options.size.unwrap_or(MOVING), frames))
-            }
-            _ => None,
-        }
+        self.format.pictures().map(|plain| drawn(plain, options))
     }
 }
 
@@ -248,7 +253,7 @@ pub const FORMATS: &[FormatRow] = &[
             ],
         ],
         &[],
-        [1e3, 12.0, 0.0],
+        [1e3, 25.0, 0.0],
     ),
     row(
         Format::Cloud,
@@ -287,7 +292,7 @@ pub const FORMATS: &[FormatRow] = &[
             ],
         ],
         option::PICTURES,
-        [3e6, 0.0, 0.0],
+        [270e3, 0.0, 0.0],
     ),
     row(
         Format::Document,
@@ -300,7 +305,7 @@ pub const FORMATS: &[FormatRow] = &[
             ],
         ],
         &[],
-        [25e3, 56.0, 0.0],
+        [60e3, 75.0, 0.0],
     ),
 ];
 
@@ -351,9 +356,20 @@ impl FormatRow {
         let shares = SHARES.iter().filter(|(option, _)| given.contains(option));
         let [wood, foliage] = shares.fold([1.0, 1.0], |[a, b], (_, [c, d])| [a * c, b * d]);
         let bones = options.model().sway.unwrap_or_default();
-        let least = least * f64::from(options.frames()) + BONE * f64::from(bones);
+        let pixels = |(Size(width, height), frames): (Size, u16)| (width * height) as f64 * f64::from(frames);
+        let drawn = match (self.picture(options), self.format.pictures()) {
+            (Some(wanted), Some((size, _))) => pixels(wanted) / pixels((size, 1)),
+            _ => 1.0,
+        };
+        let least = least * drawn + BONE * f64::from(bones);
         let leaves = 0.5 * f64::from(leaves) * leaf * foliage;
         (least + level * f64::from(metamers) * (metamer * wood + leaves)) as u64
+    }
+
+    /// Bytes of memory that hold such a file while it is made, where it does not go to the disk as it comes.
+    pub fn held(&self, metamers: u32, leaves: u32, options: &ExportOptions) -> u64 {
+        let is_held = self.format == Format::Pivots || options.model().compressed;
+        if is_held { self.expected(metamers, leaves, options) * 3 / 2 } else { 0 }
     }
 
     /// The row as clients read it.
@@ -419,8 +435,7 @@ pub fn write(
         Format::Picture => {
             let stand = species.map(|species| species.stand).unwrap_or_default();
             let look = Look { appearance, stand };
-            let Size(width, height) = options.size.unwrap_or(PICTURE);
-            let frames = options.frames();
+            let (Size(width, height), frames) = drawn(STILL, options);
             picture::turntable(
                 document.portrait(),
                 &style,
@@ -434,8 +449,7 @@ pub fn write(
         Format::Sway => {
             let stand = species.map(|species| species.stand).unwrap_or_default();
             let look = Look { appearance, stand };
-            let Size(width, height) = options.size.unwrap_or(MOVING);
-            let frames = options.frames.map_or(LOOP, |frames| frames.0);
+            let (Size(width, height), frames) = drawn(LOOP, options);
             let (plant, look, size) = (document.portrait(), (&look, metres), [width, height]);
             picture::swaying(plant, &style, look, size, options.camera(metres), frames, out)
         }
@@ -463,6 +477,36 @@ mod tests {
         }
     }
 
+    #[test]
+    fn lm19_files_that_are_made_in_memory_take_no_more_than_is_counted() {
+        let mut document = grown();
+        let (metamers, leaves) = (document.metamers(), crate::document::leaves_per_node(&document));
+        let packed = ExportOptions { compressed: true, ..ExportOptions::default() };
+        let plain = ExportOptions::default();
+        for (row, options, is_held) in FORMATS.iter().flat_map(|row| {
+            let is_packed = row.options.contains(&option::COMPRESSED);
+            let packed = is_packed.then_some((row, &packed, true));
+            packed.into_iter().chain([(row, &plain, row.format == Format::Pivots)])
+        }) {
+            let held = row.held(metamers, leaves, options);
+            assert_eq!(held > 0, is_held, "{}", row.ending);
+            if is_held {
+                let write = |out: &mut dyn Sink| write(&mut document, None, row.format, options, out);
+                let file = espalier_export::in_memory(write).unwrap();
+                assert!(file.len() as u64 <= held, "{}: {} of {held} bytes", row.ending, file.len());
+            }
+        }
+    }
+
+    /// A seedling of some steps.
+    fn grown() -> Document {
+        let mut document = Document::new(7);
+        let begin: Command = serde_json::from_str(r#"{"kind":"grow","steps":4}"#).unwrap();
+        document.begin(&Principal::visitor(), &begin).unwrap();
+        while document.advance() {}
+        document
+    }
+
     /// A file that cannot go back.
     struct Forward(usize);
 
@@ -485,10 +529,7 @@ mod tests {
 
     #[test]
     fn ex2_files_that_are_sent_while_they_are_made_are_written_from_beginning_to_end() {
-        let mut document = Document::new(7);
-        let begin: Command = serde_json::from_str(r#"{"kind":"grow","steps":4}"#).unwrap();
-        document.begin(&Principal::visitor(), &begin).unwrap();
-        while document.advance() {}
+        let mut document = grown();
         let options = ExportOptions { size: Some(Size(16, 16)), ..ExportOptions::default() };
         for row in FORMATS {
             let mut out = Forward(0);

@@ -5,7 +5,7 @@ use std::{
     io::{self, Write},
 };
 
-use crate::{ExportError, Sink};
+use crate::{ExportError, Sink, picture::Canvas};
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Filter};
 
 /// A file of at most 256 colours, and for each pixel which of them.
@@ -29,15 +29,16 @@ pub(crate) fn rgba(size: [usize; 2], pixels: &[[u8; 4]]) -> Vec<u8> {
     file(size, ColorType::Rgba, Filter::NoFilter, None, pixels.as_flattened())
 }
 
-/// A file of pictures that follow one another for ever, `seconds` for all `count` of them.
+/// A file of pictures that follow one another for ever, `seconds` for all `count` of them. Each is drawn when it is its
+/// turn, and asks time and again whether to go on.
 pub(crate) fn animated(
     [width, height]: [usize; 2],
     [seconds, count]: [u16; 2],
-    pictures: impl Iterator<Item = Vec<[u8; 3]>>,
+    mut draw: impl FnMut(u16, &mut dyn FnMut() -> io::Result<()>) -> io::Result<Canvas>,
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
     let out = RefCell::new(out);
-    let write = || -> Result<(), EncodingError> {
+    let mut write = || -> Result<(), EncodingError> {
         let mut encoder = Encoder::new(Shared(&out), width as u32, height as u32);
         encoder.set_color(ColorType::Rgb);
         encoder.set_depth(BitDepth::Eight);
@@ -46,10 +47,10 @@ pub(crate) fn animated(
         encoder.set_animated(u32::from(count), 0)?;
         encoder.set_frame_delay(seconds, count)?;
         let mut writer = encoder.write_header()?;
-        for picture in pictures {
-            writer.write_image_data(picture.as_flattened())?;
-            // Whoever gives the file up hears no later than with the next picture.
-            out.borrow_mut().flush()?;
+        for number in 0..count {
+            // Whoever gives the file up ends it here.
+            let picture = draw(number, &mut || out.borrow_mut().flush())?;
+            writer.write_image_data(picture.pixels().as_flattened())?;
         }
         writer.finish()
     };

@@ -25,6 +25,7 @@ use espalier_proto::{
 use futures_util::stream;
 use serde::Deserialize;
 use tokio::{
+    runtime::Handle,
     sync::{OwnedSemaphorePermit, oneshot, watch},
     task::spawn_blocking,
 };
@@ -43,7 +44,7 @@ use crate::{
     document::{FileError, Stored},
     export_options::{ExportOptions, NotOfFormat, option},
     formats::{FORMATS, FormatRow},
-    memory::Use,
+    memory::{Memory, Use},
     spool::Spool,
     store::Library,
 };
@@ -213,7 +214,7 @@ impl Wanted {
             )
             .into());
         }
-        let place = shared.turns.come(pixels > 0);
+        let place = shared.turns.come(pixels);
         let (progress, held) = shared.progresses.hold(ticket, place)?;
         Ok(Self { row, options, progress, held })
     }
@@ -244,10 +245,10 @@ impl Wanted {
         let gone = stop.clone().drop_guard();
         let (made, whether_made) = oneshot::channel();
         let sending = Sending { written: progress.written.subscribe(), made: whether_made, gone };
-        let (pool, of_tree) = (shared.pool.clone(), name.to_owned());
+        let (pool, memory, of_tree) = (shared.pool.clone(), shared.memory.clone(), name.to_owned());
         spawn_blocking(move || {
             let out = Spool::new(out, pool, stop, progress.written.clone());
-            let file = make(bytes.as_ref(), row, &options, &progress.expected, out);
+            let file = make(bytes.as_ref(), row, &options, (&progress.expected, &memory), out);
             drop((bytes, held, claim, progress, turn));
             if let Err(Err(error)) = made.send(file) {
                 tracing::debug!(name = of_tree, %error, "an export was given up");
@@ -256,6 +257,7 @@ impl Wanted {
         match sending.ready(reader).await {
             Ready::Whole(Ok(Ok((file, length)))) => ranges::answer(asked, headers, &tag, file, length),
             Ready::Whole(Ok(Err(FileError::Document(error)))) => Err(unreadable(name, &error)),
+            Ready::Whole(Ok(Err(FileError::Memory(full)))) => Err(full.into()),
             Ready::Whole(Ok(Err(error))) => Err(not_made(name, &error)),
             Ready::Whole(Err(_)) => Err(crate::pool::Panicked.into()),
             Ready::Begun(body) => Ok(ranges::begun(headers, &tag, body)),
@@ -312,11 +314,13 @@ fn make(
     bytes: &[u8],
     row: &FormatRow,
     options: &ExportOptions,
-    expected: &AtomicU64,
+    (expected, memory): (&AtomicU64, &Memory),
     mut out: Spool,
 ) -> Made {
     let mut stored = Stored::read(bytes)?;
     expected.store(stored.expected(row, options), Ordering::Relaxed);
+    let held = stored.held(row, options);
+    let _held = Handle::current().block_on(memory.take_soon(Use::Export, held))?;
     stored.write(row.format, options, &mut out)?;
     Ok(out.into_file()?)
 }
@@ -324,5 +328,5 @@ fn make(
 pub(super) fn not_of(row: &FormatRow, error: &NotOfFormat) -> Problem {
     let allowed = if row.options.is_empty() { "no option".to_owned() } else { row.options.join(", ") };
     let message = format!("The export cannot be done: {error}; allowed: {allowed}.");
-    Problem::new(Reason::NoSuchOption, message).at(error.0, allowed)
+    Problem::new(Reason::NoSuchOption, message).at(error.option(), allowed)
 }

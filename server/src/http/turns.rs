@@ -1,5 +1,5 @@
-//! Whose turn it is to have a file made: one file of structure and one picture at a time, in the order in which they were
-//! asked for. A picture may take minutes, and nobody's model waits for it.
+//! Whose turn it is to have a file made: one file of structure, one picture and one large or moving picture at a time, in
+//! the order in which they were asked for. A moving picture may take minutes, and nothing else waits for it.
 
 use std::{
     collections::BTreeSet,
@@ -15,12 +15,20 @@ use crate::pool::Panicked;
 pub struct Turns {
     files: Lane,
     pictures: Lane,
+    large_pictures: Lane,
 }
 
+/// Pixels of a picture that is drawn within seconds.
+const QUICK: u64 = 4_000_000;
+
 impl Turns {
-    /// Comes last among those who want a picture, or any other file.
-    pub(super) fn come(&self, wants_picture: bool) -> Place {
-        let lane = if wants_picture { &self.pictures } else { &self.files };
+    /// Comes last among those who want such a picture, of so many pixels, or any other file, which has none.
+    pub(super) fn come(&self, pixels: u64) -> Place {
+        let lane = match pixels {
+            0 => &self.files,
+            1..=QUICK => &self.pictures,
+            _ => &self.large_pictures,
+        };
         let mut standing = lane.standing();
         let number = standing.last().map_or(0, |last| last + 1);
         standing.insert(number);
@@ -79,10 +87,12 @@ mod tests {
     #[tokio::test]
     async fn ex3_files_wait_for_files_and_pictures_for_pictures() {
         let turns = Turns::default();
-        let [first, second, third] = [0; 3].map(|_| turns.come(false));
-        let picture = turns.come(true);
+        let [first, second, third] = [0; 3].map(|_| turns.come(0));
+        let [still, moving] = [QUICK, QUICK + 1].map(|pixels| turns.come(pixels));
         let held = first.turn().await.unwrap();
-        drop(picture.turn().await.unwrap());
+        let drawn = moving.turn().await.unwrap();
+        drop(still.turn().await.unwrap());
+        drop(drawn);
         assert_eq!([&first, &second, &third].map(Place::ahead), [0, 1, 2]);
         // Whoever goes away is waited for no longer.
         drop(second);

@@ -23,7 +23,7 @@ use tokio_util::sync::CancellationToken;
 use super::{BYTES_OF_ONE, KEPT, MOST_BYTES};
 use crate::{
     access::Caller,
-    document::FileError,
+    document::{self, FileError},
     export_options::ExportOptions,
     formats::{self, FormatRow},
     memory::{self, Claim, Memory, Need, Use},
@@ -275,6 +275,8 @@ impl Job {
             Plot { document: recipe.seedling(seed).map_err(GrowError::from)?, claim, job: self, pool };
         recipe.grow(&mut plot)?;
         let Plot { mut document, claim: _claim, .. } = plot;
+        let held = row.held(document.metamers(), document::leaves_per_node(&document), options);
+        let _held = memory.take(Use::Job, Need::Other, held).map_err(|_| GrowError::NoMemory)?;
         let path = self.path(seed).ok_or(GrowError::GivenUp)?;
         let file = File::create_new(&path)?;
         let stop = self.given_up.clone();

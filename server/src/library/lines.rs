@@ -96,8 +96,15 @@ impl VersionLine {
             self.species.clone().unwrap_or_default(),
             self.saved_at.clone(),
             self.author.clone().unwrap_or_default(),
-            self.note.lines().next().unwrap_or_default().to_owned(),
+            self.said(),
         ]
+    }
+
+    /// The first line of the note, after what it was restored from.
+    fn said(&self) -> String {
+        let restored = self.restored.map(|number| format!("as version {number}"));
+        let note = self.note.lines().next().filter(|note| !note.is_empty()).map(str::to_owned);
+        restored.into_iter().chain(note).collect::<Vec<_>>().join(": ")
     }
 }
 

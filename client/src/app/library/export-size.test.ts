@@ -35,7 +35,7 @@ const sizes = JSON.parse(here("../../../test/export-sizes.json")) as Sizes;
 
 /** The server's formats, from the table in its sources. */
 function formats(): ReadonlyMap<string, ExportFormat> {
-  const source = here("../../../../server/src/document.rs");
+  const source = here("../../../../server/src/formats.rs");
   const numbers = (text: string) => text.split(",").map(Number);
   const levels = (name: string) =>
     numbers(new RegExp(`const ${name}: \\[f64; 4\\] = \\[(.*?)\\];`).exec(source)![1]!) as ExportFormat["levels"];

@@ -47,8 +47,7 @@ pub fn swaying(
     };
     // The room holds what is seen at any moment, and the camera stands still.
     let view = at(0).steady_views(camera, size, 1).swap_remove(0);
-    let pictures = (0..frames).map(|frame| at(frame).seen(&view, size).pixels());
-    png::animated(size, [LOOP as u16, frames], pictures, out)
+    png::animated(size, [LOOP as u16, frames], |frame, go_on| at(frame).seen_while(&view, size, go_on), out)
 }
 
 /// How all rows stand at a moment of the loop.

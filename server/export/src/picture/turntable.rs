@@ -1,5 +1,7 @@
 //! Pictures of a plant from any side, one or many in one PNG file.
 
+use std::io;
+
 use espalier_mesh::Style;
 use espalier_plant::Plant;
 use glam::Vec3;
@@ -31,29 +33,26 @@ pub fn turntable(
         let picture = stage.seen_while(&view, size, || out.flush())?;
         return Ok(out.write_all(&picture.png())?);
     }
-    let pictures = around(&stage, size, camera, frames).map(|picture| picture.pixels());
-    png::animated(size, [ROUND, frames], pictures, out)
+    let views = stage.steady_views(camera, size, frames);
+    let draw = |number: u16, go_on: &mut dyn FnMut() -> io::Result<()>| {
+        stage.seen_while(&views[usize::from(number)], size, go_on)
+    };
+    png::animated(size, [ROUND, frames], draw, out)
 }
 
 /// So many square pictures from all around, beginning with the front, side by side from the left to the right.
 pub fn strip(plant: &Plant, style: &Style, look: &Look, side: usize, frames: u16) -> Canvas {
     let stage = Stage::of(plant, style, look);
     let mut strip = Canvas::new(side * usize::from(frames), side, Vec3::ZERO);
-    for (number, picture) in around(&stage, [side; 2], Camera::default(), frames).enumerate() {
-        strip.paste(&picture, number * side, 0);
+    for (number, view) in stage.steady_views(Camera::default(), [side; 2], frames).iter().enumerate() {
+        strip.paste(&stage.seen(view, [side; 2]), number * side, 0);
     }
     strip
 }
 
-/// So many pictures from all around, beginning with the one from this camera, all in one scale.
-fn around(stage: &Stage, size: [usize; 2], camera: Camera, frames: u16) -> impl Iterator<Item = Canvas> {
-    let views = stage.steady_views(camera, size, frames);
-    views.into_iter().map(move |view| stage.seen(&view, size))
-}
-
 #[cfg(test)]
 mod tests {
-    use std::io::{self, Cursor, Seek, SeekFrom, Write};
+    use std::io::{Cursor, Seek, SeekFrom, Write};
 
     use espalier_plant::{AxisId, Internode};
 
@@ -86,13 +85,14 @@ mod tests {
     #[test]
     fn a_picture_that_is_given_up_is_drawn_no_further() {
         let plant = Plant::new(Vec3::ZERO);
-        // A still of two bands, and a turntable.
-        for (size, frames) in [([1200, 950], 1), ([24, 24], 12)] {
+        // A still of two bands, a turntable of small pictures, and one whose first picture has two bands.
+        for (size, frames) in [([1200, 950], 1), ([24, 24], 12), ([1200, 950], 2)] {
             let mut out = GivenUp::default();
             let (style, look) = (Style::default(), Look::default());
             let drawn = turntable(&plant, &style, &look, size, Camera::default(), frames, &mut out);
             assert!(matches!(drawn, Err(ExportError::Write(io::ErrorKind::ConnectionAborted))), "{drawn:?}");
             assert_eq!(out.asked, 2);
+            assert!(out.file.get_ref().len() < 1000, "no picture was drawn to its end but the first");
         }
     }
 
