@@ -1,5 +1,7 @@
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
+import { WIND_PRESETS, type WindPreset } from "../../../client/src/app/document/wind/wind-presets";
+import type { Appearance } from "../../../client/src/wire/generated";
 
 /** Where sketches lie and pictures go. */
 export const FOLDER = join(import.meta.dirname, "../../../docs/gallery");
@@ -29,12 +31,23 @@ export interface Entry {
   /** So many operations are taken back for a second picture, which is put on the left of the first. */
   readonly undone?: number;
   /** Commands that are done once the camera stands: a wind, in which it stands where it did in the calm. */
-  readonly then?: readonly object[];
+  readonly afterwards?: readonly object[];
+  /** A wind to pick from in the panel that blows then, and what is set besides. */
+  readonly wind?: Partial<Appearance["wind"]> & { readonly preset: WindPreset };
 }
 
 /** All sketches, in the order of the gallery. */
 export async function readCatalogue(): Promise<Entry[]> {
-  return JSON.parse(await readFile(join(FOLDER, "gallery.json"), "utf8")) as Entry[];
+  const entries = JSON.parse(await readFile(join(FOLDER, "gallery.json"), "utf8")) as Entry[];
+  return entries.map(blown);
+}
+
+/** An entry whose wind blows by a command. */
+function blown(entry: Entry): Entry {
+  if (!entry.wind) return entry;
+  const { preset, ...besides } = entry.wind;
+  const appearance = { wind: { ...WIND_PRESETS[preset], ...besides } };
+  return { ...entry, afterwards: [...(entry.afterwards ?? []), { kind: "set_appearance", appearance }] };
 }
 
 /** The file of a sketch's script. */

@@ -61,7 +61,7 @@ export class Player {
   /** Takes the picture of the session at an address as JPEG. */
   async photograph(
     address: string,
-    { shot, undone = 0, then = [] }: Pick<Entry, "shot" | "undone" | "then">,
+    { shot, undone = 0, afterwards = [] }: Pick<Entry, "shot" | "undone" | "afterwards">,
   ): Promise<Buffer> {
     const { size, oversampling } = this.#care;
     const [width, height] = [Math.round(shot.width * size), Math.round(shot.height * size)];
@@ -71,9 +71,9 @@ export class Player {
       tablet.page.setDefaultTimeout(PATIENCE);
       await tablet.untilQuiet();
       await tablet.page.addStyleTag({ content: CANVAS_ALONE });
-      if (then.length > 0) {
+      if (afterwards.length > 0) {
         await atRest(tablet.page);
-        const commands = then.map((command) => JSON.stringify(command));
+        const commands = afterwards.map((command) => JSON.stringify(command));
         await perform(this.blank, sessionAt(address), commands);
         // The wind has come, and is held where it is: a picture that moves is never finished.
         await tablet.page.waitForSelector("canvas:not([data-still])", { state: "attached" });

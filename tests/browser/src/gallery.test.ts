@@ -6,6 +6,7 @@ import { promisify } from "node:util";
 import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { chosen, type Entry, FOLDER, query, readCatalogue, readScript, scriptOf } from "../gallery/catalogue";
+import { packed } from "../gallery/loop";
 import { readOrder } from "../gallery/order";
 import { DRAFT, Player } from "../gallery/player";
 import { becameTree, changed, colours, Darkroom } from "./picture";
@@ -97,6 +98,47 @@ describe("the player", () => {
     const both = await darkroom.develop(await player.play(entry, ['{"kind":"grow","steps":4}', ...GROWN]));
     expect(both.width).toBeGreaterThan(600);
     expect(both.height).toBe(300);
+  });
+
+  it("packs pictures one after the other, as browsers unpack them", async () => {
+    const pictures = await player.blank.evaluate(() =>
+      ["red", "lime", "blue"].map((colour) => {
+        const canvas = document.createElement("canvas");
+        [canvas.width, canvas.height] = [37, 20];
+        const context = canvas.getContext("2d", { alpha: false })!;
+        context.fillStyle = colour;
+        context.fillRect(0, 0, 37, 20);
+        return canvas.toDataURL("image/webp", 0.8).split(",")[1] ?? "";
+      }),
+    );
+    const milliseconds = 1000 / 12;
+    const frames = pictures.map((base64) => ({ webp: Buffer.from(base64, "base64"), milliseconds }));
+    const file = packed(37, 20, frames).toString("base64");
+    const seen = await player.blank.evaluate(async (base64) => {
+      const data = await (await fetch(`data:image/webp;base64,${base64}`)).arrayBuffer();
+      const decoder = new ImageDecoder({ data, type: "image/webp" });
+      await decoder.tracks.ready;
+      const { frameCount = 0, repetitionCount } = decoder.tracks.selectedTrack ?? {};
+      const seen: { size: string; colour: string; lasts: number }[] = [];
+      for (let frameIndex = 0; frameIndex < frameCount; frameIndex += 1) {
+        const { image } = await decoder.decode({ frameIndex });
+        const canvas = new OffscreenCanvas(1, 1);
+        const context = canvas.getContext("2d")!;
+        context.drawImage(image, 0, 0);
+        const [r = 0, g = 0, b = 0] = context.getImageData(0, 0, 1, 1).data;
+        const colour = r > 200 ? "red" : g > 200 ? "lime" : b > 200 ? "blue" : "none";
+        const size = `${image.displayWidth} × ${image.displayHeight}`;
+        seen.push({ size, colour, lasts: (image.duration ?? 0) / 1000 });
+      }
+      return { seen, endless: repetitionCount === Number.POSITIVE_INFINITY };
+    }, file);
+    expect(seen.endless).toBe(true);
+    expect(seen.seen.map(({ size, colour }) => `${size} ${colour}`)).toEqual([
+      "37 × 20 red",
+      "37 × 20 lime",
+      "37 × 20 blue",
+    ]);
+    expect(seen.seen.reduce((sum, { lasts }) => sum + lasts, 0)).toBe(250);
   });
 
   it("names the line that could not be done", async () => {
