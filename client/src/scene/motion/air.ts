@@ -157,11 +157,13 @@ export class Air {
 
   /** Has everything stand as it does in a frame that begins now; says whether it goes on. */
   step(began: number): boolean {
+    const wanted = blows(this.wanted);
+    // In a calm nobody asks the server for its time.
+    const { time, jumped } = wanted || this.blowing ? this.clock.read() : { time: 0, jumped: false };
+    const missed = wanted ? 1000 * this.winds.lateness(time) : 0;
     // Beside what would become of it the tree stands as it grew.
-    const { time, jumped } = this.clock.read();
-    const missed = 1000 * this.winds.lateness(time);
-    const amount = this.amount.at(began, blows(this.wanted), this.stage.world.ghost.group.visible, missed);
-    if (amount === 0 && !blows(this.wanted)) {
+    const amount = this.amount.at(began, wanted, this.stage.world.ghost.group.visible, missed);
+    if (!wanted && (amount === 0 || !this.blowing)) {
       this.rest();
       return false;
     }
