@@ -219,21 +219,13 @@ impl Bodies {
         self.bodies.iter_mut().for_each(|body| body.damping = joinery.damping);
     }
 
-    /// One step of `time` seconds under forces in newtons, by row unless they are [gathered](Self::gather).
-    ///
-    /// Springs are those of the end of the step, nearly. What is explicit, how bodies stand and the forces of their
-    /// spin, is taken from the middle of the step, which a first pass finds. The little energy that this still makes
-    /// where bodies spin fast is taken from all rates alike, so that no plant can tear itself apart; returns how much that
-    /// was, in J.
+    /// One step of `time` seconds under forces in newtons, by row unless they are [gathered](Self::gather). The little
+    /// energy that [a step by itself](Self::step_freely) makes where bodies spin fast is taken from all rates alike, so that
+    /// no plant can tear itself apart; returns how much that was, in J.
     pub fn step(&mut self, time: f64, forces: &[DVec3]) -> f64 {
         let (kinetic, stored) = self.energies();
         let allowed = kinetic + stored - self.work_of(forces);
-        self.begin.clear();
-        self.begin.extend(self.bodies.iter().map(|body| (body.turn, body.rate)));
-        self.find_gains(time, forces);
-        self.advance(0.5 * time, 0.5);
-        self.find_gains(time, forces);
-        self.advance(time, self.ahead);
+        self.step_freely(time, forces);
         let (kinetic, stored) = self.energies();
         let allowed = allowed + self.work_of(forces);
         let too_much = kinetic + stored - allowed;
@@ -244,6 +236,19 @@ impl Bodies {
         self.bodies.iter_mut().for_each(|body| body.rate *= kept.sqrt());
         self.find_motions();
         kinetic * (1.0 - kept)
+    }
+
+    /// The same, and whatever energy it makes is left.
+    ///
+    /// Springs are those of the end of the step, nearly. What is explicit, how bodies stand and the forces of their
+    /// spin, is taken from the middle of the step, which a first pass finds.
+    pub fn step_freely(&mut self, time: f64, forces: &[DVec3]) {
+        self.begin.clear();
+        self.begin.extend(self.bodies.iter().map(|body| (body.turn, body.rate)));
+        self.find_gains(time, forces);
+        self.advance(0.5 * time, 0.5);
+        self.find_gains(time, forces);
+        self.advance(time, self.ahead);
     }
 
     /// Moves all bodies on from the beginning of the step. Turns go by the rate after that share of the time.
