@@ -242,6 +242,47 @@ mod tests {
     }
 
     #[test]
+    fn wd1_a_wind_that_is_no_number_or_beyond_all_storms_is_refused_with_what_is_allowed() {
+        for (name, allowed) in [
+            ("speed", "0 to 25"),
+            ("direction", "0 to 360"),
+            ("rise", "-10 to 10"),
+            ("turbulence", "0 to 1"),
+            ("flutter", "0 to 2"),
+            ("sag", "0 to 1"),
+            ("suppleness", "0.2 to 5"),
+            ("damping", "0.2 to 5"),
+            ("snow", "0 to 0.5"),
+            ("rain", "0 to 1"),
+        ] {
+            for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e9, -1e9] {
+                let mut look = WindLook::default();
+                *match name {
+                    "speed" => &mut look.speed,
+                    "direction" => &mut look.direction,
+                    "rise" => &mut look.rise,
+                    "turbulence" => &mut look.turbulence,
+                    "flutter" => &mut look.flutter,
+                    "sag" => &mut look.sag,
+                    "suppleness" => &mut look.suppleness,
+                    "damping" => &mut look.damping,
+                    "snow" => &mut look.snow,
+                    _ => &mut look.rain,
+                } = bad;
+                let error = look.check().expect_err("out of range");
+                assert_eq!(error.field, name, "{bad}");
+                assert!(error.allowed.starts_with(allowed), "{name}: {}", error.allowed);
+            }
+        }
+        let names: Vec<&str> = Appearance::TABLES
+            .iter()
+            .filter(|(section, _)| *section == "wind")
+            .flat_map(|(_, rows)| rows.iter().map(|row| row.name))
+            .collect();
+        assert_eq!(names.len(), 10, "all of {names:?} are tried");
+    }
+
+    #[test]
     fn every_default_is_in_range_and_every_row_says_what_it_is() {
         assert_eq!(Appearance::default().check(), Ok(()));
         for row in Appearance::TABLES.iter().flat_map(|(_, rows)| *rows) {
