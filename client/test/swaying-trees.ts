@@ -2,7 +2,7 @@ import { readFileSync } from "node:fs";
 import type { Weather } from "../src/scene/motion/wind";
 import { TreeTable } from "../src/scene/table/tree-table";
 import type { Vec3 } from "../src/scene/vector";
-import { CHUNK_ROWS } from "../src/wire/generated";
+import { CHUNK_ROWS, type PlacedShape, type Pose } from "../src/wire/generated";
 
 interface JointSample {
   first: number;
@@ -41,6 +41,19 @@ export interface SwayingTree {
   wind: WindSample;
   shares: [row: number, share: number][];
   exposure: number[];
+  /** The wind as it is set. */
+  blows: { speed: number; direction: number; rise: number };
+  /** What stands upwind of it; all meshes have these triangles. */
+  obstacles: { standing: { shape: PlacedShape; pose: Pose }[]; positions: number[]; triangles: number[] };
+  lee: [row: number, share: number][];
+  inLee: number[];
+  laden: {
+    sag: Vec3[];
+    snow: Vec3[];
+    rain: Vec3[];
+    loading: { sag: number; snow: number; rain: number };
+    means: Vec3[];
+  };
   answers: { damping: number; mean: Vec3; swing: number[] }[];
   change: { at: number; wind: WindSample };
   pluck: { joint: number; at: number; bend: Vec3 };

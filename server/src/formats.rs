@@ -403,12 +403,14 @@ pub fn write(
     let style = Style::new(style_options(&parameters));
     let (seed, metres) = (document.seed(), parameters.internode_length);
     let species = species.or_else(|| species_of(&parameters, &appearance));
+    let obstacles = document.solids();
     let about = About {
         program: PROGRAM,
         simulation: SIMULATION_VERSION,
         species: species.map(|species| species.name),
         seed: Some(seed),
         parameters: &parameters,
+        obstacles: &obstacles,
         author: options.author.as_ref().map(Name::as_str),
         licence: options.licence.as_ref().map(Name::as_str),
     };
@@ -426,7 +428,9 @@ pub fn write(
         Format::Skeleton => espalier_export::skeleton_json(document.portrait(), &style, &origin, out),
         Format::Mtg => espalier_export::mtg(document.plant(), &style, &origin, out),
         Format::Qsm => espalier_export::qsm_csv(document.plant(), &style, metres, out),
-        Format::Joints => espalier_export::joints_csv(document.portrait(), &style, &appearance, metres, out),
+        Format::Joints => {
+            espalier_export::joints_csv(document.portrait(), &style, &appearance, &obstacles, metres, out)
+        }
         Format::Cloud => {
             let sampling = Sampling { points: options.points(), seed };
             espalier_export::ply(document.portrait(), &style, &appearance, metres, sampling, out)
@@ -450,7 +454,7 @@ pub fn write(
             let stand = species.map(|species| species.stand).unwrap_or_default();
             let look = Look { appearance, stand };
             let (Size(width, height), frames) = drawn(LOOP, options);
-            let (plant, look, size) = (document.portrait(), (&look, metres), [width, height]);
+            let (plant, look, size) = (document.portrait(), (&look, metres, &obstacles[..]), [width, height]);
             picture::swaying(plant, &style, look, size, options.camera(metres), frames, out)
         }
     }

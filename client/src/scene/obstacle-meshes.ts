@@ -50,6 +50,8 @@ interface Entry {
 export class ObstacleMeshes {
   readonly bodies = new Group();
   readonly casters = new Group();
+  /** The obstacles that are drawn; another list as soon as one of them is another. */
+  shown: readonly DrawnObstacle[] = [];
   private readonly entries = new Map<number, Entry>();
   private readonly extent = new Box3();
 
@@ -57,6 +59,7 @@ export class ObstacleMeshes {
 
   /** Draws these and no others; one of them may be marked. */
   show(obstacles: readonly DrawnObstacle[], chosen: number | null): void {
+    this.shown = obstacles;
     const present = new Set(obstacles.map(({ id }) => id));
     for (const id of [...this.entries.keys()]) {
       if (!present.has(id)) this.remove(id);

@@ -55,6 +55,7 @@ fn mesh(metamers: u32) {
         species: None,
         seed: Some(1),
         parameters: &values,
+        obstacles: &[],
         author: None,
         licence: None,
     };

@@ -1,11 +1,12 @@
 //! What files say about their plants.
 
+use espalier_growth::Obstacle;
 use espalier_settings::ParameterValues;
 use serde_json::{Value, json};
 
 use crate::ExportError;
 
-/// What a file says about its plants.
+/// What a file says about its plants, and what it has to know of them.
 #[derive(Clone, Debug)]
 pub struct About<'a> {
     /// The program and its version.
@@ -18,6 +19,8 @@ pub struct About<'a> {
     pub seed: Option<u32>,
     /// The parameters in force; the length of an internode makes metres.
     pub parameters: &'a ParameterValues,
+    /// What stands around them and takes the wind away.
+    pub obstacles: &'a [Obstacle],
     /// Who made them.
     pub author: Option<&'a str>,
     /// Under which licence they may be used.

@@ -49,13 +49,10 @@ pub fn glb(
 ) -> Result<(), ExportError> {
     let scale = about.scale()?;
     let sways = model.sway.is_some() || model.wind_weights;
-    let swaying = sways.then(|| {
-        let swaying = Swaying::of(plant, style, &appearance.wind, scale);
-        match model.sway {
-            Some(most) => swaying.blown(plant, &appearance.wind, most),
-            None => swaying,
-        }
-    });
+    let mut swaying = sways.then(|| Swaying::of(plant, style, &appearance.wind, scale, about.obstacles));
+    if let Some(most) = model.sway {
+        swaying = swaying.map(|swaying| swaying.blown(plant, most, out)).transpose()?;
+    }
     Source { plant, style, appearance, about, model }.write(swaying.as_ref(), None, out)
 }
 

@@ -132,7 +132,7 @@ pub fn pivots(
     model: &Model,
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
-    let swaying = Swaying::of(plant, style, &appearance.wind, about.scale()?);
+    let swaying = Swaying::of(plant, style, &appearance.wind, about.scale()?, about.obstacles);
     let elements = Elements::of(&swaying);
     if elements.all.iter().any(|element| !element.pivot.is_finite()) {
         return Err(ExportError::NotFinite);

@@ -1,17 +1,25 @@
 //! What files say of how plants sway: bones, clips, and which vertices go along with which row.
 
+use std::{collections::BTreeMap, sync::Arc};
+
+use espalier_growth::{Obstacle, Shape};
 use espalier_mesh::{Body, RingTable, Style};
 use espalier_motion::{
     Bone, Joints, Limbs, Rig, Rows, Scale, Weather, Wood,
-    clips::{Clip, blow, clips, reaches},
+    clips::{Clip, Conditions, blow, clips, reaches},
+    loads::{self, Loading},
+    shelter::{Form, Solid, Triangles},
 };
 use espalier_plant::{MetamerId, Plant};
 use espalier_settings::looks::WindLook;
-use glam::{DQuat, DVec3, DVec4, Vec3};
+use glam::{DQuat, DVec3, DVec4, Quat, Vec3};
+
+use crate::{ExportError, Sink};
 
 /// The wind that moves files of trees that stand in a calm, m/s.
 const BREEZE: f32 = 4.0;
-/// The most bones of a scene through whose gust bodies are stepped; they take some two seconds.
+/// The most bones of a scene through whose gust bodies are stepped; they take some two seconds. In larger scenes each joint
+/// goes on answering by itself.
 const MOST_BODIES: usize = 2048;
 /// Which gusts come: those that clients draw.
 const SEED: u32 = 7;
@@ -40,33 +48,51 @@ pub(crate) struct Swaying {
     pub wood: Wood,
     pub joints: Joints,
     pub clips: [Clip; 2],
+    conditions: Conditions,
     /// How much leaves flutter, 0 to 1: in a breeze of 6 m/s and more all of it.
     pub stir: f32,
     reach: Vec<f64>,
 }
 
 impl Swaying {
-    /// In the wind of a look; in a calm, in a breeze. `metres` is the length of an internode.
-    pub(crate) fn of(plant: &Plant, style: &Style, look: &WindLook, metres: f32) -> Self {
-        let (limbs, wood, joints) = grown(plant, style, look, metres);
-        let clips = clips(&joints, &wood, &weather(look));
+    /// In the wind of a look, among obstacles and under what the look says lies on plants; in a calm, in a breeze. `metres` is
+    /// the length of an internode.
+    pub(crate) fn of(
+        plant: &Plant,
+        style: &Style,
+        look: &WindLook,
+        metres: f32,
+        around: &[Obstacle],
+    ) -> Self {
+        let grown = Grown::of(plant, style, look, metres);
+        let conditions = grown.conditions(look, metres, around);
+        let Grown { limbs, wood, joints, .. } = grown;
+        let clips = clips(&joints, &wood, &conditions);
         let reach = reaches(&clips, joints.all().len());
         let stir = (weather(look).velocity.length() / 6.0).min(1.0) as f32 * look.flutter;
-        Self { limbs, wood, joints, clips, stir, reach }
+        Self { limbs, wood, joints, clips, conditions, stir, reach }
     }
 
-    /// The same with the gust of jointed bodies, one for each piece between the bones that the plants' files will have. In
-    /// scenes with very many each joint goes on answering by itself: nothing can stop bodies once they are on their way.
-    pub(crate) fn blown(mut self, plant: &Plant, look: &WindLook, most: u32) -> Self {
+    /// The same with the gust of jointed bodies, one for each piece between the bones that the plants' files will have.
+    ///
+    /// # Errors
+    /// Where the file is given up meanwhile.
+    pub(crate) fn blown(mut self, plant: &Plant, most: u32, out: &mut dyn Sink) -> Result<Self, ExportError> {
         let is_standing = |&id: &MetamerId| plant.is_seed(id) && plant.is_alive(id);
         let seeds = (0..plant.metamer_count()).map(MetamerId::new).filter(is_standing);
         let rigs: Vec<Rig> = seeds.map(|seed| self.rig(seed, most)).collect();
         if rigs.iter().map(|rig| rig.bones().len()).sum::<usize>() > MOST_BODIES {
-            return self;
+            return Ok(self);
         }
-        let Self { limbs, wood, joints, clips: [_, gust], .. } = &mut self;
-        blow(gust, &rigs, joints, limbs, wood, &weather(look));
-        self
+        let Self { limbs, wood, joints, conditions, clips: [_, gust], .. } = &mut self;
+        blow(gust, &rigs, (joints, limbs, wood), conditions, || Ok::<(), ExportError>(out.flush()?))?;
+        Ok(self)
+    }
+
+    /// How all joints rest under what lies on plants when no wind blows.
+    pub(crate) fn rest(&self) -> &[DVec3] {
+        let [_, gust] = &self.clips;
+        gust.keys.first().map_or(&[], Vec::as_slice)
     }
 
     /// At most so many bones for the plant of a seed.
@@ -114,20 +140,63 @@ impl Swaying {
 }
 
 /// Limbs, wood and joints of all plants of a scene.
-pub(crate) fn grown(plant: &Plant, style: &Style, look: &WindLook, metres: f32) -> (Limbs, Wood, Joints) {
-    let mut table = RingTable::new();
-    table.sync(plant, style, 1);
-    let leaf_size = f64::from(style.options().leaf_size);
-    let scale = Scale { internode_length: f64::from(metres), leaf_size };
-    let (limbs, wood, joints) = Joints::grown(&Rows::of(&table), &scale, f64::from(look.suppleness));
-    (limbs, wood, joints.damped(f64::from(look.damping)))
+pub(crate) struct Grown {
+    limbs: Limbs,
+    pub wood: Wood,
+    pub joints: Joints,
+    /// How each joint turns under what lies on plants.
+    pub loads: Vec<DVec3>,
+}
+
+impl Grown {
+    pub(crate) fn of(plant: &Plant, style: &Style, look: &WindLook, metres: f32) -> Self {
+        let mut table = RingTable::new();
+        table.sync(plant, style, 1);
+        let leaf_size = f64::from(style.options().leaf_size);
+        let scale = Scale { internode_length: f64::from(metres), leaf_size };
+        let rows = Rows::of(&table);
+        let (limbs, wood, joints) = Joints::grown(&rows, &scale, f64::from(look.suppleness));
+        let [sag, snow, rain] = [look.sag, look.snow, look.rain].map(f64::from);
+        let loads = loads::turns(&rows, &limbs, &wood, &joints, &scale, &Loading { sag, snow, rain });
+        Self { limbs, wood, joints: joints.damped(f64::from(look.damping)), loads }
+    }
+
+    /// What moves them.
+    pub(crate) fn conditions(&self, look: &WindLook, metres: f32, around: &[Obstacle]) -> Conditions {
+        Conditions::new(&self.wood, weather(look), &solids(around, metres), self.loads.clone())
+    }
+}
+
+/// Obstacles as the wind meets them. The half-space behind a plane is land, and shelters nothing.
+fn solids(around: &[Obstacle], metres: f32) -> Vec<Solid> {
+    // Many obstacles may be of one mesh.
+    let mut meshes: BTreeMap<usize, Arc<Triangles>> = BTreeMap::new();
+    let solid = |obstacle: &Obstacle| {
+        let (form, place, turn) = match obstacle.shape() {
+            Shape::Box { centre, half_extents, rotation } => {
+                (Form::Box(half_extents.as_dvec3()), *centre, *rotation)
+            }
+            Shape::Sphere { centre, radius } => (Form::Ball(f64::from(*radius)), *centre, Quat::IDENTITY),
+            Shape::Plane { .. } => return None,
+            Shape::Mesh { mesh, position, rotation } => {
+                let corner = |number: u32| mesh.vertices()[number as usize];
+                let triangles = || {
+                    let corners = mesh.triangles().iter().map(|corners| corners.map(corner));
+                    Arc::new(Triangles::new(corners))
+                };
+                let triangles = meshes.entry(Arc::as_ptr(mesh) as usize).or_insert_with(triangles);
+                (Form::Mesh(Arc::clone(triangles)), *position, *rotation)
+            }
+        };
+        Solid::new(form, place.as_dvec3(), turn.as_dquat(), f64::from(metres))
+    };
+    around.iter().filter_map(solid).collect()
 }
 
 /// The wind of a look; in a calm, a breeze.
 fn weather(look: &WindLook) -> Weather {
     let is_calm = look.speed == 0.0 && look.rise == 0.0;
     let speed = f64::from(if is_calm { BREEZE } else { look.speed });
-    let (sin, cos) = libm::sincos(f64::from(look.direction).to_radians());
-    let velocity = DVec3::new(speed * cos, f64::from(look.rise), speed * sin);
-    Weather { velocity, turbulence: f64::from(look.turbulence), seed: SEED }
+    let blows = [speed, f64::from(look.direction), f64::from(look.rise)];
+    Weather::blowing(blows, f64::from(look.turbulence), SEED)
 }

@@ -79,7 +79,7 @@ fn swaying(
     model: &Model,
 ) -> Result<Option<Swaying>, ExportError> {
     let scale = about.scale()?;
-    Ok(model.sway.map(|_| Swaying::of(plant, style, &appearance.wind, scale)))
+    Ok(model.sway.map(|_| Swaying::of(plant, style, &appearance.wind, scale, about.obstacles)))
 }
 
 /// Where the pictures of materials are.

@@ -161,7 +161,7 @@ mod tests {
     fn swaying(document: &mut Document) -> Swaying {
         let options =
             StyleOptions { girth_exponent: 2.0, twig_diameter: 0.1, leaves_per_node: 2, leaf_size: 0.5 };
-        Swaying::of(document.portrait(), &Style::new(options), &WindLook::default(), METRES)
+        Swaying::of(document.portrait(), &Style::new(options), &WindLook::default(), METRES, &[])
     }
 
     /// How far the joints of a level carry the node of each row for each radian about all three axes, root mean square.

@@ -1,16 +1,16 @@
 //! What swaying costs on trees of 10,000 and of 100,000 metamers: joints made anew, a change of the wind, a frame, and a
 //! step of bodies.
 
-use std::{hint::black_box, time::Instant};
+use std::{hint::black_box, sync::Arc, time::Instant};
 
 use espalier_growth::{NoObserver, ParameterValues, Parameters, Simulation, StepInput};
 use espalier_mesh::{RingTable, Style, StyleOptions};
 use espalier_motion::{
     Answers, Exposure, Joints, LIVE_PERIOD, Limbs, Pose, Rows, Scale, Sway, Weather, Wind, Wood,
     bodies::{AHEAD, Bodies, Joinery},
-    shelter::behind_crowns,
+    shelter::{Form, Solid, Triangles, behind_crowns, shares},
 };
-use glam::DVec3;
+use glam::{DQuat, DVec3, Vec3};
 
 const ROUNDS: usize = 15;
 
@@ -40,6 +40,13 @@ fn sway(metamers: u32) {
     let weather = Weather { velocity: DVec3::new(6.0, 0.0, 2.0), turbulence: 0.5, seed: 1 };
     let wind = Wind::new(&weather, LIVE_PERIOD);
     measure("shelter by crowns", || behind_crowns(&wood, weather.velocity.normalize()));
+    let model = rock(256, 256);
+    measure("a model of 131,072 triangles put in order", || Triangles::new(model.iter().copied()));
+    let form = Form::Mesh(Arc::new(Triangles::new(model.into_iter())));
+    let place = DVec3::new(-60.0, 30.0, 0.0);
+    let solids: Vec<Solid> =
+        Solid::new(form, place, DQuat::IDENTITY, scale.internode_length).into_iter().collect();
+    measure("shelter by crowns and that model", || shares(&wood, DVec3::X, &solids));
     let shares = behind_crowns(&wood, weather.velocity.normalize());
     let exposure = Exposure::of(&joints, &wood, &shares);
     measure("answers to a new wind", || {
@@ -63,6 +70,25 @@ fn sway(metamers: u32) {
     let mut bodies = Bodies::of(&wood, Joinery { softness, damping: 0.01, ahead: AHEAD });
     let forces: Vec<DVec3> = (0..rows.len() as u32).map(|row| wood.drag_area(row) * DVec3::X).collect();
     measure("a step of bodies", || bodies.step(1.0 / 240.0, &forces));
+}
+
+/// A rough rock as large as a tree.
+fn rock(rings: u32, sides: u32) -> Vec<[Vec3; 3]> {
+    let at = |ring: u32, side: u32| {
+        let down = core::f32::consts::PI * ring as f32 / rings as f32;
+        let around = core::f32::consts::TAU * side as f32 / sides as f32;
+        let size = 40.0 + 3.0 * libm::sinf(9.0 * around) * libm::sinf(7.0 * down);
+        let ((sin, cos), (z, x)) = (libm::sincosf(down), libm::sincosf(around));
+        size * Vec3::new(sin * x, cos, sin * z)
+    };
+    let quads = (0..rings).flat_map(|ring| (0..sides).map(move |side| (ring, side)));
+    quads
+        .flat_map(|(ring, side)| {
+            let [a, b, c, d] =
+                [at(ring, side), at(ring, side + 1), at(ring + 1, side), at(ring + 1, side + 1)];
+            [[a, b, c], [b, d, c]]
+        })
+        .collect()
 }
 
 /// Prints how long something takes: the best round says what it costs rather than what else the machine was doing.

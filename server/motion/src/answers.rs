@@ -29,7 +29,9 @@ const MOST_DAMPED: f64 = 0.95;
 /// How one joint answers one wind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
-    /// Its rotation in the mean wind, radians.
+    /// Its rotation under what lies on it, radians; none where nothing does.
+    pub rest: DVec3,
+    /// Its rotation in the mean wind as well, radians.
     pub mean: DVec3,
     /// Its rotation for a fluctuation of the size of the mean, along, across and upward, column by column.
     pub swing: DMat3,
@@ -52,11 +54,18 @@ pub struct Answers {
 impl Answers {
     /// O(joints × lines), once for each change of the wind.
     pub fn of(joints: &Joints, wind: &Wind, exposure: &Exposure) -> Self {
+        Self::under(joints, wind, exposure, &[])
+    }
+
+    /// The same of joints that turn so far under what lies on them, as [`crate::loads::turns`] has it; beyond its end
+    /// nothing does.
+    pub fn under(joints: &Joints, wind: &Wind, exposure: &Exposure, loads: &[DVec3]) -> Self {
         let lines = wind.lines().to_vec();
         let mut answers = Vec::with_capacity(joints.all().len());
         let mut responses = Vec::with_capacity(joints.all().len() * lines.len());
-        for (joint, &share) in joints.all().iter().zip(exposure.shares()) {
-            let answer = answer(joint, wind, share * wind.speed());
+        let loads = loads.iter().copied().chain(std::iter::repeat(DVec3::ZERO));
+        for ((joint, &share), load) in joints.all().iter().zip(exposure.shares()).zip(loads) {
+            let answer = answer(joint, wind, share * wind.speed(), load);
             responses.extend(lines.iter().map(|line| response(joint, answer.damping, line, wind)));
             answers.push(answer);
         }
@@ -102,28 +111,33 @@ pub fn pressure(speed: f64) -> (f64, f64) {
     }
 }
 
-fn answer(joint: &Joint, wind: &Wind, speed: f64) -> Answer {
+fn answer(joint: &Joint, wind: &Wind, speed: f64, load: DVec3) -> Answer {
     let (pressure, exponent) = pressure(speed);
     let rate = TAU * joint.frequency;
     let by_air = if speed > 0.0 { exponent * pressure / speed * joint.drag / (2.0 * rate) } else { 0.0 };
     let [along, across, upward] =
         [Direction::Along, Direction::Across, Direction::Upward].map(|direction| wind.axis(direction));
-    let whole = joint.compliance * along * pressure;
-    // The mean is limited smoothly. Swings around it are only scaled: the slope of the limit would freeze supple limbs
-    // in a storm.
+    let whole = joint.compliance * along * pressure + load;
+    // Swings around the mean are only scaled: the slope of its limit would freeze supple limbs in a storm.
     let far = whole.length() / FURTHEST;
-    let mean = if far > 0.0 { whole * (libm::tanh(far) / far) } else { whole };
     let swing = DMat3::from_cols(
         joint.compliance * along * exponent,
         joint.compliance * across,
         joint.compliance * upward,
     );
     Answer {
-        mean,
+        rest: held(load),
+        mean: held(whole),
         swing: swing * (pressure / (1.0 + far)),
         rate,
         damping: (joint.damping + by_air).min(MOST_DAMPED),
     }
+}
+
+/// A mean rotation, smoothly limited.
+fn held(whole: DVec3) -> DVec3 {
+    let far = whole.length() / FURTHEST;
+    if far > 0.0 { whole * (libm::tanh(far) / far) } else { whole }
 }
 
 /// How much of eddies of a frequency acts on a crown of some area: smaller ones cancel (Vickery's admittance).

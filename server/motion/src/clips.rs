@@ -9,7 +9,8 @@ use crate::{
     answers::Answers,
     exposure::Exposure,
     joints::Joints,
-    shelter::behind_crowns,
+    shelter::{Solid, shares},
+    sway::limited,
     wind::{Direction, Weather, Wind},
     wood::Wood,
 };
@@ -20,9 +21,39 @@ pub const LOOP: f64 = 8.0;
 pub const GUST: f64 = 12.0;
 /// Keys in a second.
 pub const KEYS_A_SECOND: u32 = 30;
-/// The furthest that a joint turns, as in [`crate::Sway`], radians.
-const FURTHEST: f64 = 1.1;
 
+/// What moves plants, and what they stand in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conditions {
+    weather: Weather,
+    /// The share of the open wind's speed that each row gets.
+    shares: Vec<f64>,
+    /// How each joint turns under what lies on it.
+    loads: Vec<DVec3>,
+}
+
+impl Conditions {
+    /// A wind among obstacles, and how joints turn under what lies on them, as [`crate::loads::turns`] has it.
+    pub fn new(wood: &Wood, weather: Weather, solids: &[Solid], loads: Vec<DVec3>) -> Self {
+        let along = Wind::new(&weather, LOOP).axis(Direction::Along);
+        Self { weather, shares: shares(wood, along, solids), loads }
+    }
+
+    /// A wind in the open, and nothing that lies on plants.
+    pub fn open(wood: &Wood, weather: Weather) -> Self {
+        Self::new(wood, weather, &[], Vec::new())
+    }
+
+    /// How much of the wind reaches what each joint bears.
+    pub fn exposure(&self, joints: &Joints, wood: &Wood) -> Exposure {
+        Exposure::of(joints, wood, &self.shares)
+    }
+
+    /// How each joint turns under what lies on it, radians; beyond the end not at all.
+    pub fn loads(&self) -> &[DVec3] {
+        &self.loads
+    }
+}
 /// The bends of all joints at even times; the first and the last are the same.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clip {
@@ -41,20 +72,26 @@ impl Clip {
     }
 }
 
-/// Sway and gust in a wind, with the crowns' own shelter. Each joint answers the gust by itself; how bodies answer it
-/// together says [`blow`].
-pub fn clips(joints: &Joints, wood: &Wood, weather: &Weather) -> [Clip; 2] {
-    let wind = Wind::new(weather, LOOP);
-    let along = wind.axis(Direction::Along);
-    let exposure = Exposure::of(joints, wood, &behind_crowns(wood, along));
-    let answers = Answers::of(joints, &wind, &exposure);
+/// Sway and gust. Each joint answers the gust by itself; how bodies answer it together says [`blow`].
+pub fn clips(joints: &Joints, wood: &Wood, conditions: &Conditions) -> [Clip; 2] {
+    let wind = Wind::new(&conditions.weather, LOOP);
+    let answers = Answers::under(joints, &wind, &conditions.exposure(joints, wood), &conditions.loads);
     [sway(&answers), gust::alone(&answers)]
 }
 
 /// Has jointed bodies, one for each piece between two bones of some rigs, stepped through the gust of a wind, and writes
 /// down in its clip how the joints turn that the rigs show.
-pub fn blow(gust: &mut Clip, rigs: &[Rig], joints: &Joints, limbs: &Limbs, wood: &Wood, weather: &Weather) {
-    gust::together(gust, rigs, joints, limbs, wood, weather);
+///
+/// # Errors
+/// That of `go_on`, which is asked at each key, soon after it has occurred. The clip is of no use then.
+pub fn blow<E>(
+    gust: &mut Clip,
+    rigs: &[Rig],
+    plants: (&Joints, &Limbs, &Wood),
+    conditions: &Conditions,
+    go_on: impl FnMut() -> Result<(), E>,
+) -> Result<(), E> {
+    gust::together(gust, rigs, plants, conditions, go_on)
 }
 
 /// How far each joint turns at most in some clips, radians.
@@ -72,7 +109,7 @@ fn sway(answers: &Answers) -> Clip {
     let mut keys: Vec<Vec<DVec3>> = (0..count - 1)
         .map(|key| {
             answers.bends(f64::from(key) / f64::from(KEYS_A_SECOND), &mut bends);
-            bends.iter().map(|bend| bend.clamp_length_max(FURTHEST)).collect()
+            bends.iter().map(|&bend| limited(bend)).collect()
         })
         .collect();
     keys.push(keys[0].clone());

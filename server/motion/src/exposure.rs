@@ -34,12 +34,6 @@ impl Exposure {
         Self(joints.all().iter().map(|joint| of(joint.first)).collect())
     }
 
-    /// The same in the lee of obstacles, by joint.
-    pub fn in_lee(mut self, joints: &Joints, share: impl Fn(&crate::Joint) -> f64) -> Self {
-        self.0.iter_mut().zip(joints.all()).for_each(|(speed, joint)| *speed *= share(joint));
-        self
-    }
-
     /// By joint.
     pub fn shares(&self) -> &[f64] {
         &self.0

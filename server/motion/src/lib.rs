@@ -14,6 +14,7 @@ pub mod clips;
 mod exposure;
 mod frequency;
 mod joints;
+pub mod loads;
 mod pose;
 mod radii;
 mod rides;

@@ -41,6 +41,15 @@ pub struct Weather {
     pub seed: u32,
 }
 
+impl Weather {
+    /// Of a wind that blows level at so many m/s to a direction in degrees, around the vertical from x towards z, and rises
+    /// besides. In a calm it has no direction of its own.
+    pub fn blowing([speed, degrees, rise]: [f64; 3], turbulence: f64, seed: u32) -> Self {
+        let (sin, cos) = libm::sincos(degrees.to_radians());
+        Self { velocity: DVec3::new(speed * cos, rise, speed * sin), turbulence, seed }
+    }
+}
+
 /// Where the speed of a line points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
@@ -80,13 +89,13 @@ pub struct Wind {
 
 impl Wind {
     /// A wind that comes round after `period` seconds, to the bit: [`LIVE_PERIOD`], or the length of a loop. Its lines are
-    /// multiples of 1/period, each once; slower ones are left out.
+    /// multiples of 1/period, each once; slower ones are left out. A velocity or a turbulence that is not finite is none.
     pub fn new(weather: &Weather, period: f64) -> Self {
-        let speed = weather.velocity.length();
+        let speed = Some(weather.velocity.length()).filter(|speed| speed.is_finite()).unwrap_or_default();
         let along = if speed > 0.0 { weather.velocity / speed } else { DVec3::X };
         let across = along.cross(DVec3::Y).try_normalize().unwrap_or(DVec3::Z);
         let mut wind = Self { speed, period, axes: [along, across, across.cross(along)], lines: Vec::new() };
-        if speed > 0.0 && weather.turbulence > 0.0 {
+        if speed > 0.0 && weather.turbulence > 0.0 && weather.turbulence.is_finite() {
             wind.lines = wind.drawn(weather);
         }
         wind

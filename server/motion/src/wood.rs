@@ -15,9 +15,9 @@ const WOOD_DENSITY: f64 = 950.0;
 /// Mass of a leaf's area, kg/m².
 const LEAF_DENSITY: f64 = 0.2;
 /// Area of a leaf as a share of its length squared.
-const LEAF_FORM: f64 = 0.4;
+pub(crate) const LEAF_FORM: f64 = 0.4;
 /// Share of a leaf's area that the wind takes hold of: blades turn out of it.
-const LEAF_DRAG: f64 = 0.2;
+pub(crate) const LEAF_DRAG: f64 = 0.2;
 /// Young's modulus of green wood along the grain, Pa; species lie between 5 and 11 GPa. Each plant's is calibrated.
 pub(crate) const STIFFNESS: f64 = 7e9;
 /// How much less a rod of wood resists being twisted than being bent: EJ / GJp with E/G = 12 and Jp = 2J.

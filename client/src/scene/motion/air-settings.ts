@@ -24,6 +24,14 @@ export function sameAir(one: AirSettings, other: AirSettings): boolean {
   return (Object.keys(CALM) as AirName[]).every((name) => one[name] === other[name]);
 }
 
+/** Where it blows, as a unit vector; in a calm where it would. However strong a level wind is, it is the same to the bit. */
+export function alongOf({ speed, direction, rise }: Pick<AirSettings, "speed" | "direction" | "rise">): Vec3 {
+  const whole = Math.hypot(speed, rise);
+  const [level, up] = whole > 0 ? [speed / whole, rise / whole] : [1, 0];
+  const turn = (direction * Math.PI) / 180;
+  return [level * Math.cos(turn), up, level * Math.sin(turn)];
+}
+
 /** Mean wind 10 m above the ground, m/s. */
 export function velocityOf({ speed, direction, rise }: Pick<AirSettings, "speed" | "direction" | "rise">): Vec3 {
   const turn = (direction * Math.PI) / 180;

@@ -1,16 +1,17 @@
 import type { WebGLRenderer } from "three";
 import { type DrawnElsewhere, type Pick, type Projection, pickBranch } from "../camera/picking";
+import type { DrawnObstacle } from "../obstacle-meshes";
 import type { QualityControl } from "../rendering/quality";
 import type { Vec3 } from "../vector";
 import type { World } from "../world";
 import { soundAir } from "./air-numbers";
-import { type AirSettings, blows, CALM, stirs, velocityOf } from "./air-settings";
+import { type AirSettings, alongOf, blows, CALM, stirs, velocityOf } from "./air-settings";
 import { Amount } from "./amount";
 import { Answers } from "./answers";
 import type { Hand } from "./hand";
 import { Hands, pluckedAnew } from "./hands";
-import { JointMaker } from "./joint-maker";
-import type { JointOrder, JointsMade } from "./joint-work";
+import { JointMaker, type JointOrder } from "./joint-maker";
+import type { JointsMade } from "./joint-work";
 import { loaded } from "./loads";
 import { motionRows } from "./motion-rows";
 import { MovedRows } from "./moved-rows";
@@ -28,6 +29,8 @@ import type { Scale } from "./wood";
 
 /** Milliseconds without a change of rows after which joints are made anew. */
 const SETTLED = 300;
+/** Milliseconds after which shelter is found anew at the earliest, for another one takes its time to fade. */
+const TURNED = 250;
 /** Milliseconds in which what joints were made anew shows takes the place of what was shown. */
 const MIXED = 500;
 /** Milliseconds between two looks at how far the tree reaches, and rows that are looked at. */
@@ -71,7 +74,9 @@ export class Air {
   /** How rows stand in the frame that is seen; joints may have been made anew since. */
   private shown: { readonly stands: Float64Array; readonly riding: Riding; readonly placeOf: PlaceOf } | null = null;
   /** What joints and shelter were made for: to be made anew when that is another. */
-  private made = { joints: "", direction: Number.NaN };
+  private made = { joints: "", along: "", at: Number.NEGATIVE_INFINITY };
+  /** The obstacles that shelter was found behind last. */
+  private around: readonly DrawnObstacle[] | null = null;
   private seen = { epoch: 0, sequence: null as number | null, at: Number.NEGATIVE_INFINITY };
   private mixing = Number.NEGATIVE_INFINITY;
   private measured = Number.NEGATIVE_INFINITY;
@@ -201,7 +206,8 @@ export class Air {
     stage.world.shadow.stale ||= this.pace.shadow(began);
     this.reach(began);
     const blown = amount > 0 && this.held === null && (stirs(this.wanted) || this.changing(at));
-    const moves = blown || handled || share < 1 || this.amount.changing || this.made.joints === "";
+    const turns = this.around !== stage.world.obstacles.shown;
+    const moves = blown || handled || turns || share < 1 || this.amount.changing || this.made.joints === "";
     if (moves && this.pace.heavy(began)) stage.control.moved(began);
     return moves;
   }
@@ -267,20 +273,19 @@ export class Air {
   }
 
   private order(began: number): void {
-    const { table } = this.stage.world;
-    const { suppleness, direction } = this.wanted;
+    const { table, obstacles } = this.stage.world;
+    const { suppleness } = this.wanted;
     const { internodeLength, leafSize } = this.scale;
     const joints = `${internodeLength} ${leafSize} ${suppleness}`;
-    const along = [Math.cos((direction * Math.PI) / 180), 0, Math.sin((direction * Math.PI) / 180)] as const;
-    if (joints !== this.made.joints) {
-      if (began - this.seen.at < SETTLED) return;
-      this.made.joints = joints;
-      this.made.direction = direction;
-      this.maker.make({ grown: { rows: motionRows(table), scale: this.scale, suppleness }, along });
-    } else if (direction !== this.made.direction) {
-      this.made.direction = direction;
-      this.maker.make({ grown: null, along });
-    }
+    const along = alongOf(this.wanted);
+    const anew = joints !== this.made.joints;
+    if (anew && began - this.seen.at < SETTLED) return;
+    const turned = along.join(" ") !== this.made.along || obstacles.shown !== this.around;
+    if (!anew && (!turned || began - this.made.at < TURNED)) return;
+    this.made = { joints, along: along.join(" "), at: began };
+    this.around = obstacles.shown;
+    const grown = anew ? { rows: motionRows(table), scale: this.scale, suppleness } : null;
+    this.maker.make({ grown, along, obstacles: obstacles.shown });
   }
 
   private readonly receive = ({ moving, exposure }: JointsMade, { grown }: JointOrder): void => {

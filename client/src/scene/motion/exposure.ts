@@ -9,7 +9,7 @@ const SLABS = 256;
 /** The narrowest cell, m: wakes are wider. */
 const NARROWEST = 0.2;
 /** A wake has filled to 1/e after so many heights of what made it. */
-const RECOVERY = 10;
+export const RECOVERY = 10;
 
 /**
  * The share of the open wind's speed that each row gets past the crowns in front of it. Rows are marched through slab by slab

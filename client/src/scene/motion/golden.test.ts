@@ -1,11 +1,15 @@
 import { describe, expect, it } from "vitest";
 import { SAMPLED_JOINTS, SWAYING_TREES, type SwayingTree, tableOfSwaying } from "../../../test/swaying-trees";
+import { alongOf, velocityOf } from "./air-settings";
 import { Answers } from "./answers";
 import { behindCrowns, exposureOf } from "./exposure";
 import { jointsOf } from "./joints";
+import { loaded, loadsOf } from "./loads";
 import { motionRows } from "./motion-rows";
+import { ObstaclePost, ObstaclesReceived } from "./obstacle-post";
 import { hingesOf, NODE, nodeAt, pose, STAND } from "./pose";
 import { FIRST, RIDE, SECOND, WEIGHT } from "./rides";
+import { sharesOf } from "./shelter";
 import { Sway } from "./sway";
 import { windOf } from "./wind";
 
@@ -13,8 +17,22 @@ import { windOf } from "./wind";
 const NEAR = 1e-11;
 
 function grownOf(tree: SwayingTree) {
-  const { internodeLength, leafSize, suppleness } = tree;
-  return jointsOf(motionRows(tableOfSwaying(tree)), { internodeLength, leafSize }, suppleness);
+  return jointsOf(motionRows(tableOfSwaying(tree)), tree, tree.suppleness);
+}
+
+/** Its obstacles, as a page draws them and a worker gets them. */
+function solidsOf({ obstacles, internodeLength }: SwayingTree) {
+  const mesh = {
+    positions: Float32Array.from(obstacles.positions),
+    triangles: Uint32Array.from(obstacles.triangles),
+  };
+  const drawn = obstacles.standing.map(({ shape, pose }, id) => ({
+    id,
+    shape,
+    pose,
+    ...(shape.kind === "mesh" ? { mesh } : {}),
+  }));
+  return new ObstaclesReceived().receive(new ObstaclePost().post(drawn), internodeLength);
 }
 
 /** Fails where two lists of numbers differ by more than a share of the largest of them. */
@@ -32,7 +50,7 @@ const part = (of: Float64Array, each: number, at: number) => of.subarray(each * 
 describe.each(SWAYING_TREES)("$name, as the server has it", (tree) => {
   const { limbs, wood, joints } = grownOf(tree);
   const wind = windOf(tree.wind, tree.wind.period);
-  const along = tree.wind.axes[0]!;
+  const along = alongOf(tree.blows);
   const shares = behindCrowns(wood, along);
   const exposure = exposureOf(joints, wood, shares);
 
@@ -93,6 +111,35 @@ describe.each(SWAYING_TREES)("$name, as the server has it", (tree) => {
   it("is sheltered alike", () => {
     for (const [row, share] of tree.shares) expectNear([shares[row]!], [share], `row ${row}`);
     expectNear(exposure, tree.exposure, "exposure");
+  });
+
+  it("is sheltered from where the whole wind comes, rise included", () => {
+    expectNear(velocityOf(tree.blows), tree.wind.velocity, "velocity");
+    expectNear(along, tree.wind.axes[0]!, "along");
+  });
+
+  it("is sheltered alike by obstacles", () => {
+    const solids = solidsOf(tree);
+    expect(solids.length).toBe(tree.obstacles.standing.length);
+    const lee = sharesOf(wood, along, solids);
+    for (const [row, share] of tree.lee) expectNear([lee[row]!], [share], `row ${row}`);
+    const inLee = exposureOf(joints, wood, lee);
+    expectNear(inLee, tree.inLee, "exposure");
+    const sheltered = inLee.filter((each, joint) => each < 0.98 * exposure[joint]!).length;
+    expect(sheltered, "obstacles count").toBeGreaterThan(joints.count / 4);
+  });
+
+  it("bends alike under what lies on it", () => {
+    const grown = { limbs, wood, joints };
+    const loads = loadsOf(grown, motionRows(tableOfSwaying(tree)), tree);
+    const sampled = (of: Float64Array) =>
+      Array.from({ length: Math.ceil(joints.count / SAMPLED_JOINTS) }, (_, i) => [...part(of, 3, i * SAMPLED_JOINTS)]);
+    for (const load of ["sag", "snow", "rain"] as const) {
+      expectNear(sampled(loads[load]).flat(), tree.laden[load].flat(), load, 1e-9);
+    }
+    const temper = { damping: 1, sag: loaded(loads, tree.laden.loading) };
+    const { mean } = new Answers(joints, wind, Float64Array.from(tree.inLee), temper);
+    expectNear(sampled(mean).flat(), tree.laden.means.flat(), "means", 1e-9);
   });
 
   it("sways alike", () => {

@@ -91,6 +91,7 @@ describe("hands at a swaying tree", () => {
   const order = (rows = motionRows(table)) => ({
     grown: { rows, scale: tree, suppleness: tree.suppleness },
     along: [1, 0, 0] as const,
+    obstacles: { standing: [], meshes: [] },
   });
   const { moving, exposure } = new JointWork().make(order());
   const joints = moving!.joints.count;

@@ -23,7 +23,11 @@ const all = (value: number) => Object.fromEntries(names.map((name) => [name, val
 function swaying(table: ReturnType<typeof tableOf>, asked: AirSettings, time: number, scale = SCALE) {
   const settings = soundAir(asked);
   const rows = motionRows(table);
-  const { moving, exposure } = new JointWork().make({ grown: { rows, scale, suppleness: 1 }, along: [1, 0, 0] });
+  const { moving, exposure } = new JointWork().make({
+    grown: { rows, scale, suppleness: 1 },
+    along: [1, 0, 0],
+    obstacles: { standing: [], meshes: [] },
+  });
   const { turbulence, damping } = settings;
   const wind = windOf({ velocity: velocityOf(settings), turbulence, seed: 7 }, LIVE_PERIOD);
   const sag = loaded(moving!.loads, settings);

@@ -1,10 +1,17 @@
-import { type JointOrder, type JointsMade, JointWork } from "./joint-work";
+import type { DrawnObstacle } from "../obstacle-meshes";
+import { type JointsMade, type JointTask, JointWork } from "./joint-work";
+import { ObstaclePost } from "./obstacle-post";
+
+/** What is ordered; all obstacles that are drawn. */
+export interface JointOrder extends Omit<JointTask, "obstacles"> {
+  readonly obstacles: readonly DrawnObstacle[];
+}
 
 /** The part of a worker that is used; tests bring their own. */
 export interface JointWorker {
   onmessage: ((event: { readonly data: JointsMade }) => void) | null;
   onerror: (() => void) | null;
-  postMessage(order: JointOrder): void;
+  postMessage(task: JointTask): void;
   terminate(): void;
 }
 
@@ -13,6 +20,7 @@ export class JointMaker {
   private worker: JointWorker | null = null;
   private work: JointWork | null = null;
   private order: JointOrder | null = null;
+  private readonly post = new ObstaclePost();
 
   /** `made` hears of each answer. */
   constructor(
@@ -29,7 +37,7 @@ export class JointMaker {
   make(order: JointOrder): void {
     this.order = order;
     this.worker ??= this.started();
-    if (this.worker) this.worker.postMessage(order);
+    if (this.worker) this.worker.postMessage(this.taskOf(order));
     else this.finish(this.onPage(order));
   }
 
@@ -55,13 +63,18 @@ export class JointMaker {
     worker.terminate();
     this.worker = null;
     this.work = new JointWork();
+    this.post.forget();
     // What the worker knew is lost: an order without rows of its own is answered by nothing.
     if (this.order) this.finish(this.onPage(this.order));
   }
 
   private onPage(order: JointOrder): JointsMade {
     this.work ??= new JointWork();
-    return this.work.make(order);
+    return this.work.make(this.taskOf(order));
+  }
+
+  private taskOf({ grown, along, obstacles }: JointOrder): JointTask {
+    return { grown, along, obstacles: this.post.post(obstacles) };
   }
 
   private finish(made: JointsMade): void {

@@ -2,8 +2,8 @@ import { describe, expect, it } from "vitest";
 import { type Twig, tableOf } from "../../../test/small-tree";
 import { SWAYING_TREES, tableOfSwaying } from "../../../test/swaying-trees";
 import type { TreeTable } from "../table/tree-table";
-import { JointMaker, type JointWorker } from "./joint-maker";
-import { type JointOrder, type JointsMade, JointWork } from "./joint-work";
+import { JointMaker, type JointOrder, type JointWorker } from "./joint-maker";
+import { type JointsMade, JointWork } from "./joint-work";
 import { motionRows } from "./motion-rows";
 import { type Moving, PHASE, PIVOT, ROW_NUMBERS } from "./moving";
 import { restingPlace, swayedPlace } from "./places";
@@ -12,13 +12,15 @@ import { WEIGHT } from "./rides";
 import { Riding } from "./riding";
 
 const SCALE = { internodeLength: 0.1, leafSize: 1 };
+/** No obstacles, as a worker gets them. */
+const NOTHING = { standing: [], meshes: [] };
 
 function orderOf(table: TreeTable, suppleness = 1): JointOrder {
-  return { grown: { rows: motionRows(table), scale: SCALE, suppleness }, along: [1, 0, 0] };
+  return { grown: { rows: motionRows(table), scale: SCALE, suppleness }, along: [1, 0, 0], obstacles: [] };
 }
 
 function movingOf(table: TreeTable): Moving {
-  return new JointWork().make(orderOf(table)).moving!;
+  return new JointWork().make({ ...orderOf(table), obstacles: NOTHING }).moving!;
 }
 
 function ridingOf(table: TreeTable, moving: Moving): Riding {
@@ -93,13 +95,13 @@ describe("joints made beside the page", () => {
     expect(dying.busy).toBe(true);
     worker.onerror!();
     expect(made[1]!.exposure).toEqual(made[0]!.exposure);
-    dying.make({ grown: null, along: [0, 0, 1] });
+    dying.make({ grown: null, along: [0, 0, 1], obstacles: [] });
     expect(made[2]!.moving).toBe(null);
     expect(made[2]!.exposure.length).toBe(made[0]!.exposure.length);
   });
 
   it("answer nothing where there were none before", () => {
-    expect(new JointWork().make({ grown: null, along: [1, 0, 0] }).exposure.length).toBe(0);
+    expect(new JointWork().make({ grown: null, along: [1, 0, 0], obstacles: NOTHING }).exposure.length).toBe(0);
   });
 });
 

@@ -1,11 +1,13 @@
 import { bench, describe } from "vitest";
 import { sampleTree } from "../../../test/sample-tree";
 import { PruneRule } from "../../app/tools/prune/prune-rule";
+import type { DrawnObstacle, TriangleMesh } from "../obstacle-meshes";
 import { TreeTable } from "../table/tree-table";
 import { CALM } from "./air-settings";
 import { Answers } from "./answers";
 import { JointWork } from "./joint-work";
 import { motionRows } from "./motion-rows";
+import { ObstaclePost } from "./obstacle-post";
 import { pose, STAND } from "./pose";
 import { Riding } from "./riding";
 import { brokenBy } from "./strain";
@@ -14,6 +16,7 @@ import { windOf } from "./wind";
 
 const SCALE = { internodeLength: 0.1, leafSize: 1 };
 const HARSH = { ...CALM, speed: 20, turbulence: 0.8, snow: 0.5 };
+const NOTHING = { standing: [], meshes: [] };
 const WEATHER = { velocity: [7, 0, 3], turbulence: 0.7, seed: 7 } as const;
 
 /** Trees of about ten and a hundred thousand rows. */
@@ -22,11 +25,42 @@ const TREES = [
   { seed: 3, height: 96, orders: 4 },
 ];
 
+/** A rough rock as large as a tree and close in front of it, of as many triangles as a model may have. */
+const ROCK = rock(256, 256);
+const MODEL = {
+  id: 1,
+  shape: { kind: "mesh", vertices: ROCK.positions.length / 3, triangles: ROCK.triangles.length / 3, scale: 1 },
+  pose: { position: [-60, 30, 0] },
+  mesh: ROCK,
+} as const satisfies DrawnObstacle;
+
+function rock(rings: number, sides: number): TriangleMesh {
+  const [positions, triangles] = [[] as number[], [] as number[]];
+  for (let ring = 0; ring <= rings; ring += 1) {
+    for (let side = 0; side < sides; side += 1) {
+      const [down, around] = [(Math.PI * ring) / rings, (2 * Math.PI * side) / sides];
+      const size = 40 + 3 * Math.sin(9 * around) * Math.sin(7 * down);
+      const [sin, cos] = [Math.sin(down), Math.cos(down)];
+      positions.push(size * sin * Math.cos(around), size * cos, size * sin * Math.sin(around));
+      if (ring === rings) continue;
+      const at = (r: number, s: number) => r * sides + (s % sides);
+      const [a, b, c, d] = [at(ring, side), at(ring, side + 1), at(ring + 1, side), at(ring + 1, side + 1)];
+      triangles.push(a, b, c, b, d, c);
+    }
+  }
+  return { positions: Float32Array.from(positions), triangles: Uint32Array.from(triangles) };
+}
+
 for (const options of TREES) {
   const table = new TreeTable(() => 0);
   table.apply(sampleTree(options));
-  const order = () => ({ grown: { rows: motionRows(table), scale: SCALE, suppleness: 1 }, along: [1, 0, 0] as const });
+  const order = () => ({
+    grown: { rows: motionRows(table), scale: SCALE, suppleness: 1 },
+    along: [1, 0, 0] as const,
+    obstacles: NOTHING,
+  });
   const work = new JointWork();
+  const post = new ObstaclePost();
   const { moving, exposure } = work.make(order());
   const { joints, hinges } = moving!;
   const answers = () => new Answers(joints, windOf(WEATHER, 600), exposure);
@@ -44,7 +78,17 @@ for (const options of TREES) {
       work.make(order());
     });
     bench("shelter for another direction, in the worker", () => {
-      work.make({ grown: null, along: [0, 0, 1] });
+      work.make({ grown: null, along: [0, 0, 1], obstacles: NOTHING });
+    });
+    bench("the same behind a model of 131,072 triangles", () => {
+      work.make({ grown: null, along: [1, 0, 0], obstacles: post.post([MODEL]) });
+    });
+    bench("the same as it comes", () => {
+      work.make({
+        grown: null,
+        along: [1, 0, 0],
+        obstacles: post.post([{ ...MODEL, mesh: { ...ROCK } }]),
+      });
     });
     bench("answers to a new wind", () => {
       answers();

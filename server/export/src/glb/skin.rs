@@ -1,7 +1,7 @@
 //! Bones, skins and animations: how a plant sways.
 
 use espalier_motion::{Bound, Rig, clips::Clip};
-use glam::Vec3;
+use glam::{DVec3, Quat, Vec3};
 
 use super::{vertex::Attribute, writer::Writer};
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Bytes of JSON for each bone: its node, and what says of both clips where its keys are.
-pub(super) const CAPACITY_OF_BONE: usize = 1400;
+pub(super) const CAPACITY_OF_BONE: usize = 1500;
 
 /// The bones of the plant whose parts are being written.
 pub(super) struct Skeleton<'a> {
@@ -22,7 +22,8 @@ pub(super) struct Skeleton<'a> {
 }
 
 impl<'a> Skeleton<'a> {
-    /// Adds the bones below the node that is open, and their animations.
+    /// Adds the bones below the node that is open, and their animations. Where none is played they stand as what lies on
+    /// the plant bends it.
     pub(super) fn begin(
         writer: &mut Writer<'_>,
         swaying: &'a Swaying,
@@ -33,14 +34,17 @@ impl<'a> Skeleton<'a> {
         let nodes: Vec<usize> = (first..first + rig.bones().len()).collect();
         let owner = writer.owner();
         let mut made: Vec<Node> = Vec::with_capacity(nodes.len());
-        for (number, bone) in rig.bones().iter().enumerate() {
-            let below = bone.parent.map_or(origin, |parent| rig.bones()[parent as usize].rest);
+        let rest = swaying.locals(&rig, swaying.rest());
+        for (number, (bone, Local { turn, place })) in rig.bones().iter().zip(rest).enumerate() {
+            let from = if bone.parent.is_none() { origin } else { DVec3::ZERO };
             if let Some(parent) = bone.parent {
                 made[parent as usize].children.push(nodes[number]);
             }
             let name = if number == 0 { format!("{owner} Bones") } else { format!("Bone {number}") };
-            let translation = Some((bone.rest - below).as_vec3().to_array());
-            made.push(Node { name, translation, ..Node::default() });
+            let translation = Some((place - from).as_vec3().to_array());
+            let turn = turn.as_quat();
+            let rotation = (turn != Quat::IDENTITY).then(|| turn.to_array());
+            made.push(Node { name, translation, rotation, ..Node::default() });
         }
         let mut made = made.into_iter();
         if let Some(ground) = made.next() {

@@ -2,6 +2,7 @@
 
 use std::f32::consts::TAU;
 
+use espalier_growth::Obstacle;
 use espalier_mesh::Style;
 use espalier_motion::{Node, Pose, clips::LOOP};
 use espalier_plant::Plant;
@@ -23,20 +24,21 @@ const FRAMED: usize = 12;
 const FLUTTER: f32 = 0.22;
 const OFTEN: [f32; 2] = [14.0, 30.0];
 
-/// So many pictures of one loop, from a camera that stands still. `metres` is the length of an internode.
+/// So many pictures of one loop, from a camera that stands still. `metres` is the length of an internode; obstacles shelter
+/// the plant, and are not seen.
 ///
 /// # Errors
 /// Where the file cannot be written.
 pub fn swaying(
     plant: &Plant,
     style: &Style,
-    (look, metres): (&Look, f32),
+    (look, metres, around): (&Look, f32, &[Obstacle]),
     size: [usize; 2],
     camera: Camera,
     frames: u16,
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
-    let motion = Swaying::of(plant, style, &look.appearance.wind, metres);
+    let motion = Swaying::of(plant, style, &look.appearance.wind, metres, around);
     let meshes = Meshes::of(plant, style, &look.appearance, Some(&motion));
     let room: Vec<Vec3> = (0..FRAMED)
         .flat_map(|at| meshes.moved(&Posed::at(&motion, metres, at as f32 / FRAMED as f32)).corners())
@@ -110,6 +112,28 @@ mod tests {
     use crate::in_memory;
 
     #[test]
+    fn snow_bends_what_is_in_the_picture() {
+        let mut plant = Plant::new(Vec3::ZERO);
+        plant.begin_step();
+        // A rod that rises and leans, so that a load bends it.
+        for at in 1..=24 {
+            let end = Vec3::new(at as f32, 0.5 * at as f32, 0.0);
+            plant.extend(AxisId::new(0), &Internode { end, normal: Vec3::Z, laterals: &[] });
+        }
+        plant.end_step();
+        let style = Style::default();
+        let tip = |snow: f32| {
+            let look = espalier_settings::looks::WindLook { speed: 3.0, snow, ..Default::default() };
+            let motion = Swaying::of(&plant, &style, &look, 0.2, &[]);
+            let row = motion.wood.len() as u32 - 1;
+            let rider = Rider { row, share: 1.0, flutter: 0.0 };
+            let rest = (motion.wood.place(row) * 5.0).as_vec3();
+            Posed::at(&motion, 0.2, 0.25).moved(rider, rest, false).0.y
+        };
+        assert!(tip(0.4) < tip(0.0) - 0.1, "{} under snow, {} without", tip(0.4), tip(0.0));
+    }
+
+    #[test]
     fn the_pictures_of_a_loop_differ_and_the_same_plant_gives_the_same_file() {
         let mut plant = Plant::new(Vec3::ZERO);
         plant.begin_step();
@@ -119,7 +143,7 @@ mod tests {
         }
         plant.end_step();
         let file = |frames| {
-            let look = (&Look::default(), 0.2);
+            let look = (&Look::default(), 0.2, &[][..]);
             in_memory(|out| {
                 swaying(&plant, &Style::default(), look, [40, 60], Camera::default(), frames, out)
             })

@@ -6,7 +6,7 @@ use espalier_motion::{
     Bound, Rig,
     clips::{Clip, KEYS_A_SECOND},
 };
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DQuat, DVec3, Vec3};
 
 use super::arrays::{Array, joined};
 use crate::{
@@ -60,9 +60,10 @@ impl<'s> Skeleton<'s> {
         rig.bones().iter().try_for_each(|bone| array.put(moved(bone.rest - from)))?;
         array.end("")?;
         let mut array = Array::begin(&mut *out, "uniform matrix4d[] restTransforms")?;
-        for bone in rig.bones() {
-            let below = bone.parent.map_or(from, |parent| rig.bones()[parent as usize].rest);
-            array.put(moved(bone.rest - below))?;
+        let rest = swaying.locals(&rig, swaying.rest());
+        for (bone, Local { turn, place }) in rig.bones().iter().zip(rest) {
+            let from = if bone.parent.is_none() { from } else { DVec3::ZERO };
+            array.put(turned(turn, place - from))?;
         }
         array.end("")?;
         let [sway, _] = &swaying.clips;
@@ -129,6 +130,14 @@ fn joints(names: &[String], out: &mut dyn Write) -> Result<(), ExportError> {
     let mut array = Array::begin(out, "uniform token[] joints")?;
     names.iter().try_for_each(|name| array.put(format_args!("\"{name}\"")))?;
     array.end("")
+}
+
+/// The matrix that turns and then moves by so many metres, for vectors that are written as rows.
+fn turned(turn: DQuat, by: DVec3) -> String {
+    let columns = DMat3::from_quat(turn).to_cols_array_2d();
+    let row = |part: [f64; 3]| joined(&DVec3::from_array(part).as_vec3().extend(0.0).to_array());
+    let [x, y, z] = columns.map(row);
+    format!("({x}, {y}, {z}, {})", joined(&by.as_vec3().extend(1.0).to_array()))
 }
 
 /// The matrix that moves by so many metres.

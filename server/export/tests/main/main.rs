@@ -52,6 +52,7 @@ fn model(
         species: None,
         seed: Some(7),
         parameters: &parameters,
+        obstacles: &[],
         author: Some("Ada"),
         licence: Some("CC-BY-4.0"),
     };

@@ -17,7 +17,16 @@ const BEFORE_ROW: usize = 8;
 fn exported(plant: &Plant) -> [Vec<u8>; 3] {
     let parameters = ParameterValues { internode_length: METRES, ..ParameterValues::default() };
     let (program, simulation, species, seed, author, licence) = ("Espalier", 1, None, None, None, None);
-    let about = About { program, simulation, species, seed, parameters: &parameters, author, licence };
+    let about = About {
+        program,
+        simulation,
+        species,
+        seed,
+        parameters: &parameters,
+        obstacles: &[],
+        author,
+        licence,
+    };
     let zip = in_memory(|out| pivots(plant, &style(), &looks(), &about, &Model::default(), out));
     let members = members(&zip.expect("it exports"));
     ["tree.glb", "tree_pivot_index.exr", "tree_xvector_extent.png"].map(|name| members[name].1.clone())

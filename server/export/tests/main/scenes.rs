@@ -19,6 +19,7 @@ fn file(format: Format, model: &Model) -> Vec<u8> {
         species: Some("Sour \"cherry\""),
         seed: Some(7),
         parameters: &parameters,
+        obstacles: &[],
         author: Some("Ada\n}"),
         licence: None,
     };

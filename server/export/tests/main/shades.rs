@@ -20,6 +20,7 @@ fn text(plant: &Plant, format: Format, model: &Model) -> String {
         species: None,
         seed: None,
         parameters: &parameters,
+        obstacles: &[],
         author: None,
         licence: None,
     };

@@ -1,11 +1,15 @@
 //! Skins and animations: bones stand where the wind has them, vertices rest where they grew.
 
-use espalier_export::{About, Detail, Model, in_memory, joints_csv};
-use espalier_growth::species;
+use std::io::{Cursor, ErrorKind, Seek, SeekFrom, Write};
+
+use espalier_export::{About, Detail, ExportError, Model, in_memory, joints_csv};
+use espalier_growth::{Obstacle, Shape, species};
 use espalier_mesh::RingTable;
 use espalier_motion::{
     Joints, Rig, Rows, Scale, Weather,
-    clips::{Clip, blow, clips, reaches},
+    clips::{Clip, Conditions, blow, clips, reaches},
+    loads::{self, Loading},
+    shelter::{Form, Solid},
 };
 use espalier_plant::Plant;
 use espalier_settings::{Appearance, ParameterValues, looks::WindLook};
@@ -25,22 +29,43 @@ fn sways(most: u32) -> Model {
     Model { sway: Some(most), ..Model::default() }
 }
 
-/// What motion itself says of the plant of the first seed.
-fn motion(plant: &Plant) -> ([Clip; 2], Vec<Vec<Vec<Vec3>>>, usize) {
+/// The same wind over snow, wet leaves and wood that sags.
+fn laden() -> Appearance {
+    let wind = WindLook { snow: 0.12, rain: 0.8, sag: 0.3, rise: -2.0, ..windy().wind };
+    Appearance { wind, ..looks() }
+}
+
+/// A wall upwind of a tree, somewhat lower than that and turned against it.
+fn wall() -> (Obstacle, Solid) {
+    let (place, half) = (Vec3::new(-40.0, 12.0, -14.0), Vec3::new(2.0, 12.0, 30.0));
+    let turn = Quat::from_rotation_y(0.3);
+    let shape = Shape::Box { centre: place, half_extents: half, rotation: turn };
+    let solid = Solid::new(Form::Box(half.as_dvec3()), place.as_dvec3(), turn.as_dquat(), f64::from(METRES));
+    (Obstacle::new(shape).expect("a box"), solid.expect("it stands"))
+}
+
+/// What motion itself says of the plant of the first seed: clips, where all bones stand at each key of both, how many bones there
+/// are.
+fn motion(plant: &Plant, looks: &Appearance, solids: &[Solid]) -> ([Clip; 2], Vec<Vec<Vec<Vec3>>>, usize) {
+    let look = &looks.wind;
     let mut table = RingTable::new();
     table.sync(plant, &style(), 1);
     let leaf_size = f64::from(style().options().leaf_size);
     let scale = Scale { internode_length: f64::from(METRES), leaf_size };
-    let (limbs, wood, joints) = Joints::grown(&Rows::of(&table), &scale, 1.0);
-    let (sin, cos) = libm::sincos(30f64.to_radians());
-    let velocity = DVec3::new(12.0 * cos, 0.0, 12.0 * sin);
-    let turbulence = f64::from(WindLook::default().turbulence);
-    let weather = Weather { velocity, turbulence, seed: 7 };
-    let mut clips = clips(&joints, &wood, &weather);
+    let rows = Rows::of(&table);
+    let (limbs, wood, joints) = Joints::grown(&rows, &scale, 1.0);
+    let blows = [look.speed, look.direction, look.rise].map(f64::from);
+    let [sag, snow, rain] = [look.sag, look.snow, look.rain].map(f64::from);
+    let loads = loads::turns(&rows, &limbs, &wood, &joints, &scale, &Loading { sag, snow, rain });
+    let weather = Weather::blowing(blows, f64::from(look.turbulence), 7);
+    let conditions = Conditions::new(&wood, weather, solids, loads);
+    let mut clips = clips(&joints, &wood, &conditions);
     let reach = reaches(&clips, joints.all().len());
     let rig = Rig::of(&joints, &limbs, &wood, 0, &reach, BONES as usize);
     let [_, gust] = &mut clips;
-    blow(gust, std::slice::from_ref(&rig), &joints, &limbs, &wood, &weather);
+    let plants = (&joints, &limbs, &wood);
+    blow(gust, std::slice::from_ref(&rig), plants, &conditions, || Ok::<(), ()>(()))
+        .expect("nothing ends it");
     let places = clips.iter().map(|clip| {
         let of =
             |key: &Vec<DVec3>| rig.stand(&joints, &wood, key).iter().map(|at| at.place.as_vec3()).collect();
@@ -51,11 +76,23 @@ fn motion(plant: &Plant) -> ([Clip; 2], Vec<Vec<Vec<Vec3>>>, usize) {
 }
 
 fn usda(plant: &Plant, looks: &Appearance, model: &Model) -> String {
+    let file =
+        among(&[], |about| in_memory(|out| espalier_export::usda(plant, &style(), looks, about, model, out)));
+    String::from_utf8(file.expect("it exports")).expect("it is text")
+}
+
+/// What is made of plants among obstacles.
+fn among<T>(obstacles: &[Obstacle], make: impl FnOnce(&About<'_>) -> T) -> T {
     let parameters = ParameterValues { internode_length: METRES, ..ParameterValues::default() };
     let (program, simulation, species, seed, author, licence) = ("Espalier", 1, None, None, None, None);
-    let about = About { program, simulation, species, seed, parameters: &parameters, author, licence };
-    let file = in_memory(|out| espalier_export::usda(plant, &style(), looks, &about, model, out));
-    String::from_utf8(file.expect("it exports")).expect("it is text")
+    make(&About { program, simulation, species, seed, parameters: &parameters, obstacles, author, licence })
+}
+
+fn glb_among(plant: &Plant, looks: &Appearance, obstacles: &[Obstacle], model: &Model) -> Vec<u8> {
+    let file = among(obstacles, |about| {
+        in_memory(|out| espalier_export::glb(plant, &style(), looks, about, model, out))
+    });
+    file.expect("it exports")
 }
 
 fn index(value: &Value) -> usize {
@@ -69,11 +106,20 @@ fn vector(value: &Value) -> Vec3 {
     Vec3::from_slice(&parts)
 }
 
-/// Where all nodes are at a key of an animation; at rest where there is none.
+fn turn(value: &Value) -> Quat {
+    match value.as_array() {
+        Some(parts) => Quat::from_slice(
+            &parts.iter().map(|part| part.as_f64().unwrap_or_default() as f32).collect::<Vec<_>>(),
+        ),
+        None => Quat::IDENTITY,
+    }
+}
+
+/// Where all nodes are at a key of an animation; where they are by themselves where there is none.
 fn world(file: &[u8], root: &Value, key: Option<(&Value, usize)>) -> Vec<Mat4> {
     let nodes = root["nodes"].as_array().expect("nodes");
     let mut local: Vec<(Vec3, Quat)> =
-        nodes.iter().map(|node| (vector(&node["translation"]), Quat::IDENTITY)).collect();
+        nodes.iter().map(|node| (vector(&node["translation"]), turn(&node["rotation"]))).collect();
     if let Some((animation, key)) = key {
         for channel in animation["channels"].as_array().expect("channels") {
             let sampler = &animation["samplers"][index(&channel["sampler"])];
@@ -106,31 +152,128 @@ fn world(file: &[u8], root: &Value, key: Option<(&Value, usize)>) -> Vec<Mat4> {
 fn bones_stand_where_motion_has_them_at_each_key() {
     let mut document = raised(species::find("oak").expect("there are oaks"), 4);
     let plant = document.portrait();
-    let file = model(plant, &style(), &windy(), METRES, &sways(BONES)).expect("it exports");
-    let root = root(&file);
-    let (clips, places, bones) = motion(plant);
-    let joints = root["skins"][0]["joints"].as_array().expect("joints");
-    assert_eq!(joints.len(), bones);
-    assert!(bones > 10, "{bones} bones");
-    let animations = root["animations"].as_array().expect("animations");
-    assert_eq!(animations.len(), 2);
-    for ((animation, clip), places) in animations.iter().zip(&clips).zip(&places) {
-        assert!(animation["name"].as_str().is_some_and(|name| name.starts_with(clip.name)));
-        for key in [0, 1, 50, 133, clip.keys.len() - 1] {
-            let all = world(&file, &root, Some((animation, key)));
-            for (joint, &wanted) in joints.iter().zip(&places[key]) {
-                let found = all[index(joint)].transform_point3(Vec3::ZERO);
-                assert!(found.distance(wanted) < 1e-3, "{}, key {key}: {found} is not {wanted}", clip.name);
+    let (obstacle, solid) = wall();
+    for (looks, obstacles, solids) in [
+        (windy(), &[][..], &[][..]),
+        (laden(), std::slice::from_ref(&obstacle), std::slice::from_ref(&solid)),
+    ] {
+        let file = glb_among(plant, &looks, obstacles, &sways(BONES));
+        let root = root(&file);
+        let (clips, places, bones) = motion(plant, &looks, solids);
+        let joints = root["skins"][0]["joints"].as_array().expect("joints");
+        assert_eq!(joints.len(), bones);
+        assert!(bones > 10, "{bones} bones");
+        let animations = root["animations"].as_array().expect("animations");
+        assert_eq!(animations.len(), 2);
+        let still = world(&file, &root, None);
+        for (joint, &wanted) in joints.iter().zip(&places[1][0]) {
+            let found = still[index(joint)].transform_point3(Vec3::ZERO);
+            assert!(found.distance(wanted) < 1e-3, "by itself: {found} is not {wanted}");
+        }
+        for ((animation, clip), places) in animations.iter().zip(&clips).zip(&places) {
+            assert!(animation["name"].as_str().is_some_and(|name| name.starts_with(clip.name)));
+            for key in [0, 1, 50, 133, clip.keys.len() - 1] {
+                let all = world(&file, &root, Some((animation, key)));
+                for (joint, &wanted) in joints.iter().zip(&places[key]) {
+                    let found = all[index(joint)].transform_point3(Vec3::ZERO);
+                    assert!(
+                        found.distance(wanted) < 1e-3,
+                        "{}, key {key}: {found} is not {wanted}",
+                        clip.name
+                    );
+                }
+            }
+            // The loop closes to the bit.
+            for sampler in animation["samplers"].as_array().expect("samplers") {
+                let times = numbers(&file, index(&sampler["input"]));
+                let values = numbers(&file, index(&sampler["output"]));
+                let each = values.len() / times.len();
+                assert_eq!(times.last().copied(), Some(clip.length as f32));
+                assert_eq!(values[..each], values[values.len() - each..]);
             }
         }
-        // The loop closes to the bit.
-        for sampler in animation["samplers"].as_array().expect("samplers") {
-            let times = numbers(&file, index(&sampler["input"]));
-            let values = numbers(&file, index(&sampler["output"]));
-            let each = values.len() / times.len();
-            assert_eq!(times.last().copied(), Some(clip.length as f32));
-            assert_eq!(values[..each], values[values.len() - each..]);
+    }
+}
+
+/// How far bones stand from where they were bound, on average over some keys of the loop; and how far that is downwards.
+fn bent(file: &[u8]) -> [f32; 2] {
+    let root = root(file);
+    let animation = &root["animations"][0];
+    let joints = root["skins"][0]["joints"].as_array().expect("joints");
+    let inverse = numbers(file, index(&root["skins"][0]["inverseBindMatrices"]));
+    let mut sum = Vec3::ZERO;
+    let keys = [0, 30, 60, 90, 120, 150, 180, 210];
+    for key in keys {
+        let all = world(file, &root, Some((animation, key)));
+        for (joint, inverse) in joints.iter().zip(inverse.as_chunks::<16>().0) {
+            let moved = all[index(joint)] * Mat4::from_cols_array(inverse);
+            let bound = Mat4::from_cols_array(inverse).inverse().transform_point3(Vec3::ZERO);
+            sum += moved.transform_point3(bound) - bound;
         }
+    }
+    let mean = sum / (keys.len() * joints.len()) as f32;
+    [mean.with_y(0.0).length(), -mean.y]
+}
+
+#[test]
+fn snow_bends_a_skin_down_and_a_wall_upwind_shelters_it_and_one_downwind_does_not() {
+    let mut document = raised(species::find("oak").expect("there are oaks"), 4);
+    let plant = document.portrait();
+    let model = Model { quantised: false, ..sways(BONES) };
+    let of = |looks: &Appearance, obstacles: &[Obstacle]| bent(&glb_among(plant, looks, obstacles, &model));
+    let [open, _] = of(&windy(), &[]);
+    let box_at = |centre: Vec3| {
+        let rotation = Quat::from_rotation_y(-30f32.to_radians());
+        Obstacle::new(Shape::Box { centre, half_extents: Vec3::new(2.0, 90.0, 200.0), rotation })
+            .expect("a box")
+    };
+    let (sin, cos) = libm::sincosf(30f32.to_radians());
+    let upwind = Vec3::new(-60.0 * cos, 90.0, -60.0 * sin);
+    let [sheltered, _] = of(&windy(), &[box_at(upwind)]);
+    let behind = of(&windy(), &[box_at(upwind * Vec3::new(-1.5, 1.0, -1.5))]);
+    assert!(sheltered < 0.4 * open, "{sheltered} m behind a wall, {open} m in the open");
+    assert_eq!(behind, of(&windy(), &[]));
+    let snowy = Appearance { wind: WindLook { snow: 0.3, ..windy().wind }, ..looks() };
+    let [[_, dry], [_, fallen]] = [of(&windy(), &[]), of(&snowy, &[])];
+    assert!(fallen > dry + 0.01, "{fallen} m down under snow, {dry} m without");
+    let plane = Obstacle::new(Shape::Plane { point: Vec3::Y * 20.0, normal: Vec3::Y }).expect("a plane");
+    assert_eq!(of(&windy(), &[plane]), of(&windy(), &[]), "a plane is land");
+}
+
+/// A file that nobody wants any more after it was flushed so many times.
+struct GivenUp {
+    file: Cursor<Vec<u8>>,
+    flushes: u32,
+}
+
+impl Write for GivenUp {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.flushes = self.flushes.checked_sub(1).ok_or(ErrorKind::ConnectionAborted)?;
+        Ok(())
+    }
+}
+
+impl Seek for GivenUp {
+    fn seek(&mut self, to: SeekFrom) -> std::io::Result<u64> {
+        self.file.seek(to)
+    }
+}
+
+#[test]
+fn a_skin_that_is_given_up_while_its_gust_is_stepped_ends_there_with_nothing_written() {
+    let mut document = raised(species::find("oak").expect("there are oaks"), 4);
+    let plant = document.portrait();
+    for flushes in [0, 40] {
+        let mut out = GivenUp { file: Cursor::default(), flushes };
+        let done = among(&[], |about| {
+            espalier_export::glb(plant, &style(), &windy(), about, &sways(BONES), &mut out)
+        });
+        assert_eq!(done, Err(ExportError::Write(ErrorKind::ConnectionAborted)));
+        assert_eq!((out.file.get_ref().len(), out.flushes), (0, 0));
     }
 }
 
@@ -205,7 +348,7 @@ fn a_skeleton_of_usd_stands_where_motion_has_it_and_its_loop_closes() {
     let mut document = raised(species::find("oak").expect("there are oaks"), 4);
     let plant = document.portrait();
     let text = usda(plant, &windy(), &sways(BONES));
-    let (clips, places, bones) = motion(plant);
+    let (clips, places, bones) = motion(plant, &windy(), &[]);
     assert!(text.contains("def SkelRoot \"Tree\"") && text.contains("    endTimeCode = 240\n"));
     let skeleton = text.split("def Skeleton \"Bones\"").nth(1).expect("it has bones");
     let names = skeleton.split("joints = [").nth(1).and_then(|rest| rest.split(']').next()).expect("names");
@@ -231,6 +374,18 @@ fn a_skeleton_of_usd_stands_where_motion_has_it_and_its_loop_closes() {
     let (bind, rest) = (matrices("bindTransforms = "), matrices("restTransforms = "));
     for (composed, bind) in composed(&|bone| rest[bone]).iter().zip(&bind) {
         assert!(composed.abs_diff_eq(*bind, 1e-4), "at rest a bone stands where its vertices are bound");
+    }
+    let heavy = usda(plant, &laden(), &sways(BONES));
+    let heavy = heavy.split("def Skeleton \"Bones\"").nth(1).expect("it has bones");
+    let (_, stands, count) = motion(plant, &laden(), &[]);
+    let values = list(heavy, "restTransforms = ");
+    let rest: Vec<Mat4> = values.as_chunks::<16>().0.iter().map(Mat4::from_cols_array).collect();
+    assert_eq!(rest.len(), count);
+    if count == bones {
+        for (composed, &wanted) in composed(&|bone| rest[bone]).iter().zip(&stands[1][0]) {
+            let found = composed.transform_point3(Vec3::ZERO);
+            assert!(found.distance(wanted) < 1e-3, "under snow at rest: {found} is not {wanted}");
+        }
     }
     let keys = |name: &str| -> Vec<Vec<f32>> {
         let samples = skeleton.split(name).nth(1).and_then(|rest| rest.split('}').next()).expect("samples");
@@ -282,21 +437,43 @@ fn bones_of_usd_go_with_levels_limbs_and_hulls_and_stand_in_a_plant_that_has_non
     assert!(!usda(document.portrait(), &windy(), &Model::default()).contains("Skel"));
 }
 
+/// The lines of a table of joints, below its head.
+fn table(plant: &Plant, looks: &Appearance, obstacles: &[Obstacle]) -> (Vec<String>, Vec<Vec<String>>) {
+    let file = in_memory(|out| joints_csv(plant, &style(), looks, obstacles, METRES, out));
+    let text = String::from_utf8(file.expect("it is written")).expect("it is text");
+    let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect());
+    (lines.next().expect("a head"), lines.collect())
+}
+
 #[test]
 fn joints_are_lines_of_numbers() {
     let mut document = raised(species::find("oak").expect("there are oaks"), 4);
     let plant = document.portrait();
-    let file = in_memory(|out| joints_csv(plant, &style(), &windy(), METRES, out)).expect("it is written");
-    let text = String::from_utf8(file).expect("it is text");
-    let mut lines = text.lines();
-    let columns = lines.next().expect("a head").split(',').count();
-    let mut count = 0;
-    for (number, line) in lines.enumerate() {
-        let cells: Vec<&str> = line.split(',').collect();
-        assert_eq!((cells.len(), cells[0]), (columns, number.to_string().as_str()));
+    let (head, lines) = table(plant, &windy(), &[]);
+    for (number, cells) in lines.iter().enumerate() {
+        assert_eq!((cells.len(), cells[0].as_str()), (head.len(), number.to_string().as_str()));
         assert!(cells[1].is_empty() || cells[1].parse::<usize>().is_ok_and(|parent| parent < number));
-        assert!(cells[2..].iter().all(|cell| cell.parse::<f64>().is_ok_and(f64::is_finite)), "{line}");
-        count += 1;
+        assert!(cells[2..].iter().all(|cell| cell.parse::<f64>().is_ok_and(f64::is_finite)), "{cells:?}");
     }
-    assert!(count > 3);
+    assert!(lines.len() > 3);
+}
+
+#[test]
+fn joints_have_the_wind_that_reaches_them_and_what_bends_them() {
+    let mut document = raised(species::find("oak").expect("there are oaks"), 4);
+    let plant = document.portrait();
+    let (head, _) = table(plant, &windy(), &[]);
+    let column = |looks: &Appearance, obstacles: &[Obstacle], name: &str| -> Vec<f64> {
+        let at = head.iter().position(|column| column == name).expect("a column");
+        let (_, lines) = table(plant, looks, obstacles);
+        lines.iter().map(|cells| cells[at].parse().expect("a number")).collect()
+    };
+    let [open, behind] = [&[][..], &[wall().0][..]].map(|obstacles| column(&windy(), obstacles, "exposure"));
+    assert!(open.iter().zip(&behind).all(|(open, behind)| behind <= open && *behind > 0.0));
+    let sheltered = open.iter().zip(&behind).filter(|(open, behind)| **behind < 0.9 * **open).count();
+    assert!(6 * sheltered > open.len(), "{sheltered} of {} behind the wall", open.len());
+    for name in ["load_x", "load_y", "load_z"] {
+        assert!(column(&windy(), &[], name).iter().all(|load| *load == 0.0));
+        assert!(column(&laden(), &[], name).iter().any(|load| load.abs() > 1e-3), "{name}");
+    }
 }

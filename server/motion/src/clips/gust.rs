@@ -2,12 +2,11 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Clip, FURTHEST, GUST, KEYS_A_SECOND, LOOP, keys};
+use super::{Clip, Conditions, GUST, KEYS_A_SECOND, LOOP, keys};
 use crate::{
-    Direction, Joints, Limbs, Rig, Weather, Wind, Wood,
+    Direction, Joints, Limbs, Rig, Wind, Wood,
     answers::{Answer, Answers, pressure},
     bodies::{AHEAD, Bodies, Gathered, Hinge},
-    shelter::behind_crowns,
     sway::limited,
     wind::{CONVECTION, profile},
 };
@@ -30,7 +29,7 @@ pub(super) fn alone(answers: &Answers) -> Clip {
     let of = |time: f64| -> Vec<DVec3> {
         let bend = |answer: &Answer| {
             let share = risen(answer, time - COMES) - risen(answer, time - GOES);
-            (STRONGER * left(time) * share * answer.mean).clamp_length_max(FURTHEST)
+            limited(answer.rest + STRONGER * left(time) * share * (answer.mean - answer.rest))
         };
         answers.all().iter().map(bend).collect()
     };
@@ -61,33 +60,37 @@ fn risen(answer: &Answer, gone: f64) -> f64 {
     step * smooth(gone / FRONT)
 }
 
-/// Steps bodies, one for each piece of all rigs, and replaces what their joints do.
-pub(super) fn together(
+/// Steps bodies, one for each piece of all rigs, and replaces what their joints do: all of it beside how they rest, as
+/// answers in closed form add up.
+pub(super) fn together<E>(
     clip: &mut Clip,
     rigs: &[Rig],
-    joints: &Joints,
-    limbs: &Limbs,
-    wood: &Wood,
-    weather: &Weather,
-) {
+    (joints, limbs, wood): (&Joints, &Limbs, &Wood),
+    conditions: &Conditions,
+    mut go_on: impl FnMut() -> Result<(), E>,
+) -> Result<(), E> {
     let hinges = hinges(rigs, joints, limbs, wood);
     let hinge = |row: u32| hinges.binary_search_by_key(&row, |&(row, _)| row).ok().map(|at| hinges[at].1);
     let mut bodies = Bodies::hinged(wood, AHEAD, hinge);
-    let mut air = Air::around(&mut bodies, wood, weather);
+    let mut air = Air::around(&mut bodies, wood, conditions);
     let step = 1.0 / f64::from(STEPS * KEYS_A_SECOND);
     let tips: Vec<Option<u32>> = (0..joints.all().len() as u32)
         .map(|joint| rigs.iter().find_map(|rig| rig.ends(joint).last()))
         .collect();
+    let rest = clip.keys.first().cloned().unwrap_or_default();
     for key in 0..clip.keys.len() {
+        go_on()?;
         let time = clip.time(key);
-        for ((joint, &tip), bend) in joints.all().iter().zip(&tips).zip(&mut clip.keys[key]) {
+        for (((joint, &tip), &rest), bend) in
+            joints.all().iter().zip(&tips).zip(&rest).zip(&mut clip.keys[key])
+        {
             if let Some(row) = tip {
                 let turn = |row: u32| bodies.turn(row).unwrap_or(DQuat::IDENTITY);
                 let own = turn(joint.node).inverse() * turn(row);
                 // The shorter way round.
                 let own = if own.w < 0.0 { -own } else { own };
                 let whole = own.to_scaled_axis() / joints.rides()[row as usize].weight;
-                *bend = left(time) * limited(whole);
+                *bend = limited(rest + left(time) * whole);
             }
         }
         for part in 0..STEPS {
@@ -95,6 +98,7 @@ pub(super) fn together(
             bodies.step(step, forces);
         }
     }
+    Ok(())
 }
 
 /// Where the pieces of rigs bend, by row: halfway through the softness of each.
@@ -142,13 +146,12 @@ struct Air {
 }
 
 impl Air {
-    fn around(bodies: &mut Bodies, wood: &Wood, weather: &Weather) -> Self {
-        let wind = Wind::new(weather, LOOP);
+    fn around(bodies: &mut Bodies, wood: &Wood, conditions: &Conditions) -> Self {
+        let wind = Wind::new(&conditions.weather, LOOP);
         let along = wind.axis(Direction::Along);
-        let shares = behind_crowns(wood, along);
         let squares: Vec<f64> = (0..wood.len())
             .map(|row| {
-                let speed = profile(wood.middle(row).y) * shares[row];
+                let speed = profile(wood.middle(row).y) * conditions.shares[row];
                 speed * speed
             })
             .collect();

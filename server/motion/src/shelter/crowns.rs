@@ -1,7 +1,8 @@
-//! What takes the wind away: the crown itself, other plants in front, and obstacles.
+//! The crown itself, and other plants in front.
 
 use glam::DVec3;
 
+use super::RECOVERY;
 use crate::wood::Wood;
 
 /// Cells of the grid across the wind, each way.
@@ -10,15 +11,6 @@ const CELLS: usize = 64;
 const SLABS: usize = 256;
 /// The narrowest cell, m: wakes are wider.
 const NARROWEST: f64 = 0.2;
-/// A wake has filled to 1/e after so many heights of what made it.
-const RECOVERY: f64 = 10.0;
-/// Rays that look for obstacles, within this angle (radians) upwind, over so many of their heights.
-const RAYS: u32 = 8;
-const CONE: f64 = 10.0 * std::f64::consts::PI / 180.0;
-const REACH: f64 = 6.0;
-/// The most that an obstacle takes of the speed.
-const TAKEN: f64 = 0.8;
-const GOLDEN_ANGLE: f64 = 2.399_963_23;
 
 /// The share of the open wind's speed that each row gets past the crowns in front of it. O(rows).
 ///
@@ -75,29 +67,4 @@ pub fn behind_crowns(wood: &Wood, along: DVec3) -> Vec<f64> {
         }
     }
     shares
-}
-
-/// An obstacle that a ray has met.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// How far it is, m.
-    pub distance: f64,
-    /// How high it is, m.
-    pub height: f64,
-}
-
-/// The share of the open wind's speed at a place in the lee of obstacles, which `meets` finds from a place in a unit
-/// direction.
-pub fn behind_obstacles(place: DVec3, along: DVec3, meets: impl Fn(DVec3, DVec3) -> Option<Hit>) -> f64 {
-    let across = along.cross(DVec3::Y).try_normalize().unwrap_or(DVec3::Z);
-    let upward = across.cross(along);
-    let shade = (0..RAYS).map(|ray| {
-        let tilt = CONE * ((f64::from(ray) + 0.5) / f64::from(RAYS)).sqrt();
-        let (sin, cos) = libm::sincos(tilt);
-        let (around_sin, around_cos) = libm::sincos(GOLDEN_ANGLE * f64::from(ray));
-        let way = -cos * along + sin * (around_cos * across + around_sin * upward);
-        let hit = meets(place, way).filter(|hit| hit.distance < REACH * hit.height);
-        hit.map_or(0.0, |hit| libm::exp(-hit.distance / (RECOVERY * hit.height)))
-    });
-    1.0 - TAKEN * shade.sum::<f64>() / f64::from(RAYS)
 }

@@ -6,9 +6,10 @@ use std::{fs, path::PathBuf};
 
 use espalier_motion::{
     Answers, Direction, Exposure, Joint, LIVE_PERIOD, NONE, Pluck, Pose, Row, Sway, Weather, Wind,
-    shelter::behind_crowns,
+    loads::{self, Loading},
+    shelter::{Form, Solid, Triangles, behind_crowns, shares},
 };
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3, Vec3};
 use serde_json::{Value, json};
 
 use crate::trees::{Tree, grown};
@@ -90,11 +91,98 @@ fn wind(weather: &Weather, period: f64) -> (Wind, Value) {
     (wind, written)
 }
 
-fn sample(tree: &Tree, suppleness: f64, period: f64, velocity: DVec3) -> Value {
+/// A box, a ball and a mesh with the land that it stands on, upwind of a tree: as the wind meets them, and as clients have them.
+fn obstacles(along: DVec3, metres: f64) -> (Vec<Solid>, Value) {
+    let level = DVec3::new(along.x, 0.0, along.z).normalize();
+    let aside = DVec3::new(-level.z, 0.0, level.x);
+    // Places and turns have single precision, as on the wire.
+    let place = |upwind: f64, beside: f64, height: f64| {
+        (-upwind * level + beside * aside + height * DVec3::Y).as_vec3().to_array()
+    };
+    let turn = DQuat::from_euler(glam::EulerRot::YXZ, 0.7, 0.2, -0.1).as_quat().to_array();
+    let shed: [[f32; 3]; 6] = [
+        [-4.0, 0.0, -3.0],
+        [4.0, 0.0, -3.0],
+        [0.0, 9.0, -3.5],
+        [-4.5, 0.0, 12.0],
+        [4.5, 0.0, 12.0],
+        [0.5, 11.0, 12.5],
+    ];
+    let land: [[f32; 3]; 4] =
+        [[-90.0, 0.0, -90.0], [90.0, 0.0, -90.0], [90.0, 0.0, 90.0], [-90.0, 0.0, 90.0]];
+    let corners: Vec<Vec3> = shed.into_iter().chain(land).map(Vec3::from_array).collect();
+    let triangles: [[u32; 3]; 10] = [
+        [0, 1, 2],
+        [3, 5, 4],
+        [0, 2, 5],
+        [0, 5, 3],
+        [1, 4, 5],
+        [1, 5, 2],
+        [0, 3, 4],
+        [0, 4, 1],
+        [6, 7, 8],
+        [6, 8, 9],
+    ];
+    let scale = 1.3f32;
+    let mesh = Triangles::new(triangles.iter().map(|&three| three.map(|at| scale * corners[at as usize])));
+    let mesh = Form::Mesh(std::sync::Arc::new(mesh));
+    let still = DQuat::IDENTITY.as_quat().to_array();
+    let all = [
+        (
+            Form::Box(DVec3::new(1.5, 6.0, 14.0)),
+            json!({ "kind": "box", "size": [3, 12, 28] }),
+            place(30.0, -9.0, 4.0),
+            turn,
+        ),
+        (Form::Ball(7.5), json!({ "kind": "sphere", "radius": 7.5 }), place(18.0, 9.0, 12.25), still),
+        (
+            mesh,
+            json!({ "kind": "mesh", "vertices": 10, "triangles": 10, "scale": scale }),
+            place(13.0, -1.0, 0.5),
+            turn,
+        ),
+        (Form::Ball(9.0), json!({ "kind": "sphere", "radius": 9 }), place(-25.0, 0.0, 5.0), still),
+    ];
+    let mut solids = Vec::new();
+    let mut written = Vec::new();
+    for (form, shape, position, rotation) in all {
+        let (at, turned) =
+            (Vec3::from_array(position).as_dvec3(), glam::Quat::from_array(rotation).as_dquat());
+        solids.push(Solid::new(form, at, turned, metres).expect("it stands"));
+        written.push(json!({ "shape": shape, "pose": { "position": position, "rotation": rotation } }));
+    }
+    let positions: Vec<f32> = corners.iter().flat_map(|corner| corner.to_array()).collect();
+    (solids, json!({ "standing": written, "positions": positions, "triangles": triangles.as_flattened() }))
+}
+
+/// How joints turn under what lies on them, each alone, and in the wind behind obstacles under all of it.
+fn laden(tree: &Tree, wind: &Wind, exposure: &Exposure) -> Value {
+    let Tree { rows, limbs, wood, joints, scale, .. } = tree;
+    let turns = |loading: Loading| loads::turns(rows, limbs, wood, joints, scale, &loading);
+    let some = |turns: Vec<DVec3>| turns.into_iter().step_by(JOINTS).map(vector).collect::<Vec<_>>();
+    let none = Loading::default();
+    let loading = Loading { sag: 0.4, snow: 0.12, rain: 0.7 };
+    let answers = Answers::under(joints, wind, exposure, &turns(loading));
+    json!({
+        "sag": some(turns(Loading { sag: 1.0, ..none })),
+        "snow": some(turns(Loading { snow: 1.0, ..none })),
+        "rain": some(turns(Loading { rain: 1.0, ..none })),
+        "loading": { "sag": loading.sag, "snow": loading.snow, "rain": loading.rain },
+        "means": some(answers.all().iter().map(|answer| answer.mean).collect()),
+    })
+}
+
+fn sample(tree: &Tree, suppleness: f64, period: f64, blows: [f64; 3]) -> Value {
     let Tree { limbs, wood, joints, .. } = tree;
-    let (strong, strong_written) = wind(&Weather { velocity, turbulence: 0.6, seed: 7 }, period);
+    let weather = Weather::blowing(blows, 0.6, 7);
+    let velocity = weather.velocity;
+    let (strong, strong_written) = wind(&weather, period);
+    let along = strong.axis(Direction::Along);
+    let (solids, solids_written) = obstacles(along, tree.scale.internode_length);
+    let lee = shares(wood, along, &solids);
+    let in_lee = Exposure::of(joints, wood, &lee);
     let (weak, weak_written) = wind(&Weather { velocity: -0.4 * velocity, turbulence: 0.9, seed: 8 }, period);
-    let shares = behind_crowns(wood, velocity.normalize());
+    let shares = behind_crowns(wood, along);
     let exposure = Exposure::of(joints, wood, &shares);
     let answers = Answers::of(joints, &strong, &exposure);
     let answered: Vec<Value> = answers
@@ -143,6 +231,11 @@ fn sample(tree: &Tree, suppleness: f64, period: f64, velocity: DVec3) -> Value {
         "wind": strong_written,
         "shares": every(tree.rows.len()).map(|row| json!([row, shares[row as usize]])).collect::<Vec<_>>(),
         "exposure": exposure.shares(),
+        "blows": { "speed": blows[0], "direction": blows[1], "rise": blows[2] },
+        "obstacles": solids_written,
+        "lee": every(tree.rows.len()).map(|row| json!([row, lee[row as usize]])).collect::<Vec<_>>(),
+        "inLee": in_lee.shares(),
+        "laden": laden(tree, &strong, &in_lee),
         "answers": answered,
         "change": { "at": 30.0, "wind": weak_written },
         "pluck": { "joint": pluck.joint, "at": pluck.at, "bend": vector(pluck.bend) },
@@ -172,10 +265,10 @@ fn samples() -> Value {
         "sampledRows": ROWS,
         "sampledJoints": JOINTS,
         "trees": [
-            sample(&grown("default", 350), 1.0, LIVE_PERIOD, DVec3::new(5.0, 0.0, 3.0)),
-            sample(&supple(grown("weeping-willow", 350)), 2.5, LIVE_PERIOD, DVec3::new(-11.0, 1.5, 6.0)),
-            sample(&grown("scots-pine", 350), 1.0, 8.0, DVec3::new(0.0, 0.0, 3.0)),
-            sample(&grove(&grown("oak", 150)), 1.0, LIVE_PERIOD, DVec3::new(-7.0, 0.0, 2.0)),
+            sample(&grown("default", 350), 1.0, LIVE_PERIOD, [5.8, 31.0, 0.0]),
+            sample(&supple(grown("weeping-willow", 350)), 2.5, LIVE_PERIOD, [12.5, 151.5, 1.5]),
+            sample(&grown("scots-pine", 350), 1.0, 8.0, [3.0, 90.0, 0.0]),
+            sample(&grove(&grown("oak", 150)), 1.0, LIVE_PERIOD, [7.3, 164.0, -4.0]),
         ],
     })
 }

@@ -2,7 +2,7 @@
 
 use espalier_motion::{
     Pose, Rig, Weather,
-    clips::{Clip, LOOP, blow, clips, reaches},
+    clips::{Clip, Conditions, LOOP, blow, clips, reaches},
 };
 use glam::DVec3;
 
@@ -18,7 +18,7 @@ fn rig_of(tree: &Tree, clips: &[Clip], most: usize) -> Rig {
 #[test]
 fn each_bone_stands_after_the_one_below_it_and_there_are_no_more_than_allowed() {
     for tree in unlike() {
-        let clips = clips(&tree.joints, &tree.wood, &STRONG);
+        let clips = clips(&tree.joints, &tree.wood, &Conditions::open(&tree.wood, STRONG));
         for most in [0, 1, 2, 3, 17, 64, 256, 1024] {
             let rig = rig_of(&tree, &clips, most);
             let bones = rig.bones();
@@ -41,7 +41,7 @@ fn each_bone_stands_after_the_one_below_it_and_there_are_no_more_than_allowed() 
 #[test]
 fn bones_move_as_the_rows_they_stand_on() {
     for tree in unlike() {
-        let clips = clips(&tree.joints, &tree.wood, &STRONG);
+        let clips = clips(&tree.joints, &tree.wood, &Conditions::open(&tree.wood, STRONG));
         let rig = rig_of(&tree, &clips, 256);
         for clip in &clips {
             for key in [0, 31, 77, 150] {
@@ -67,7 +67,7 @@ fn bones_move_as_the_rows_they_stand_on() {
 #[test]
 fn what_is_blended_between_bones_is_near_what_bends() {
     for tree in unlike() {
-        let clips = clips(&tree.joints, &tree.wood, &STRONG);
+        let clips = clips(&tree.joints, &tree.wood, &Conditions::open(&tree.wood, STRONG));
         let rig = rig_of(&tree, &clips, 1024);
         let [mut missed, mut moved] = [0.0f64; 2];
         for key in [10, 60, 100] {
@@ -95,7 +95,7 @@ fn what_is_blended_between_bones_is_near_what_bends() {
 #[test]
 fn a_limb_begins_where_its_bearer_carries_it() {
     let tree = grown("oak", 3000);
-    let clips = clips(&tree.joints, &tree.wood, &STRONG);
+    let clips = clips(&tree.joints, &tree.wood, &Conditions::open(&tree.wood, STRONG));
     let rig = rig_of(&tree, &clips, 256);
     for joint in (0..tree.joints.all().len() as u32).filter(|&joint| rig.shows(joint)) {
         let first = tree.joints.all()[joint as usize].first;
@@ -109,7 +109,7 @@ fn a_limb_begins_where_its_bearer_carries_it() {
 #[test]
 fn loops_close_to_the_bit_and_gusts_begin_and_end_at_rest() {
     for tree in unlike() {
-        let [sway, gust] = clips(&tree.joints, &tree.wood, &STRONG);
+        let [sway, gust] = clips(&tree.joints, &tree.wood, &Conditions::open(&tree.wood, STRONG));
         assert_eq!(sway.keys.first(), sway.keys.last());
         assert_eq!(sway.time(sway.keys.len() - 1), LOOP);
         for end in [gust.keys.first(), gust.keys.last()] {
@@ -134,7 +134,7 @@ fn loops_close_to_the_bit_and_gusts_begin_and_end_at_rest() {
 #[test]
 fn what_hardly_is_a_tree_has_its_ground() {
     for tree in [crate::trees::pole(1, [0, 256, 0], |_| 0.05), grown("oak", 60)] {
-        let clips = clips(&tree.joints, &tree.wood, &STRONG);
+        let clips = clips(&tree.joints, &tree.wood, &Conditions::open(&tree.wood, STRONG));
         let rig = rig_of(&tree, &clips, 256);
         assert!(!rig.bones().is_empty());
         let stands = rig.stand(&tree.joints, &tree.wood, &clips[1].keys[90]);
@@ -144,10 +144,13 @@ fn what_hardly_is_a_tree_has_its_ground() {
 
 /// A gust as each joint answers it alone, as bodies do together, and the bones that show both.
 fn blown(tree: &Tree, weather: &Weather) -> (Clip, Clip, Rig) {
-    let [sway, alone] = clips(&tree.joints, &tree.wood, weather);
+    let conditions = Conditions::open(&tree.wood, *weather);
+    let [sway, alone] = clips(&tree.joints, &tree.wood, &conditions);
     let rig = rig_of(tree, &[sway, alone.clone()], 256);
     let mut gust = alone.clone();
-    blow(&mut gust, std::slice::from_ref(&rig), &tree.joints, &tree.limbs, &tree.wood, weather);
+    let plants = (&tree.joints, &tree.limbs, &tree.wood);
+    let done = blow(&mut gust, std::slice::from_ref(&rig), plants, &conditions, || Ok::<(), ()>(()));
+    assert_eq!(done, Ok(()));
     (alone, gust, rig)
 }
 
@@ -191,10 +194,12 @@ fn a_gust_reaches_what_stands_behind_later() {
     let rows = espalier_motion::Rows::new(rows.collect::<Vec<_>>()).expect("parents stand below");
     let two = Tree::of("two", rows, one.scale);
     let weather = Weather { velocity: DVec3::X * 6.0, turbulence: 0.0, seed: 1 };
-    let [sway, mut gust] = clips(&two.joints, &two.wood, &weather);
+    let conditions = Conditions::open(&two.wood, weather);
+    let [sway, mut gust] = clips(&two.joints, &two.wood, &conditions);
     let reach = reaches(&[sway, gust.clone()], two.joints.all().len());
     let rigs = [0, count].map(|seed| Rig::of(&two.joints, &two.limbs, &two.wood, seed, &reach, 64));
-    blow(&mut gust, &rigs, &two.joints, &two.limbs, &two.wood, &weather);
+    let plants = (&two.joints, &two.limbs, &two.wood);
+    blow(&mut gust, &rigs, plants, &conditions, || Ok::<(), ()>(())).expect("nothing ends it");
     let trunk = |seed: u32| two.joints.all().iter().position(|joint| joint.node == seed);
     let comes = |seed: u32| {
         let trunk = trunk(seed).expect("it has one");

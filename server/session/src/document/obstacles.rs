@@ -66,6 +66,11 @@ impl Document {
         self.obstacles.standing.iter().map(Standing::to_proto).collect()
     }
 
+    /// The same as growth has them.
+    pub fn solids(&self) -> Vec<Solid> {
+        Obstacles::solids(&self.obstacles.standing)
+    }
+
     /// The meshes in the scene by the id of their obstacles.
     pub(crate) fn meshes(&self) -> BTreeMap<u32, Arc<Mesh>> {
         let mesh = |standing: &Standing| Some((standing.id, Arc::clone(standing.obstacle.mesh()?)));
