@@ -572,7 +572,7 @@ export class Viewport {
     this.screen.restored();
     this.world.restored();
     this.air?.restored();
-    this.loop.invalidate();
+    this.loop.restored();
     this.lossChanged(false);
   };
 }

@@ -68,3 +68,11 @@ it("one whose context is lost will never be done, and is not waited for", () => 
   gl.isContextLost.mockReturnValue(true);
   expect(fence.behind(100)).toBe(false);
 });
+
+it("a card that comes back is asked for nothing that the one before was to do", () => {
+  fence.set(0);
+  fence.restored();
+  expect(fence.behind(9000)).toBe(false);
+  expect(gl.getSyncParameter).not.toHaveBeenCalled();
+  expect(gl.deleteSync).not.toHaveBeenCalled();
+});

@@ -27,6 +27,12 @@ export class FrameFence {
     this.slow = false;
   }
 
+  /** The card has come back, and knows nothing of what it was asked for before. */
+  restored(): void {
+    this.asked.length = 0;
+    this.slow = false;
+  }
+
   /** Whether another frame would have to wait for one of those, and nobody knows for how long. */
   behind(now: number): boolean {
     const { gl, asked } = this;

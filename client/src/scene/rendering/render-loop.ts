@@ -59,6 +59,12 @@ export class RenderLoop {
     this.invalidate();
   }
 
+  /** The card has come back, without the frames that it was asked for. */
+  restored(): void {
+    this.fence.restored();
+    this.invalidate();
+  }
+
   /** Has one drawn that is part of a movement. */
   stir(): void {
     this.control.moved(performance.now());
