@@ -7,6 +7,7 @@ export default defineConfig({
     include: ["src/**/*.test.ts"],
     environment: "node",
     globalSetup: "src/shared.ts",
+    setupFiles: "src/every-test.ts",
     isolate: false,
     maxWorkers: 2,
     testTimeout: 240_000,

@@ -2,6 +2,7 @@ import { type Browser, chromium } from "playwright-core";
 import { inject } from "vitest";
 import type { TestProject } from "vitest/node";
 import { serveBrowser } from "./browser";
+import { watchDrawing } from "./drawing-faults";
 import { Server, ServerAt, until } from "./server";
 
 declare module "vitest" {
@@ -40,9 +41,9 @@ async function drawSpecies({ address }: Server): Promise<void> {
   }
 }
 
-/** The browser; closing it closes the pages that were opened here. */
-export function theBrowser(): Promise<Browser> {
-  return chromium.connect(inject("browser"));
+/** The browser; closing it closes the pages that were opened here. A fault in what they draw has the test fail. */
+export async function theBrowser(): Promise<Browser> {
+  return watchDrawing(await chromium.connect(inject("browser")));
 }
 
 export function theServer(): ServerAt {
