@@ -30,9 +30,10 @@ export function CommentPins({ studio }: { studio: Studio }) {
       void conversation.refresh();
     }
   }, [conversation, stale]);
-  const { open } = studio.comments;
+  // A thread is open as long as one sees it.
+  const open = studio.layout.panel.value === "comments" ? studio.comments.open.value : null;
   const all = [...(conversation.threads.value?.values() ?? [])].filter(
-    ({ at, resolved, thread }) => at !== undefined && (resolved === undefined || open.value === thread),
+    ({ at, resolved, thread }) => at !== undefined && (resolved === undefined || open === thread),
   );
   useAnimationFrames(all.length > 0, () => {
     const project = studio.stage.projector();
@@ -79,7 +80,7 @@ export function CommentPins({ studio }: { studio: Studio }) {
                 number: thread.thread,
                 text: (thread.comments[0]?.text ?? "").slice(0, 60),
               })}
-              aria-pressed={open.value === thread.thread}
+              aria-pressed={open === thread.thread}
               onClick={() => conversation.show(thread)}
             >
               <span>{thread.thread}</span>
