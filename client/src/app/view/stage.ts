@@ -11,6 +11,7 @@ import type { Viewport } from "../../scene/viewport";
 import type { Appearance } from "../../wire/generated";
 import type { Settings } from "../page/settings";
 import { MAX_RADIUS } from "../tools/brush/brush-radius";
+import { coveredHead } from "./covered-head";
 import { GrowthFollower } from "./growth-follower";
 import { Holds } from "./holds";
 import { nearestBase, scaleAt } from "./places";
@@ -174,7 +175,7 @@ export class Stage {
   }
 
   fitTree(): void {
-    this.#view?.camera.fitTree();
+    this.#view?.camera.fitTree(0, coveredHead());
   }
 
   look(view: View): void {

@@ -157,6 +157,26 @@ describe("the camera", () => {
     expect(target[1] + half).toBeGreaterThan(tree.max[1]);
   });
 
+  it("shows a tree that is high below what covers the head of the picture, and a broad one as before", () => {
+    const half = Math.tan(FIELD_OF_VIEW / 2);
+    const high = { min: [-4, 0, -4], max: [4, 60, 4] } as const;
+    for (const head of [0.05, 0.1, 0.2]) {
+      const [rig, free] = [new CameraRig(), new CameraRig()];
+      rig.fit(high, 1.4, 0, head);
+      free.fit(high, 1.4);
+      for (const one of [rig, free]) settle(one);
+      const below = ({ view: { target, distance } }: CameraRig) => target[1] / (half * distance);
+      expect((60 - rig.view.target[1]) / (half * rig.view.distance)).toBeLessThanOrEqual(1 - 2 * head + 1e-3);
+      expect(below(rig), "its foot stays where it is").toBeCloseTo(below(free), 3);
+    }
+    const broad = { min: [-60, 0, -60], max: [60, 40, 60] } as const;
+    const [rig, free] = [new CameraRig(), new CameraRig()];
+    rig.fit(broad, 1.4, 0, 0.1);
+    free.fit(broad, 1.4);
+    for (const one of [rig, free]) settle(one);
+    expect(rig.view).toEqual(free.view);
+  });
+
   it("fits a wide tree into a tall picture", () => {
     const wide = { min: [-40, 0, 0], max: [40, 10, 0] } as const;
     const view = fitted(wide, 0.7, 0);

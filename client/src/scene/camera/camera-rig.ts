@@ -96,8 +96,11 @@ export class CameraRig {
     this.limit();
   }
 
-  /** Eases to a view of the whole box; `covered` is the share of the picture at its foot that something lies over. */
-  fit(box: Box, aspect: number, covered = 0): void {
+  /**
+   * Eases to a view of the whole box; `covered` and `head` are the shares of the picture at its foot and at its upper edge
+   * that something lies over.
+   */
+  fit(box: Box, aspect: number, covered = 0, head = 0): void {
     this.moves += 1;
     this.narrow = null;
     this.before = structuredClone(this.goal);
@@ -106,6 +109,7 @@ export class CameraRig {
     const view = fitted(box, aspect, this.goal.yaw);
     view.distance /= 1 - covered;
     view.target[1] -= covered * view.distance * Math.tan(FIELD_OF_VIEW / 2);
+    lower(view, box, head);
     Object.assign(this.goal, view);
     this.easing = true;
     this.limit();
@@ -247,6 +251,18 @@ export function fitted(box: Box, aspect: number, yaw: number): CameraView {
     pitch: FIRST_PITCH,
     distance,
   };
+}
+
+/** Takes a view that shows a box as far back as it takes for nothing of it to reach into a share of the picture at its head. */
+function lower(view: CameraView, box: Box, head: number): void {
+  const half = Math.tan(FIELD_OF_VIEW / 2);
+  const most = 1 - 2 * head;
+  if (box.max[1] - view.target[1] <= most * half * view.distance) return;
+  // Its foot stays where it is in the picture.
+  const foot = Math.min(0, box.min[1]);
+  const below = (view.target[1] - foot) / (half * view.distance);
+  view.distance = (box.max[1] - foot) / ((most + below) * half);
+  view.target[1] = foot + below * half * view.distance;
 }
 
 /** The box around two boxes. */

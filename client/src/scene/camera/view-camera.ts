@@ -45,14 +45,14 @@ export class ViewCamera {
     this.options.stirred();
   }
 
-  /** Eases to a view of the whole tree and the ghost beside it; something may cover a share of the foot. */
-  fitTree(covered = 0): void {
-    this.fitBox(this.options.shown(), covered);
+  /** Eases to a view of the whole tree and the ghost beside it; something may cover a share of the foot, and of the head. */
+  fitTree(covered = 0, head = 0): void {
+    this.fitBox(this.options.shown(), covered, head);
   }
 
   /** Eases to a view of what will be there. */
-  fitBox(box: Box, covered = 0): void {
-    this.rig.fit(box, this.aspect, covered);
+  fitBox(box: Box, covered = 0, head = 0): void {
+    this.rig.fit(box, this.aspect, covered, head);
     this.options.stirred();
   }
 
