@@ -14,6 +14,8 @@ export const MOBILE: Slowness = { delay: 75, bytesPerSecond: 125_000 };
 export class SlowLink {
   #server: NetServer;
   #sockets = new Set<Socket>();
+  /** Those of a network that the device is in no longer. */
+  #left = new Set<Socket>();
   #slowness: Slowness | null = null;
   #isCut = false;
   #isStalled = false;
@@ -71,10 +73,22 @@ export class SlowLink {
     for (const socket of this.#sockets) socket.resume();
   }
 
+  /**
+   * As when a device comes into another network: neither end hears any more of what was connected, not even that it has
+   * ended, and what connects anew goes through.
+   */
+  move(): void {
+    this.stall();
+    for (const socket of this.#sockets) this.#left.add(socket);
+    this.#sockets.clear();
+    this.#isStalled = false;
+  }
+
   /** Nothing goes through, as without a network, until it is mended. */
   cut(): void {
     this.#isCut = true;
-    for (const socket of this.#sockets) socket.destroy();
+    for (const socket of [...this.#sockets, ...this.#left]) socket.destroy();
+    this.#left.clear();
   }
 
   mend(): void {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { changesOf, companions, isFollowed } from "./people";
+import { changesOf, companions, countHere, isFollowed } from "./people";
 import type { PeopleHere } from "./together";
 
 const HERE: PeopleHere = {
@@ -27,6 +27,14 @@ describe("people", () => {
       [4, "Ann"],
     ]);
     expect(companions(null)).toEqual([]);
+  });
+
+  it("PS3: who has two pages counts once, who does not answer not at all, and pages where nobody knows more", () => {
+    const asleep = { ...HERE.people[1]!, devices: [{ device: 2, state: "gone" as const }] };
+    expect(countHere(HERE, 3)).toBe(2);
+    expect(countHere({ ...HERE, people: [HERE.people[0]!, asleep] }, 3)).toBe(1);
+    expect(countHere({ ...HERE, more: 5 }, 8)).toBe(8);
+    expect(countHere(null, 3)).toBe(3);
   });
 
   it("PS4: a page knows that it is followed", () => {

@@ -40,6 +40,8 @@ export const TOGETHER = {
   "together.handed-over": ["{name} owns this tree now", "{name} besitzt diesen Baum jetzt"],
   "together.heir": ["This tree was handed over to {name}.", "Dieser Baum ist {name} übergeben."],
   "together.take-back": ["Take that back", "Zurücknehmen"],
+  "together.devices": ["{count} devices", "{count} Geräte"],
+  "together.device.this": ["This device", "Dieses Gerät"],
   "together.device": ["Device {number}", "Gerät {number}"],
   "together.more": ["And {count} more devices", "Und {count} weitere Geräte"],
   "together.follow": ["Follow", "Folgen"],

@@ -81,10 +81,17 @@ function PersonRow({ studio, person, you, close, onHandedOver }: PersonRowProps)
       <i class="person-dot" />
       <div>
         <strong>{isYou ? say("together.you", { name }) : name}</strong>
-        <span class="quiet">{say(`together.role.${person.role}`)}</span>
-        {person.devices.map((device) => (
+        <span class="quiet">
+          {say(`together.role.${person.role}`)}
+          {person.devices.length > 1 && ` · ${say("together.devices", { count: person.devices.length })}`}
+        </span>
+        {person.devices.map((device, i) => (
           <p class="person-device" key={device.device} data-state={device.state}>
-            {person.devices.length > 1 && <span>{say("together.device", { number: device.device })}</span>}
+            {person.devices.length > 1 && (
+              <span>
+                {device.device === you ? say("together.device.this") : say("together.device", { number: i + 1 })}
+              </span>
+            )}
             <span class="quiet">{doing(studio, device)}</span>
             {device.device !== you && (
               <button
