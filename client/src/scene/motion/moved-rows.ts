@@ -27,6 +27,8 @@ import { angleAt, type Wind } from "./wind";
 
 const TEXEL = 4;
 const LINE = CHUNK_ROWS * ROW_NUMBERS;
+/** More lines than these are uploaded sooner with all others at once. */
+const MOST_PARTS = 64;
 /** Cells of the noise of leaves that go by in a second: a whole number of times around in the period of the wind. */
 export const FLUTTER_CELLS = (256 * 10) / 600;
 
@@ -172,8 +174,11 @@ export class MovedRows {
     if (!this.stale) return;
     const rides = this.uniforms.uRides!.value as DataTexture;
     const [first, end] = this.stale;
-    // Of a new texture all has to be uploaded, or the rest would be empty.
-    if (rides.version > 1) rides.addUpdateRange(first * LINE, (end - first) * LINE);
+    // Of a new texture all has to be uploaded, or the rest would be empty; a part that is uploaded lies in one line.
+    rides.clearUpdateRanges();
+    if (rides.version > 1 && end - first <= MOST_PARTS) {
+      for (let line = first; line < end; line += 1) rides.addUpdateRange(line * LINE, LINE);
+    }
     rides.needsUpdate = true;
     this.stale = null;
   }
