@@ -116,10 +116,16 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
     threads_changed: ({ threads }) => page.comments.change(threads),
     gathered: (call) => page.together.listener?.gathered(call),
     role: ({ role }) => {
+      const before = page.rights.mayChange.peek();
       page.rights.grant(role);
-      if (!page.rights.mayChange.peek()) {
+      const mayChange = page.rights.mayChange.peek();
+      if (!mayChange) {
         // What was in progress, the server has ended where it was.
         page.tools.abandon();
+      }
+      // Tools that come and go under somebody's hand are spoken of.
+      if (before !== mayChange && page.document.peek() !== null) {
+        page.toasts.show(say(mayChange ? "notices.may-draw" : "notices.may-not-draw"));
       }
     },
     notice: async ({ notice }) => {

@@ -1,21 +1,13 @@
-import { execFileSync } from "node:child_process";
 import { expect, test } from "vitest";
-import { LANDSCAPE, PHONE } from "./screens";
-import { program } from "./server";
-import { Workshop } from "./workshop";
+import { guestsLink, ownersLink } from "./invitations";
+import { LANDSCAPE, PHONE, type Screen } from "./screens";
+import { until } from "./server";
+import { press } from "./visits";
+import { way } from "./ways";
+import { seedling, Workshop } from "./workshop";
 
 // Nobody is let in merely for sitting at the machine.
 const workshop = Workshop.withItsOwnServer(["--auth"]);
-
-/** A link that lets in whoever is called so, as an owner. */
-function invitation(name: string): string {
-  const { database, address } = workshop.server;
-  const options = ["--role", "owner", "--name", name, "--database", database, "--url", address];
-  const printed = execFileSync(program, ["invite", ...options], { encoding: "utf8" });
-  const link = /http:\/\/\S+\/pair#\S+/.exec(printed)?.[0];
-  if (!link) throw new Error(`there is no link in ${printed}`);
-  return link;
-}
 
 test.each([
   ["tablet", LANDSCAPE],
@@ -23,17 +15,9 @@ test.each([
 ] as const)(
   "AC17, AC18: on a %s a guest is handed the tree, has it taken back, and is removed",
   async (name, screen) => {
-    const owner = await workshop.open(invitation("Ann"), screen);
+    const owner = await workshop.open(ownersLink(workshop.server, "Ann"), screen);
     const { page } = owner;
-    const link = await page.evaluate(async () => {
-      const session = location.pathname.slice(location.pathname.lastIndexOf("/") + 1);
-      const post = async (path: string, body: object) => {
-        const headers = { "content-type": "application/json" };
-        return await (await fetch(path, { method: "POST", headers, body: JSON.stringify(body) })).json();
-      };
-      const tree = await post("/api/v1/trees", { session, name: "Beech" });
-      return (await post(`/api/v1/trees/${tree.id}/links`, { role: "editor", name: "Bo" })).url as string;
-    });
+    const link = await guestsLink(owner, "Beech", "Bo");
     const guest = await workshop.open(link, { width: 600, height: 500, detail: 0.3 });
     await owner.press(page.locator(".people-chip"));
     const people = page.getByRole("dialog").locator(".people").first();
@@ -58,3 +42,44 @@ test.each([
     await expect.poll(() => guest.page.evaluate(async () => (await fetch("/api/v1/me")).status)).toBe(401);
   },
 );
+
+test.each<[string, Screen]>([
+  ["tablet", { ...LANDSCAPE, detail: 0.3 }],
+  ["phone", { ...PHONE, detail: 0.3 }],
+])("AC16: a tree is locked under the hand of a guest on a %s, who may then comment alone", async (name, screen) => {
+  const owner = await workshop.open(ownersLink(workshop.server, "Ann"), { ...LANDSCAPE, detail: 0.3 });
+  const guest = await workshop.open(await guestsLink(owner, "Rowan", "Bo"), screen);
+  const tools = guest.page.getByRole("button", {
+    name: /^(Brush|All tools|Lasso|Undo|Redo|Save|Architecture|Plant a seed)/,
+  });
+  expect(await tools.count()).toBeGreaterThan(1);
+  // He is drawing.
+  const seed = await seedling(guest);
+  await guest.lead([way(seed, { x: seed.x, y: seed.y - 150 })]);
+  await guest.until("it grows", ({ metamers }) => metamers > 3);
+  await press(owner, "Share");
+  await owner.press(owner.page.getByRole("button", { name: "Lock the tree" }));
+  await owner.page.getByText("Locked by Ann", { exact: false }).waitFor();
+  await guest.page.locator(".toast", { hasText: "You may no longer draw on this tree" }).waitFor();
+  await guest.page.getByText("You may comment, not draw").waitFor();
+  await guest.touch("touchEnd", []);
+  await until("no tool is left", async () => (await tools.count()) === 0);
+  const { metamers } = await guest.untilQuiet();
+  expect(metamers, "what he has drawn stays").toBeGreaterThan(3);
+  await guest.show(`people-locked-${name}`);
+  // One finger turns the tree now, and draws nothing.
+  await guest.swipe([way({ x: seed.x, y: seed.y - 200 }, { x: seed.x + 80, y: seed.y - 200 })]);
+  expect(await guest.untilQuiet()).toMatchObject({ metamers });
+  await press(guest, "Comments");
+  await guest.press(guest.page.getByRole("button", { name: "Comment on the whole tree" }));
+  await guest.page.getByLabel("What you want to say").fill("I was not done yet.");
+  await guest.press(guest.page.getByRole("button", { name: "Send" }));
+  await guest.page.locator(".comment-text", { hasText: "I was not done yet." }).waitFor();
+  await owner.press(owner.page.getByRole("button", { name: "Unlock the tree" }));
+  await guest.page.locator(".toast", { hasText: "You may draw on this tree now" }).waitFor();
+  await until("the tools are back", async () => (await tools.count()) > 1);
+  await guest.press(guest.page.getByRole("button", { name: "Close Comments" }));
+  const { sent } = await guest.facts();
+  await guest.swipe([way({ x: seed.x, y: seed.y - 100 }, { x: seed.x + 80, y: seed.y - 180 })]);
+  await guest.until("he draws on", (facts) => facts.sent > sent && facts.sent === facts.acknowledged);
+});

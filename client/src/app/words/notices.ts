@@ -31,6 +31,12 @@ export const NOTICES = {
     "Was Rinde und Blätter malt, ließ sich nicht laden; bis die Seite neu geladen wird, bleiben sie schlicht.",
   ],
   "notices.looking-only": ["You may look, not draw", "Du darfst ansehen, nicht zeichnen"],
+  "notices.comment-only": ["You may comment, not draw", "Du darfst kommentieren, nicht zeichnen"],
+  "notices.may-draw": ["You may draw on this tree now", "Du darfst an diesem Baum jetzt zeichnen"],
+  "notices.may-not-draw": [
+    "You may no longer draw on this tree: its owner has changed that",
+    "Du darfst an diesem Baum nicht mehr zeichnen: Das hat geändert, wem er gehört",
+  ],
   "notices.version": ["This page is of another version", "Diese Seite hat eine andere Version"],
   "notices.version.text": [
     "The server and this page do not speak the same version, and loading it again did not help. Wait a minute, then reload.",

@@ -1,6 +1,7 @@
 import { useMemo } from "preact/hooks";
 import { measuresOf } from "../../../scene/table/measures";
 import type { Studio } from "../../studio";
+import { countHere } from "../../together/people";
 import { countText, metresText, yearsText } from "../../words/measure-text";
 import { say } from "../../words/say";
 import { PeopleIcon } from "../icons";
@@ -10,7 +11,7 @@ export function Status({ studio }: { studio: Studio }) {
   const document = studio.document.value;
   const phase = studio.link.phase.value;
   const attempts = studio.link.attempts.value;
-  const people = document?.people ?? 1;
+  const people = countHere(studio.together.people.value, document?.people ?? 1);
   const full = document?.budget_reached === true;
   const away = phase !== "connected" && studio.hindrance.value === null && studio.link.session.value !== null;
   const loading = studio.link.loading.value;
@@ -33,7 +34,7 @@ export function Status({ studio }: { studio: Studio }) {
         </p>
       )}
       {!studio.rights.mayChange.value && studio.link.session.value !== null && !studio.link.replaying.value && (
-        <p class="note">{say("notices.looking-only")}</p>
+        <p class="note">{say(studio.rights.mayComment ? "notices.comment-only" : "notices.looking-only")}</p>
       )}
       {full && <p class="note full">{say("notices.full")}</p>}
       {document && (
