@@ -1,4 +1,9 @@
+import { writeFile } from "node:fs/promises";
+import { join } from "node:path";
 import { expect, test } from "vitest";
+import { screenshots } from "./browser";
+import { misses } from "./hits";
+import { print } from "./paper";
 import { LANDSCAPE, PHONE, type Screen } from "./screens";
 import { until } from "./server";
 import type { Tablet } from "./tablet";
@@ -12,6 +17,8 @@ const workshop = Workshop.withItsOwnServer();
 const SEEN: Screen = { width: 1180, height: 760, detail: 0.2, watched: true };
 
 const UPRIGHT: Screen = { width: 834, height: 1194, detail: 0.5 };
+/** A phone on its side. */
+const LOW: Screen = { width: 740, height: 360, detail: 0.5 };
 
 /** Saves the tree on a page, so that comments have a tree to belong to. */
 async function save(tablet: Tablet, name: string): Promise<string> {
@@ -140,21 +147,96 @@ test("CT6: the summary opens as a page of its own, and asks for nothing", async 
   await page.close();
 });
 
+/** Many threads: with pictures of every shape, with words and names longer than a line, and with more words than a page holds. */
+async function muchToSay(tablet: Tablet, tree: string): Promise<void> {
+  await tablet.page.evaluate(async (tree) => {
+    const picture = (width: number, height: number) => {
+      const canvas = Object.assign(document.createElement("canvas"), { width, height });
+      const context = canvas.getContext("2d")!;
+      for (let x = 0; x < width; x += 20) {
+        context.fillStyle = `hsl(${x % 360} 60% 60%)`;
+        context.fillRect(x, 0, 20, height);
+      }
+      return canvas.toDataURL("image/jpeg", 0.6);
+    };
+    const post = async (path: string, body: object) => {
+      const headers = { "content-type": "application/json" };
+      // One comment a second is taken from one person.
+      for (;;) {
+        const answer = await fetch(path, { method: "POST", headers, body: JSON.stringify(body) });
+        if (answer.ok) return answer.json();
+        if (answer.status !== 429) throw new Error(await answer.text());
+        await new Promise((wait) => setTimeout(wait, 300));
+      }
+    };
+    const author = "Annabelle-Charlotte von und zu Waldhausen";
+    const threads = `/api/v1/trees/${tree}/threads`;
+    const sizes = [
+      [1194, 834],
+      [834, 1194],
+      [390, 844],
+      [1600, 200],
+      [200, 1600],
+    ] as const;
+    for (const [width, height] of sizes) {
+      const text = `A picture of ${width} by ${height}.`;
+      const { thread } = await post(threads, { comment: { text, author, picture: picture(width, height) } });
+      await post(`${threads}/${thread}/comments`, {
+        comment: { text: "Das wäre dann der dritte Ast von links.", author: "Bo" },
+      });
+    }
+    await post(threads, { comment: { text: "Lignum".repeat(120), author: "W".repeat(80) } });
+    const long = Array.from({ length: 640 }, (_, i) => `word${i}`)
+      .join(" ")
+      .slice(0, 4000);
+    await post(threads, { comment: { text: long, author } });
+  }, tree);
+}
+
+test("CT6: the summary is printed whole, whatever is said and shown", async () => {
+  const { tablet } = await workshop.stem({ ...SEEN, watched: false });
+  const tree = await save(tablet, "Robiniapseudoacacia".repeat(4));
+  await muchToSay(tablet, tree);
+  const page = await tablet.page.context().newPage();
+  await page.goto(`${new URL(tablet.page.url()).origin}/api/v1/trees/${tree}/review.html`);
+  const { pdf, pages, faults } = await print(page);
+  if (process.env.ALBUM === "1") await writeFile(join(screenshots, "summary.pdf"), pdf);
+  expect(faults).toEqual([]);
+  expect(pages.flatMap(({ pictures }) => pictures).length).toBeGreaterThanOrEqual(5);
+  await page.close();
+});
+
 test.each<[string, Screen]>([
   ["tablet", LANDSCAPE],
   ["upright", UPRIGHT],
   ["phone", PHONE],
+  ["low", LOW],
 ])("CT1: a %s has room for comments, and says first where they belong", async (name, screen) => {
   const { tablet } = await workshop.fresh(screen);
   await openComments(tablet);
   await tablet.page.getByText("Comments belong to a saved tree", { exact: false }).waitFor();
+  const faults: string[] = [];
+  const look = async (where: string, within = ".drawer") =>
+    void faults.push(...(await misses(tablet, `${name}, ${where}`, within)));
+  await look("what is to be saved first");
   await tablet.show(`comments-unsaved-${name}`);
   await save(tablet, `Ash on a ${name}`);
   await tablet.press(tablet.page.getByRole("button", { name: "Close", exact: false }).first());
   await openComments(tablet);
+  await tablet.press(tablet.page.getByRole("button", { name: "Comment on a place" }));
+  await look("a place to be touched", ".comment-glass");
+  await tablet.press(tablet.page.locator(".comment-glass").getByRole("button", { name: "Cancel" }));
   await tablet.press(tablet.page.getByRole("button", { name: "Comment on the whole tree" }));
   await tablet.page.getByLabel("What you want to say").fill("A fine seed, and nothing else yet.");
+  await look("a comment to be written");
   await tablet.press(tablet.page.getByRole("button", { name: "Send" }));
   await tablet.page.locator(".comment-text", { hasText: "A fine seed" }).waitFor();
+  await look("a thread");
   await tablet.show(`comments-${name}`);
+  await tablet.press(tablet.page.getByRole("button", { name: "Delete" }));
+  await look("a comment to be deleted");
+  await tablet.press(tablet.page.getByRole("button", { name: "All comments" }));
+  await tablet.page.locator(".comment-threads > li").waitFor();
+  await look("the list");
+  expect(faults).toEqual([]);
 });
