@@ -85,10 +85,14 @@ test("CM1: a stroke that is drawn without a network is shown until it has grown"
   await tablet.until("it is without a network", ({ connection }) => connection !== "connected");
   await tablet.swipe([way(seed, { x: seed.x, y: seed.y - 300 })]);
   await until("its ghost waits", async () => (await ghosts(tablet)) === 1);
-  const { metamers } = await tablet.facts();
+  // What nobody has acknowledged is spoken of.
+  await tablet.page.getByText("your strokes are kept").waitFor();
+  const { metamers, sent, acknowledged } = await tablet.facts();
+  expect(sent).toBeGreaterThan(acknowledged);
   link.mend();
   await tablet.until("it has grown", (facts) => facts.connection === "connected" && facts.metamers > metamers + 5);
   await until("no ghost is left", async () => (await ghosts(tablet)) === 0);
+  expect(await tablet.untilQuiet()).toMatchObject({ sent, acknowledged: sent, operations: "stroke" });
 });
 
 test("SG2: what is drawn where nothing can grow leaves no ghost", async () => {
@@ -99,9 +103,11 @@ test("SG2: what is drawn where nothing can grow leaves no ghost", async () => {
   for (let pinch = 0; pinch < 3; pinch++) {
     await tablet.swipe([way({ x: 350, y: 420 }, { x: 510, y: 420 }), way({ x: 850, y: 420 }, { x: 690, y: 420 })]);
   }
+  // It goes by itself.
+  const vain = await tablet.watchFor('.vain[data-reason="out_of_reach"]');
   await tablet.swipe([way({ x: seed.x + 330, y: 200 }, { x: seed.x + 380, y: 140 })]);
+  await vain();
   await tablet.showNow("ghost-in-vain");
-  await tablet.page.locator('.vain[data-reason="out_of_reach"]').waitFor({ state: "attached" });
   await until("no ghost is left", async () => (await ghosts(tablet)) === 0);
 });
 
