@@ -193,6 +193,7 @@ test("PS3: who closes the page is there no longer, and who looks elsewhere is aw
 test.each([
   ["tablet", LANDSCAPE],
   ["phone", PHONE],
+  ["phone on its side", { width: 740, height: 360, detail: 0.6 }],
 ] as const)("others are seen on a %s in both themes, and all that is theirs can be pressed", async (name, screen) => {
   const { tablet, other } = await two(screen, { ...LANDSCAPE, mouse: true });
   await tablet.page.evaluate(() => localStorage.setItem("espalier.author", '"Ann"'));
@@ -208,6 +209,13 @@ test.each([
     await tablet.showNow(`76-people-${name}-${theme}`);
     faults.push(...(await misses(tablet, `${name}, ${theme}, people`, "dialog")));
     await tablet.page.keyboard.press("Escape");
+    await tablet.page.getByRole("dialog").waitFor({ state: "detached" });
+  }
+  const more = tablet.page.getByRole("button", { name: "More", exact: true });
+  if ((await more.count()) > 0) {
+    await tablet.press(more);
+    await tablet.showNow(`77-menu-${name}`);
+    faults.push(...(await misses(tablet, `${name}, menu`, ".menu")));
   }
   expect(faults).toEqual([]);
 });
