@@ -162,14 +162,15 @@ pub async fn summary(
 
 const STYLE: &str = "\
 :root { color-scheme: light; }
-body { font: 11pt/1.45 system-ui, sans-serif; color: #222; background: #fff; max-width: 46rem; margin: 2rem auto; padding: 0 1rem; }
+body { font: 11pt/1.45 system-ui, sans-serif; color: #222; background: #fff; max-width: 46rem; margin: 2rem auto; padding: 0 1rem; overflow-wrap: anywhere; }
 h1 { font-size: 1.6em; margin: 0; }
 h2 { font-size: 1.05em; margin: 0 0 .4em; }
 .when, .place { color: #666; font-size: .85em; margin: 0; }
-section { border-top: 1px solid #ccc; padding: 1em 0; break-inside: avoid-page; }
+section { border-top: 1px solid #ccc; padding: 1em 0; }
+h2, .place { break-after: avoid; }
 section.done { color: #777; }
 article { margin: .6em 0 .6em 0; break-inside: avoid; }
-article p.said { white-space: pre-wrap; overflow-wrap: anywhere; margin: .2em 0; }
+article p.said { white-space: pre-wrap; margin: .2em 0; }
 img { max-width: 100%; border-radius: 6px; display: block; margin: .4em 0; }
 img.tree { max-height: 9cm; }
 img.view { max-height: 8cm; }

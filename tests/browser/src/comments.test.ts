@@ -129,7 +129,7 @@ test("CT1, CT2: two pages talk about a place that rides with its branch, goes wi
 });
 
 test("CT6: the summary opens as a page of its own, and asks for nothing", async () => {
-  const { tablet } = await workshop.stem(SEEN);
+  const { tablet } = await workshop.stem({ ...SEEN, watched: false });
   const tree = await save(tablet, "<Elm>");
   await tablet.page.evaluate(async (tree) => {
     const headers = { "content-type": "application/json" };
@@ -181,9 +181,7 @@ async function muchToSay(tablet: Tablet, tree: string): Promise<void> {
     for (const [width, height] of sizes) {
       const text = `A picture of ${width} by ${height}.`;
       const { thread } = await post(threads, { comment: { text, author, picture: picture(width, height) } });
-      await post(`${threads}/${thread}/comments`, {
-        comment: { text: "Das wäre dann der dritte Ast von links.", author: "Bo" },
-      });
+      await post(`${threads}/${thread}/comments`, { text: "Das wäre dann der dritte Ast von links.", author: "Bo" });
     }
     await post(threads, { comment: { text: "Lignum".repeat(120), author: "W".repeat(80) } });
     const long = Array.from({ length: 640 }, (_, i) => `word${i}`)
