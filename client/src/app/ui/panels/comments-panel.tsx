@@ -163,7 +163,7 @@ function ThreadList({ studio, conversation, threads }: ThreadListProps) {
         ))}
       </ul>
       {tree !== null && threads.length > 0 && (
-        <a href={reviewAddress(tree, language.value)} target="_blank" rel="noreferrer">
+        <a class="comment-summary" href={reviewAddress(tree, language.value)} target="_blank" rel="noreferrer">
           {say("comments.review")}
         </a>
       )}
