@@ -1,141 +1,301 @@
-import { execFileSync } from "node:child_process";
+import { writeFile } from "node:fs/promises";
+import { join } from "node:path";
 import { expect, test } from "vitest";
 import { perform } from "../gallery/performance";
-import { LANDSCAPE, type Screen } from "./screens";
-import { program, until } from "./server";
+import { screenshots } from "./browser";
+import { guestsLink, ownersLink } from "./invitations";
+import { print } from "./paper";
+import { LANDSCAPE, PHONE, type Screen } from "./screens";
+import { until } from "./server";
 import { KEEPING, sideBySide } from "./side-by-side";
 import type { Tablet } from "./tablet";
 import { press } from "./visits";
-import { type Point, way } from "./ways";
+import { middle, type Point, way } from "./ways";
 import { seedling, Workshop } from "./workshop";
 
 // People log in: on a server of one's own whoever sits at it would be the same person on both pages.
 const workshop = Workshop.withItsOwnServer(["--auth"]);
 
-/** Drawn all the time, so that pins are where the wood is. */
-function seen(screen: Screen): Screen {
-  return { ...screen, detail: 0.6, watched: true };
-}
+const UPRIGHT: Screen = { ...LANDSCAPE, width: 834, height: 1194 };
+/** As far as a finger turns the tree, in pixels. */
+const TURN = 90;
 
-/** A link that lets in Ann, who owns the server. */
-function invitation(): string {
-  const { database, address } = workshop.server;
-  const options = ["--role", "owner", "--name", "Ann", "--database", database, "--url", address];
-  const printed = execFileSync(program, ["invite", ...options], { encoding: "utf8" });
-  const link = /http:\/\/\S+\/pair#\S+/.exec(printed)?.[0];
-  if (!link) throw new Error(`there is no link in ${printed}`);
-  return link;
+/** Drawn all the time, so that pins are where the wood is; as people see it where pictures are kept. */
+function seen(screen: Screen): Screen {
+  return { ...screen, detail: KEEPING ? 0.6 : 0.2, watched: true };
 }
 
 /** Ann's page with a tree on it, places about its stem, and a link for Bo. */
 async function anns(screen: Screen) {
-  const ann = await workshop.open(invitation(), seen(screen));
-  await ann.page.getByLabel("Brush radius", { exact: true }).focus();
-  await ann.page.keyboard.press("Home");
+  const ann = await workshop.open(ownersLink(workshop.server, "Ann"), seen(screen));
+  await slender(ann);
   const seed = await seedling(ann);
-  const scale = Math.min(1, seed.x / 320);
-  const at = (right: number, up: number): Point => ({ x: seed.x + scale * right, y: seed.y - scale * up });
+  const at = (right: number, up: number): Point => ({ x: seed.x + right, y: seed.y - up });
   await ann.swipe([way(at(0, 0), at(0, 300))]);
   await ann.untilQuiet();
-  const session = ann.page.url().slice(ann.page.url().lastIndexOf("/") + 1);
-  await perform(ann.page, session, ['{"kind":"grow","steps":8}']);
-  const link = await ann.page.evaluate(async (session) => {
-    const post = async (path: string, body: object) => {
-      const headers = { "content-type": "application/json" };
-      return await (await fetch(path, { method: "POST", headers, body: JSON.stringify(body) })).json();
-    };
-    const tree = await post("/api/v1/trees", { session, name: "Oak by the gate" });
-    return (await post(`/api/v1/trees/${tree.id}/links`, { role: "editor", name: "Bo" })).url as string;
-  }, session);
+  await perform(ann.page, sessionOf(ann), ['{"kind":"grow","steps":5}']);
+  const link = await guestsLink(ann, "Oak by the gate", "Bo");
+  await ann.untilQuiet();
   return { ann, link, at };
 }
 
-/** Where the pin of the first thread is on a page, once it rests there. */
-async function pinOn(tablet: Tablet): Promise<Point> {
-  await tablet.page.locator('.comment-pin[data-shown="true"][data-thread="1"]').waitFor({ state: "attached" });
-  await tablet.untilStill();
-  return tablet.page.evaluate(() => {
-    const button = document.querySelector<HTMLElement>('.comment-pin[data-thread="1"] button');
-    const place = /^(-?[\d.]+)px (-?[\d.]+)px$/.exec(button?.style.translate ?? "");
-    return { x: Number(place?.[1]), y: Number(place?.[2]) };
-  });
+function sessionOf({ page }: Tablet): string {
+  return new URL(page.url()).pathname.split("/").at(-1)!;
 }
 
-// The walk of docs/review.md, which takes minutes where the processor draws: it is walked when its pictures are taken.
-test.runIf(KEEPING).each<[string, Screen, Screen]>([["tablets", LANDSCAPE, LANDSCAPE]])(
+/** Takes the thinnest brush there is. */
+async function slender(tablet: Tablet): Promise<void> {
+  const slider = tablet.page.getByRole("slider", { name: "Brush radius" });
+  const { x, y, width, height } = await tablet.boxOf(slider);
+  await tablet.swipe([way({ x: x + width / 2, y: y + height / 2 }, { x: x + width / 2, y: y + height + 30 })]);
+  await until("it is thin", async () => (await slider.getAttribute("aria-valuenow")) === "0");
+}
+
+/** How far the tree is turned on a page, in degrees. */
+async function turned({ page }: Tablet): Promise<number> {
+  return Number(await page.getByRole("slider", { name: "Turn the tree" }).getAttribute("aria-valuenow"));
+}
+
+/** One finger turns the tree by the strip at the foot. */
+async function turn(tablet: Tablet, pixels: number): Promise<number> {
+  const before = await turned(tablet);
+  const { x, y } = middle(await tablet.boxOf(tablet.page.getByRole("slider", { name: "Turn the tree" })));
+  await tablet.swipe([way({ x, y }, { x: x + pixels, y })]);
+  await until("it has turned", async () => Math.abs((await turned(tablet)) - before) > 5);
+  await tablet.untilStill();
+  return turned(tablet);
+}
+
+/** Opens who is here, and presses one of the buttons there. */
+async function amongPeople(tablet: Tablet, button: string): Promise<void> {
+  await tablet.press(tablet.page.locator(".people-chip"));
+  await tablet.press(tablet.page.getByRole("dialog").getByRole("button", { name: button }));
+  await tablet.page.getByRole("dialog").waitFor({ state: "detached" });
+}
+
+/** Where the pin of the first thread is on a page, once it rests there. */
+async function pinOn(tablet: Tablet): Promise<void> {
+  await tablet.page.locator('.comment-pin[data-shown="true"][data-thread="1"]').waitFor({ state: "attached" });
+  await tablet.untilStill();
+}
+
+/** Where the metamers of the tree are, as the server has it. */
+async function wood(tablet: Tablet): Promise<Set<string>> {
+  return new Set(
+    await tablet.page.evaluate(async (session) => {
+      const { metamers } = await (await fetch(`/api/v1/sessions/${session}/tree.json`)).json();
+      return (metamers as { position: number[] }[]).map(({ position }) => position.map((at) => at.toFixed(3)).join());
+    }, sessionOf(tablet)),
+  );
+}
+
+/** Draws a limb from the trunk, seen in the middle of the picture, so far to the side as a share of it; gives what wood has come. */
+async function limb(tablet: Tablet, up: number, across: number): Promise<Set<string>> {
+  const before = await wood(tablet);
+  const { metamers } = await tablet.facts();
+  const { x, y, width, height } = await tablet.boxOf(tablet.page.locator("#workspace"));
+  const foot = { x: x + width / 2, y: y + height * (1 - up) };
+  // On narrow glass it would be nothing but a twig.
+  const reach = Math.sign(across) * Math.max(Math.abs(across) * width, 120);
+  await tablet.swipe([way(foot, { x: foot.x + reach, y: foot.y - 0.7 * Math.abs(reach) })]);
+  await tablet.until("it grows", (facts) => facts.metamers > metamers + 3);
+  await tablet.untilQuiet();
+  return without(await wood(tablet), before);
+}
+
+function without(all: ReadonlySet<string>, some: ReadonlySet<string>): Set<string> {
+  return new Set([...all].filter((one) => !some.has(one)));
+}
+
+function stands(all: ReadonlySet<string>, some: ReadonlySet<string>): string {
+  const count = [...some].filter((one) => all.has(one)).length;
+  return count === some.size ? "all of it" : count === 0 ? "none of it" : `${count} of ${some.size}`;
+}
+
+/** Says something of the trunk, for Bo. */
+async function askBo(ann: Tablet): Promise<void> {
+  await press(ann, "Comments");
+  await ann.press(ann.page.getByRole("button", { name: "Comment on a place" }));
+  await ann.page.locator(".comment-glass[data-placing]").waitFor();
+  await ann.untilStill();
+  // The panel has moved the tree aside; its trunk stays in the middle of the picture.
+  const { x, y, width, height } = await ann.boxOf(ann.page.locator("#workspace"));
+  let up = 0.2;
+  await until("the place is on wood", async () => {
+    if ((await ann.page.locator(".comment-compose").count()) > 0) return true;
+    up = up > 0.5 ? 0.2 : up + 0.04;
+    await ann.tapAt({ x: x + width / 2, y: y + height * (1 - up) });
+    return false;
+  });
+  const words = ann.page.getByLabel("What you want to say");
+  await words.fill("Could this limb come lower? ");
+  await words.pressSequentially("@");
+  await ann.press(ann.page.getByRole("button", { name: "@Bo", exact: true }));
+  await expect.poll(() => words.inputValue()).toBe("Could this limb come lower? @Bo ");
+  await ann.press(ann.page.getByRole("button", { name: "Send" }));
+  await ann.page.locator(".mention", { hasText: "@Bo" }).waitFor();
+}
+
+/** Reads what is asked of him, and answers. */
+async function answer(bo: Tablet): Promise<void> {
+  await bo.press(bo.page.locator('.comment-pin[data-thread="1"] button'));
+  await bo.page.locator('.mention[data-me="true"]').waitFor();
+  await until("it is read", async () => (await bo.page.locator(".unread").count()) === 0);
+  await bo.press(bo.page.getByRole("button", { name: "Answer" }));
+  await bo.page.getByLabel("What you want to say").fill("I will draw one.");
+  await bo.press(bo.page.getByRole("button", { name: "Send" }));
+}
+
+const closePanel = (tablet: Tablet) => tablet.press(tablet.page.getByRole("button", { name: "Close Comments" }));
+
+/** Plays the design to its end, and gives what each was shown to do. */
+async function played(tablet: Tablet): Promise<Map<string, Set<string>>> {
+  const { page } = tablet;
+  const fold = page.getByRole("button", { name: "Show the timeline" });
+  if ((await fold.count()) > 0) await tablet.press(fold);
+  await tablet.press(page.getByRole("button", { name: "Replay", exact: true }));
+  const control = (name: string | RegExp) => page.locator(".replay").getByRole("button", { name });
+  await tablet.press(control("Pause"));
+  const by = new Map<string, Set<string>>();
+  const { x, y, width, height } = await tablet.boxOf(page.locator(".replay").getByRole("slider", { name: "Time" }));
+  for (let share = 0.02; share < 1; share += 0.06) {
+    await tablet.tapAt({ x: x + share * width, y: y + height / 2 });
+    await tablet.untilSettled();
+    const caption = page.locator(".replay-caption");
+    const name = (await caption.locator("em").count()) > 0 ? await caption.locator("em").innerText() : "";
+    by.set(name, (by.get(name) ?? new Set()).add((await caption.innerText()).replace(name, "").trim()));
+  }
+  return by;
+}
+
+const WALKS: readonly [string, Screen, Screen][] = [
+  ["tablets", LANDSCAPE, LANDSCAPE],
+  ["upright", UPRIGHT, UPRIGHT],
+  ["phone", LANDSCAPE, PHONE],
+];
+
+// The walk of docs/review.md. Fingers do all of it, but for what is written. It takes minutes where the processor draws: all
+// three are walked when pictures are taken of them.
+test.each(KEEPING ? WALKS : WALKS.slice(0, 1))(
   "two review a tree in one room, on %s",
   async (name, annsScreen, bosScreen) => {
-    const picture = (step: string) =>
-      sideBySide(`${name}-${step}`, [
-        ["Ann", ann],
-        ["Bo", bo],
-      ]);
+    const picture = (step: string, first?: () => Promise<void>) =>
+      sideBySide(
+        `${name}-${step}`,
+        [
+          ["Ann", ann],
+          ["Bo", bo],
+        ],
+        first,
+      );
     const { ann, link, at } = await anns(annsScreen);
     const bo = await workshop.open(link, seen(bosScreen));
     for (const page of [ann, bo]) {
       await until("the other one is shown", async () => (await page.page.locator(".people-chip").count()) === 1);
     }
-    await ann.untilQuiet();
     await ann.untilStill();
 
     // Ann draws: Bo sees her name, her brush and the tree grow.
-    await ann.lead([way(at(0, 250), at(110, 370))]);
+    const before = await wood(ann);
+    const stroke = way(at(0, 230), at(170, 360));
+    await ann.lead([stroke]);
     await bo.page.locator('.companion[data-shown="true"]').waitFor({ state: "attached" });
-    await picture("1-presence");
+    // Names go from pointers that rest.
+    await picture("1-presence", () =>
+      ann.touch("touchMove", [{ x: stroke.at(-1)!.x + 4 * Math.random(), y: stroke.at(-1)!.y }]),
+    );
     await ann.touch("touchEnd", []);
     await ann.untilQuiet();
+    const annsLimb = without(await wood(ann), before);
+    expect(annsLimb.size).toBeGreaterThan(3);
 
-    // Bo follows her.
-    await bo.press(bo.page.locator(".people-chip"));
-    await bo.press(bo.page.locator(".people").getByRole("button", { name: "Follow" }));
+    // Bo follows her, until he touches his picture.
+    await amongPeople(bo, "Follow");
     await bo.page.locator("[data-following]").waitFor();
-    await ann.page.getByRole("slider", { name: "Turn the tree" }).focus();
-    await ann.page.keyboard.press("PageUp");
-    const turned = async ({ page }: Tablet) =>
-      Number(await page.getByRole("slider", { name: "Turn the tree" }).getAttribute("aria-valuenow"));
-    await until("it has turned", async () => Math.abs(await turned(ann)) > 5);
-    await ann.untilStill();
-    await until("both see the same side", async () => Math.abs((await turned(ann)) - (await turned(bo))) <= 1);
+    const first = await turn(ann, TURN);
+    await until("both see the same side", async () => Math.abs(first - (await turned(bo))) <= 1);
     await bo.untilStill();
     await picture("2-follow");
-    await bo.press(bo.page.locator("[data-following]").getByRole("button", { name: "Stop" }));
-    await ann.page.keyboard.press("PageDown");
-    await ann.untilStill();
+    const glass = middle(await bo.boxOf(bo.page.locator("#workspace")));
+    const finger = (aside: number, moved: number) => ({ x: glass.x + aside, y: glass.y - 60 + moved });
+    await bo.swipe([way(finger(-50, 0), finger(-50, 30)), way(finger(50, 0), finger(50, 30))]);
+    await until("it has ended", async () => (await bo.page.locator("[data-following]").count()) === 0);
+    await turn(ann, -TURN);
+    await bo.untilStill();
+    expect(Math.abs(first - (await turned(bo))), "he sees what he saw").toBeLessThanOrEqual(1);
 
-    // She comments on a place, for Bo.
-    await press(ann, "Comments");
-    await ann.press(ann.page.getByRole("button", { name: "Comment on a place" }));
-    await ann.page.locator(".comment-glass[data-placing]").waitFor();
-    await ann.untilStill();
-    const trunk = await ann.page.evaluate(() => {
-      const { left, top, width } = document.querySelector("#workspace")!.getBoundingClientRect();
-      return { x: left + width / 2, y: top };
-    });
-    // The panel has moved the tree aside; its trunk stays in the middle of the picture.
-    await until("the place is on wood", async () => {
-      if ((await ann.page.locator(".comment-compose").count()) > 0) return true;
-      await ann.tapAt({ x: trunk.x, y: at(0, 90).y });
-      return false;
-    });
-    const words = ann.page.getByLabel("What you want to say");
-    await words.fill("Could this limb come lower? ");
-    await words.pressSequentially("@");
-    await ann.press(ann.page.getByRole("button", { name: "@Bo", exact: true }));
-    await expect.poll(() => words.inputValue()).toBe("Could this limb come lower? @Bo ");
-    await ann.press(ann.page.getByRole("button", { name: "Send" }));
-    await ann.page.locator(".mention", { hasText: "@Bo" }).waitFor();
-    // Bo is told that something is for him.
+    // She comments on a place, for Bo; he is told that something is for him, and answers.
+    await askBo(ann);
     await bo.page.locator('.unread[data-me="true"]').first().waitFor();
     await pinOn(bo);
     await picture("3-comment");
-    await bo.press(bo.page.locator('.comment-pin[data-thread="1"] button'));
-    await bo.page.locator('.mention[data-me="true"]').waitFor();
-    await until("it is read", async () => (await bo.page.locator(".unread").count()) === 0);
-    await bo.press(bo.page.getByRole("button", { name: "Answer" }));
-    await bo.page.getByLabel("What you want to say").fill("I will draw one.");
-    await bo.press(bo.page.getByRole("button", { name: "Send" }));
+    await answer(bo);
     await ann.page.locator(".comment-text", { hasText: "I will draw one." }).waitFor();
     await picture("4-answer");
+    for (const page of [ann, bo]) await closePanel(page);
+
+    // She brings him to what she sees.
+    const view = await turn(ann, -TURN);
+    await amongPeople(ann, "Bring everyone here");
+    await bo.page.locator(".toast", { hasText: "Ann has brought you here" }).waitFor();
+    await until("he is there", async () => Math.abs(view - (await turned(bo))) <= 1);
+    await bo.untilStill();
+    await picture("5-gather");
+
+    // Each draws, and takes back what is their own: what the other has drawn stays.
+    await slender(bo);
+    const bosLimb = await limb(bo, 0.36, -0.14);
+    const another = await limb(bo, 0.5, 0.12);
+    await ann.untilQuiet();
+    await ann.tap("Undo");
+    await ann.page.locator(".toast", { hasText: "Undone: " }).waitFor();
+    await ann.untilQuiet();
+    await bo.untilQuiet();
+    const afterHers = await wood(ann);
+    expect([annsLimb, bosLimb, another].map((one) => stands(afterHers, one))).toEqual([
+      "none of it",
+      "all of it",
+      "all of it",
+    ]);
+    for (const page of [ann, bo]) await page.untilStill();
+    await picture("6-undo");
+    await bo.tap("Undo");
+    await bo.page.locator(".toast", { hasText: "Undone: " }).waitFor();
+    await bo.untilQuiet();
+    const afterHis = await wood(bo);
+    expect([bosLimb, another].map((one) => stands(afterHis, one))).toEqual(["all of it", "none of it"]);
+    expect(without(before, afterHis).size, "what was there before stays").toBe(0);
+    await ann.untilQuiet();
+    expect((await ann.facts()).metamers).toBe((await bo.facts()).metamers);
+
+    // It is done.
+    await ann.press(ann.page.locator('.comment-pin[data-thread="1"] button'));
+    await ann.press(ann.page.getByRole("button", { name: "Resolve" }));
+    await ann.page.getByText("Resolved by Ann").waitFor();
+    await bo.page.locator('.comment-pin[data-thread="1"]').waitFor({ state: "detached" });
+    await picture("7-resolved");
+
+    // The summary opens as a page of its own, and is printed whole.
+    await ann.press(ann.page.getByRole("button", { name: "All comments" }));
+    const opened = ann.page.context().waitForEvent("page");
+    await ann.press(ann.page.getByRole("link", { name: "Summary to read and print" }));
+    const summary = await opened;
+    await summary.getByRole("heading", { name: "Comments on Oak by the gate" }).waitFor();
+    for (const words of ["Could this limb come lower? @Bo", "I will draw one.", "resolved by Ann"]) {
+      await summary.getByText(words).waitFor();
+    }
+    const { pdf, pages, faults } = await print(summary);
+    if (KEEPING) await writeFile(join(screenshots, `review-${name}.pdf`), pdf);
+    expect(faults).toEqual([]);
+    expect(pages.flatMap(({ pictures }) => pictures)).toHaveLength(1);
+    await summary.close();
+
+    // The design is played, with who did what.
+    await closePanel(ann);
+    const done = await played(ann);
+    await picture("8-replay");
+    expect([...done.keys()].sort()).toEqual(["", "Ann", "Bo"]);
+    expect(done.get("Bo"), "what he drew").toContain("Stroke");
   },
   900_000,
 );

@@ -7,15 +7,22 @@ const docs = join(import.meta.dirname, "../../../docs");
 /** Whether they are taken anew. */
 export const KEEPING = process.env.REVIEW_PICTURES === "1";
 
-/** A picture of some pages as they are this moment, side by side with who looks at each, for people to look at. */
+/**
+ * A picture of some pages as they are this moment, side by side with who looks at each, for people to look at; something
+ * is done just before each is taken.
+ */
 export async function sideBySide(
   name: string,
   pages: readonly (readonly [who: string, tablet: Tablet])[],
+  before = async () => {},
 ): Promise<void> {
   if (!KEEPING) return;
   const shots = [];
   for (const [who, tablet] of pages) {
     await tablet.untilCome();
+    await before();
+    // What comes of it is on its way to the others.
+    await tablet.page.waitForTimeout(300);
     shots.push({ who, png: (await tablet.page.screenshot({ animations: "disabled" })).toString("base64") });
   }
   const [, first] = pages[0]!;
