@@ -2,8 +2,12 @@ import type { Browser, BrowserContext } from "playwright-core";
 
 /** What the console says where WebGL or three.js finds a fault; the picture may look whole all the same. */
 const FAULT = /webgl|GL_|THREE\./i;
-/** What is no fault: that pixels which are read are waited for, and that the emulated card has not all extensions. */
-const ADVICE = /GL Driver Message \([^)]*Performance|extension not supported/;
+/**
+ * What is no fault: that pixels which are read are waited for, that the emulated card has not all extensions, and that what
+ * a lost context took along is let go of once there is another.
+ */
+const ADVICE =
+  /GL Driver Message \([^)]*Performance|extension not supported|delete: object does not belong to this context/;
 
 const found: string[] = [];
 
