@@ -21,7 +21,7 @@ pub mod tubes;
 pub use drawn::course::seeds;
 pub use grain::Grain;
 pub use limbs::{Limb, Limbs};
-pub use ring_table::{Changes, RingTable};
+pub use ring_table::{Changes, Detail, RingTable};
 pub use rows::{BrokenRows, NONE, Row, Rows};
 pub use sheet::{Closing, Sheet};
 pub use style::{Style, StyleOptions};

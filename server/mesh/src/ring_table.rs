@@ -8,13 +8,14 @@
 //! radii are held as well, for then tips alone do not tell them.
 
 mod changes;
+mod detail;
 
 use std::ops::Range;
 
 use espalier_plant::{AxisId, Columns, Condition, MetamerId, Plant, Widths, reserve};
 use glam::Vec3;
 
-pub use self::changes::Changes;
+pub use self::{changes::Changes, detail::Detail};
 use crate::{
     foliage,
     radius_code::{self, NOT_DRAWN},
@@ -26,10 +27,6 @@ pub const CHUNK_ROWS: usize = 256;
 /// Steps of a position in one internode.
 pub const POSITION_STEPS: f32 = 256.0;
 
-/// Light that changed by less is not reported: every shadow moves a little in every step, and nobody sees it.
-const LIGHT_HYSTERESIS: u8 = 8;
-/// The same for vigor, of 16 levels in the high four bits.
-const VIGOR_HYSTERESIS: u8 = 2 << 4;
 const VIGOR_BITS: u8 = 0xf0;
 
 /// The link of a seed.
@@ -123,6 +120,12 @@ impl RingTable {
     ///
     /// Light and vigor that differ little from what the table shows stay as they are.
     pub fn sync(&mut self, plant: &Plant, style: &Style, generation: u32) -> Changes {
+        self.sync_in(Detail::Whole, plant, style, generation)
+    }
+
+    /// The same in less detail: what older wood looks like may stay behind the plant, but not where it is and whether it
+    /// lives. A later call in more detail makes up for it. Another style and width constraints are shown whole at once.
+    pub fn sync_in(&mut self, detail: Detail, plant: &Plant, style: &Style, generation: u32) -> Changes {
         let restyled = *style.options() != *self.style.options();
         let former = restyled.then(|| std::mem::replace(&mut self.style, style.clone()));
         let widths = Widths::of(plant, style.girth());
@@ -132,6 +135,7 @@ impl RingTable {
             all: plant.columns(0..plant.metamer_count()),
             style,
             former: former.as_ref(),
+            detail,
             radii: Vec::new(),
             renumbered: false,
             changes: Changes::default(),
@@ -142,6 +146,9 @@ impl RingTable {
                 let sent_style = pass.former.unwrap_or(style);
                 self.radii = self.tips.iter().map(|&tips| radius(tips, sent_style)).collect();
             }
+        }
+        if pass.former.is_some() || !pass.radii.is_empty() {
+            pass.detail = Detail::Whole;
         }
         let (count, births) = (plant.metamer_count(), plant.births());
         let known = self.same_births(&births, self.rows().min(count));
@@ -210,7 +217,10 @@ impl RingTable {
         let moved = self.update_ends(pass, rows.clone());
         let is_as_wide = pass.radii.is_empty() || self.radii[rows.clone()] == pass.radii[rows.clone()];
         let redrawn = if pass.former.is_none() && is_as_wide {
-            let differing = self.drawn_otherwise(pass.plant, rows.clone());
+            let mut differing = self.drawn_otherwise(pass.plant, pass.detail, rows.clone());
+            if pass.detail == Detail::Coarse {
+                self.keep_what_differs_little(pass, rows.start, &mut differing);
+            }
             self.update_drawing(pass, rows.start, marked(&differing))
         } else {
             self.update_drawing(pass, rows.start, 0..rows.len())
@@ -240,7 +250,7 @@ impl RingTable {
     }
 
     /// Marks those rows of a chunk that are drawn so differently that clients have to be sent them.
-    fn drawn_otherwise(&self, plant: &Plant, rows: Range<usize>) -> [u8; CHUNK_ROWS] {
+    fn drawn_otherwise(&self, plant: &Plant, detail: Detail, rows: Range<usize>) -> [u8; CHUNK_ROWS] {
         let present = plant.columns(rows.clone());
         let now = plant.step();
         let (mut drawn, mut differing) = ([0; CHUNK_ROWS], [0; CHUNK_ROWS]);
@@ -250,17 +260,41 @@ impl RingTable {
         for (drawn, &death) in drawn.iter_mut().zip(present.death) {
             *drawn &= u8::from(death > now);
         }
+        if detail == Detail::Form {
+            for ((differs, drawn), &held) in differing.iter_mut().zip(drawn).zip(&self.tips[rows]) {
+                *differs = u8::from(held == NO_TIPS) ^ drawn ^ 1;
+            }
+            return differing;
+        }
         let tips = self.tips[rows.clone()].iter().zip(present.tips);
         for ((differs, drawn), (&held, &tips)) in differing.iter_mut().zip(drawn).zip(tips) {
             *differs = u8::from(held != if drawn != 0 { tips } else { NO_TIPS });
         }
+        let (light_step, vigor_step) = detail.steps();
         let looks = self.looks[rows].iter().zip(present.condition);
         for ((differs, drawn), (held, look)) in differing.iter_mut().zip(drawn).zip(looks) {
-            let light = look.light.abs_diff(held.light) >= LIGHT_HYSTERESIS;
-            let vigor = (look.vigor & VIGOR_BITS).abs_diff(held.vigor) >= VIGOR_HYSTERESIS;
+            let light = look.light.abs_diff(held.light) >= light_step;
+            let vigor = (look.vigor & VIGOR_BITS).abs_diff(held.vigor) >= vigor_step;
             *differs |= drawn & u8::from(light | vigor);
         }
         differing
+    }
+
+    /// Takes back the mark of rows whose girth alone differs, and not by much.
+    fn keep_what_differs_little(&self, pass: &Pass<'_>, first: usize, differing: &mut [u8; CHUNK_ROWS]) {
+        let (light_step, vigor_step) = Detail::Coarse.steps();
+        for (i, differs) in differing.iter_mut().enumerate().filter(|(_, differs)| **differs != 0) {
+            let row = first + i;
+            let (held_tips, tips) = (self.tips[row], pass.tips(row));
+            let (held, look) = (self.looks[row], pass.all.condition[row]);
+            let looks_otherwise = look.light.abs_diff(held.light) >= light_step
+                || (look.vigor & VIGOR_BITS).abs_diff(held.vigor) >= vigor_step;
+            let is_as_drawn = (held_tips == NO_TIPS) == (tips == NO_TIPS);
+            let widths = radius(held_tips, pass.style).abs_diff(radius(tips, pass.style));
+            let as_leafy = leaves(held_tips, pass.style) == leaves(tips, pass.style);
+            *differs =
+                u8::from(looks_otherwise || !is_as_drawn || widths >= detail::COARSE_RADIUS || !as_leafy);
+        }
     }
 
     /// Takes over how some rows are drawn, given by how far they lie behind `first`; returns whether clients will see
@@ -273,6 +307,7 @@ impl RingTable {
     ) -> bool {
         let style = pass.style;
         let former = pass.former.unwrap_or(style);
+        let (light_step, vigor_step) = Detail::Whole.steps();
         let mut seen = false;
         for row in rows.map(|i| first + i) {
             let (held_tips, tips) = (self.tips[row], pass.tips(row));
@@ -281,8 +316,8 @@ impl RingTable {
             let steady = |held: u8, present: u8, hysteresis: u8| {
                 if tips == NO_TIPS || present.abs_diff(held) < hysteresis { held } else { present }
             };
-            let light = steady(held.light, look.light, LIGHT_HYSTERESIS);
-            let vigor = steady(held.vigor, look.vigor & VIGOR_BITS, VIGOR_HYSTERESIS);
+            let light = steady(held.light, look.light, light_step);
+            let vigor = steady(held.vigor, look.vigor & VIGOR_BITS, vigor_step);
             let (held_leaves, leaves) = (leaves(held_tips, former), leaves(tips, style));
             let is_as_wide = match pass.radii.get(row) {
                 Some(&code) => self.radii[row] == code,
@@ -347,6 +382,8 @@ struct Pass<'a> {
     former: Option<&'a Style>,
     /// The codes of all radii, if width constraints hold or held; empty otherwise.
     radii: Vec<u16>,
+    /// How much is shown.
+    detail: Detail,
     /// Whether rows that stayed as they were have other axes by number.
     renumbered: bool,
     changes: Changes,

@@ -83,6 +83,8 @@ pub struct Session {
     told_timeline: Timeline,
     /// When rows may be added up again (`CK1`).
     check_due: u64,
+    /// When rows make up for what they are behind in, if nothing happens until then (`FL5`).
+    whole_due: u64,
     widths: Vec<WidthConstraint>,
     design: Option<DesignInForce>,
     design_mark: DesignMark,
@@ -214,6 +216,7 @@ impl Session {
             scenery: Scenery::of(&work.document),
             told_timeline: timeline.clone(),
             check_due: 0,
+            whole_due: 0,
             timeline,
             widths: work.document.widths(),
             design: work.document.design_told(),

@@ -5,7 +5,7 @@ use std::{
     sync::Arc,
 };
 
-use espalier_mesh::{RingTable, Style};
+use espalier_mesh::{Detail, RingTable, Style};
 use espalier_proto::{
     Action, BendFrame, Command, Deed, Hint, Pause, PlacedObstacle, Position, Problem, RowMotion,
     ServerMessage,
@@ -30,6 +30,11 @@ pub(crate) const SLICE_STEPS: u32 = 4;
 const SLICE_METAMERS: u32 = 2000;
 /// After so many commands a slice ends.
 const SLICE_COMMANDS: u32 = 64;
+
+/// While somebody draws or something grows, older wood is shown anew no more often than this, in milliseconds (`FL5`).
+const LOOKS_MS: u64 = 500;
+/// Whoever has drawn draws on as long as no more time than this goes by, in milliseconds.
+pub(crate) const PAUSE_MS: u64 = 1000;
 
 /// What a slice of work is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,6 +145,16 @@ pub struct Work {
     pub(crate) questions: Vec<Question>,
     pub(crate) snapshot_wanted: bool,
     pub(crate) checksum_wanted: bool,
+    /// The session's time, in milliseconds.
+    pub(crate) now: u64,
+    /// When older wood is shown anew while it changes all the time.
+    looks_due: u64,
+    /// Until when somebody is taken to draw on.
+    draws_until: u64,
+    /// Whether the table may be behind the document in what older wood looks like,
+    pub(crate) is_behind: bool,
+    /// and is to make up for that.
+    pub(crate) whole_wanted: bool,
     /// Whether anybody is in step and needs the delta.
     pub(crate) delta_wanted: bool,
     /// Whether a command is still being done.
@@ -191,6 +206,11 @@ impl Work {
             questions: Vec::new(),
             snapshot_wanted: false,
             checksum_wanted: false,
+            now: 0,
+            looks_due: 0,
+            draws_until: 0,
+            is_behind: false,
+            whole_wanted: false,
             delta_wanted: false,
             busy,
             hold: None,
@@ -262,6 +282,7 @@ impl Work {
         let rests = self.hold.is_some();
         !self.catch_ups.is_empty()
             || self.checksum_wanted
+            || self.whole_wanted
             || is_done && !rests
             || is_read && !(rests && self.busy)
     }
@@ -476,7 +497,9 @@ impl Work {
             self.style = Style::new(options);
         }
         let sequence = self.sequence + 1;
-        let changes = self.table.sync(self.document.portrait(), &self.style, sequence);
+        let detail = self.detail();
+        let changes = self.table.sync_in(detail, self.document.portrait(), &self.style, sequence);
+        self.is_behind = detail != Detail::Whole;
         if changes.is_empty() {
             return;
         }
@@ -485,6 +508,21 @@ impl Work {
             let frame = to_proto::delta(&self.table, &changes, self.epoch, sequence);
             self.report.delta = Some(frame.encode().into());
         }
+    }
+
+    /// How much of what older wood looks like is shown now (`FL5`).
+    fn detail(&mut self) -> Detail {
+        if self.document.has_open_strokes() {
+            self.draws_until = self.now + PAUSE_MS;
+        }
+        let is_done = !self.busy && self.orders.is_empty() && self.document.pending_steps() == 0;
+        let is_at_rest = self.hold.is_some() || is_done && self.now >= self.draws_until;
+        let is_whole_wanted = std::mem::take(&mut self.whole_wanted) || self.checksum_wanted;
+        if !is_whole_wanted && !is_at_rest && self.now < self.looks_due {
+            return Detail::Form;
+        }
+        self.looks_due = self.now + LOOKS_MS;
+        if is_whole_wanted || is_at_rest { Detail::Whole } else { Detail::Coarse }
     }
 
     pub(crate) fn catch_up(&mut self, held: &Held) -> Arc<[u8]> {

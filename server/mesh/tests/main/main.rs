@@ -6,7 +6,9 @@ mod plain;
 
 use std::collections::BTreeSet;
 
-use espalier_mesh::{RingTable, Style, StyleOptions, checks, leaves, ring_table::CHUNK_ROWS, seeds, wood};
+use espalier_mesh::{
+    Detail, RingTable, Style, StyleOptions, checks, leaves, ring_table::CHUNK_ROWS, seeds, wood,
+};
 use espalier_plant::{AxisId, MetamerId, Plant};
 use espalier_settings::BarkLook;
 use glam::Vec3;
@@ -47,6 +49,41 @@ proptest! {
                 prop_assert!(idle.equals(&table));
             }
         }
+    }
+
+    /// In less detail rows may look otherwise, but nothing is missing, stands elsewhere or is dead; and whole again, all
+    /// is as if it had always been.
+    #[test]
+    fn a_table_makes_up_for_what_it_left_out(
+        events in events(),
+        details in prop::collection::vec(prop::sample::select(vec![Detail::Form, Detail::Coarse, Detail::Whole]), 8),
+        styles in prop::array::uniform2(styles()),
+    ) {
+        let mut plant = Plant::new(Vec3::ZERO);
+        let (mut table, mut held) = (RingTable::new(), ByChanges::default());
+        for (count, event) in events.iter().enumerate() {
+            happen(&mut plant, event);
+            let (detail, style) = (details[count % details.len()], &styles[count / 16 % 2]);
+            let sequence = count as u32 + 1;
+            let changes = table.sync_in(detail, &plant, style, sequence);
+            held.apply(&changes, &table, sequence);
+            prop_assert!(held.equals(&table));
+            let mut fresh = RingTable::new();
+            fresh.sync(&plant, style, 1);
+            prop_assert_eq!(table.rows(), fresh.rows());
+            for row in 0..table.rows() as u32 {
+                let form = |table: &RingTable| (table.parent(row), table.position(row), table.born(row), table.radius(row) > 0);
+                prop_assert_eq!(form(&table), form(&fresh));
+            }
+            if detail == Detail::Whole {
+                prop_assert_eq!(checks::table(&table, &plant, style), Ok(()));
+            }
+        }
+        let style = &styles[0];
+        let changes = table.sync(&plant, style, u32::MAX);
+        held.apply(&changes, &table, u32::MAX);
+        prop_assert_eq!(checks::table(&table, &plant, style), Ok(()));
+        prop_assert!(held.equals(&table));
     }
 
     #[test]

@@ -143,6 +143,11 @@ impl Document {
         self.pending.iter().map(steps).sum()
     }
 
+    /// Whether somebody is in the midst of a stroke.
+    pub(crate) fn has_open_strokes(&self) -> bool {
+        !self.strokes.is_empty()
+    }
+
     /// Steps begun up to now, those included in which nothing grew; going back in time takes none away.
     pub fn steps_begun(&self) -> u32 {
         self.steps_begun

@@ -9,7 +9,7 @@ use crate::{
     clients::{ConnectedClient, View},
     io::{ClientId, Output},
     to_proto::{self, Held},
-    work::{Answer, CatchUp, Report, Work},
+    work::{Answer, CatchUp, PAUSE_MS, Report, Work},
 };
 
 impl Session {
@@ -61,6 +61,7 @@ impl Session {
             self.find_branches(&mut work.document);
         }
         self.came_home(work.hold);
+        self.whole_due = self.now + PAUSE_MS;
         self.home = Some(work);
         // Steps that were expected and not taken count as well: a refused command leaves no other trace.
         self.upkeep.state_changed |= self.state() != self.upkeep.sent;
@@ -162,6 +163,8 @@ impl Session {
                 View::Stale(_) | View::Coming => {}
             }
         }
+        work.now = self.now;
+        work.whole_wanted |= work.is_behind && !work.is_needed() && self.now >= self.whole_due;
         self.ask_for_checksum(&mut work);
         if work.is_needed() {
             self.outputs.push_back(Output::Work(work));

@@ -325,8 +325,9 @@ impl Session {
         let absence = upkeep.absences.front().map(|(due, _)| *due);
         let memory = self.pausing.due.filter(|_| self.home.is_some());
         let (room, checksum) = (self.room_due(), self.checksum_due());
+        let whole = self.home.as_ref().filter(|work| work.is_behind).map(|_| self.whole_due);
         let earliest =
-            [state, timeline, widths, design, grammar, pause, hello, absence, memory, room, checksum]
+            [state, timeline, widths, design, grammar, pause, hello, absence, memory, room, checksum, whole]
                 .into_iter()
                 .flatten()
                 .min();

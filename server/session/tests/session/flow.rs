@@ -246,3 +246,88 @@ fn a_client_may_vanish_while_its_frame_is_made() {
     world.settle();
     world.assert_mirrored(first);
 }
+
+fn stroke(kind: &str, fields: serde_json::Value) -> serde_json::Value {
+    let mut command = json!({ "kind": kind, "stroke": 1 });
+    for (name, value) in fields.as_object().into_iter().flatten() {
+        command[name] = value.clone();
+    }
+    command
+}
+
+/// Draws upwards from the tip of a young tree, as a page does; the last command's number, and how many frames had patches
+/// of older rows while the finger moved.
+fn draw_upwards(world: &mut World, client: u64) -> (u32, usize) {
+    world.command(client, 1, grow(6));
+    world.settle();
+    let top = (0..world.document().plant().metamer_count())
+        .map(|row| world.document().plant().metamers().end(espalier_plant::MetamerId::new(row)))
+        .max_by(|a, b| a.y.total_cmp(&b.y))
+        .expect("it has a tip");
+    let before = world.peer(client).frames.len();
+    world.command(client, 2, stroke("stroke_begin", json!({})));
+    for part in 0..60u32 {
+        let position = [top.x + 0.05 * part as f32, top.y + 0.3 * part as f32, top.z];
+        let samples = json!([{ "position": position, "radius": 1.5 }]);
+        world.command(client, 3 + part, stroke("stroke_move", json!({ "samples": samples })));
+        world.pass(33);
+    }
+    let is_patched = |frame: &espalier_proto::Frame| {
+        frame.changes.iter().any(|change| matches!(change, ChunkChange::Patch { .. }))
+    };
+    let patched = world.peer(client).frames[before..].iter().filter(|frame| is_patched(frame)).count();
+    (62, patched)
+}
+
+#[test]
+fn fl5_older_wood_is_shown_anew_twice_a_second_while_somebody_draws() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    let (last, patched) = draw_upwards(&mut world, client);
+    let rows = world.document().plant().metamer_count();
+    assert_eq!(world.peer(client).mirror.rows.len(), rows, "new wood is there at once");
+    // In two seconds, and one more for the end of the growth before.
+    assert!((1..=5).contains(&patched), "{patched} frames with older wood");
+    world.command(client, last + 1, stroke("stroke_end", json!({})));
+    world.settle();
+    world.pass(1_100);
+    let expected = crate::mirror::rows_of(world.document());
+    for (seen, expected) in world.peer(client).mirror.rows.iter().zip(&expected) {
+        assert!(seen.shows(expected), "at rest looks are exact: {seen:?} {expected:?}");
+    }
+    world.assert_mirrored(client);
+}
+
+#[test]
+fn fl5_looks_are_exact_a_second_after_the_finger_rests() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    draw_upwards(&mut world, client);
+    let differing = |world: &World| {
+        let expected = crate::mirror::rows_of(world.document());
+        let rows = &world.peer(client).mirror.rows;
+        rows.iter().zip(&expected).filter(|(seen, expected)| !seen.shows(expected)).count()
+    };
+    assert!(differing(&world) > 0, "something was held back");
+    world.pass(1_100);
+    assert_eq!(differing(&world), 0, "the stroke is still open");
+    // Whoever comes now has the same, and so has who checks.
+    world.assert_mirrored(client);
+    let frames = world.peer(client).frames.len();
+    world.pass(5_000);
+    assert_eq!(world.peer(client).frames.len(), frames, "nothing is left to be told");
+}
+
+#[test]
+fn fl5_who_checks_is_told_of_rows_that_are_whole() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    draw_upwards(&mut world, client);
+    world.send(client, &ClientMessage::Check {});
+    world.pass(40);
+    let told = world.peer(client).texts.iter().any(|text| matches!(text, ServerMessage::Checksum { .. }));
+    assert!(told, "it is answered at once");
+    let expected = crate::mirror::rows_of(world.document());
+    let rows = &world.peer(client).mirror.rows;
+    assert!(rows.iter().zip(&expected).all(|(seen, expected)| seen.shows(expected)));
+}
