@@ -36,6 +36,17 @@ pub struct Place {
     pub at: Vec3,
 }
 
+/// What somebody is called who has done something.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Named {
+    /// As journals and lines of time know them.
+    pub author: Principal,
+    /// As the server knows them, if it still does (see [`crate::Entrant`]).
+    pub person: Option<Arc<str>>,
+    /// What they were called last.
+    pub name: Arc<str>,
+}
+
 /// Something happened.
 #[derive(Debug)]
 pub enum Input {
@@ -121,6 +132,8 @@ pub enum Output {
     },
     /// Somebody has received the notices of [`crate::Session::notify`]: they need not be kept any longer.
     Notified,
+    /// Keep what an author is called, for [`crate::Session::remember`].
+    Named(Named),
     /// The document's bytes for a `Read`.
     Document {
         /// Whose answer this is.

@@ -41,7 +41,7 @@ pub use document::{
 pub use entrant::Entrant;
 pub use form::read_command;
 pub use grammars::{check_grammar, grammar_notes, grammar_script, shipped_grammar, wire_grammar};
-pub use io::{ActId, AnchorId, ClientId, Input, JournalEntry, Output, Place, ReadDocument, ReadId};
+pub use io::{ActId, AnchorId, ClientId, Input, JournalEntry, Named, Output, Place, ReadDocument, ReadId};
 pub use prediction::PredictionRun;
 pub use presence::Register;
 pub use principal::Principal;

@@ -9,7 +9,7 @@ use espalier_proto::{
 };
 use glam::Vec3;
 
-use crate::principal::Principal;
+use crate::{io::Named, principal::Principal};
 
 /// People and devices whose numbers are kept after they have left.
 const MAX_KNOWN: usize = 1024;
@@ -201,6 +201,9 @@ pub struct Register {
     names: BTreeMap<u32, String>,
     /// What the server calls them, until they choose.
     given: BTreeMap<u32, Arc<str>>,
+    /// Who did something before the session was opened, and what they were called.
+    authors: BTreeMap<Principal, u32>,
+    remembered: BTreeMap<u32, Arc<str>>,
 }
 
 impl Register {
@@ -217,6 +220,7 @@ impl Register {
         let known = &self.people.numbers;
         self.names.retain(|number, _| known.values().any(|known| known == number));
         self.given.retain(|number, _| known.values().any(|known| known == number));
+        self.remembered.retain(|number, _| known.values().any(|known| known == number));
         self.person_at.insert(principal.clone(), person);
         self.person_at.retain(|device, _| self.devices.numbers.contains_key(device));
         (device, person)
@@ -224,10 +228,20 @@ impl Register {
 
     /// The number of whoever did something at a device, which may have been long ago.
     pub(crate) fn author(&mut self, device: &Principal) -> u32 {
-        match self.person_at.get(device) {
+        match self.person_at.get(device).or_else(|| self.authors.get(device)) {
             Some(&person) => person,
             None => self.people.of(&author_alone(device), |_| true),
         }
+    }
+
+    /// What somebody was called who has done something. Of several names of one person the last counts.
+    pub(crate) fn remember(&mut self, Named { author, person, name }: Named) {
+        let alone = author_alone(&author);
+        let person = person.unwrap_or_else(|| alone.clone());
+        self.people.rename(&alone, &person);
+        let number = self.people.of(&person, |_| true);
+        self.authors.insert(author, number);
+        self.remembered.insert(number, name);
     }
 
     /// Somebody chooses a name; whether it is another than before.
@@ -242,7 +256,8 @@ impl Register {
 
     /// What somebody is called, also after they have left.
     pub(crate) fn called(&self, person: u32) -> Option<&str> {
-        self.name_of(person).or_else(|| self.given.get(&person).map(AsRef::as_ref))
+        let given = || self.given.get(&person).or_else(|| self.remembered.get(&person));
+        self.name_of(person).or_else(|| given().map(AsRef::as_ref))
     }
 
     /// What somebody has chosen to be called.

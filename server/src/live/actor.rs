@@ -9,7 +9,7 @@ use std::{
 
 use espalier_proto::{Pause, version::CloseCode};
 use espalier_session::{
-    ActId, Anchor, AnchorId, ClientId, Input, JournalEntry, Output, PredictionRun, Session, Work,
+    ActId, Anchor, AnchorId, ClientId, Input, JournalEntry, Named, Output, PredictionRun, Session, Work,
 };
 use tokio::{
     sync::{mpsc, oneshot},
@@ -173,6 +173,7 @@ impl Actor {
     }
 
     async fn live(&mut self) -> Result<End, Failed> {
+        self.read_names().await;
         self.drain()?;
         self.read_pins().await?;
         loop {
@@ -217,6 +218,16 @@ impl Actor {
             Err(error) => {
                 tracing::warn!(session = self.name, %error, "comments are shown without their places");
                 Ok(())
+            }
+        }
+    }
+
+    /// What those were called who have done something before the session was opened.
+    async fn read_names(&mut self) {
+        match self.keeping.named_authors(&self.session.authors()).await {
+            Ok(named) => self.session.remember(named),
+            Err(error) => {
+                tracing::warn!(session = self.name, %error, "who did what is shown without names");
             }
         }
     }
@@ -316,6 +327,10 @@ impl Actor {
                 let _ = answer.send((self.session.person(number), self.session.called(&asking)));
                 return None;
             }
+            Request::Named(answer) => {
+                let _ = answer.send(self.session.named());
+                return None;
+            }
             Request::Register(answer) => {
                 let _ = answer.send(self.session.register().clone());
                 return None;
@@ -396,6 +411,7 @@ impl Actor {
             Output::Predict(prediction) => self.start_prediction(prediction),
             Output::Snapshot { through, bytes } => self.keep_snapshot(through, bytes),
             Output::Notified => self.forget_notices(),
+            Output::Named(named) => self.keep_name(named),
             Output::Document { read, document } => self.readers.answer(read, document),
             Output::Acted { act, outcome } => {
                 if let Some(answer) = self.acts.remove(&act.0) {
@@ -510,6 +526,18 @@ impl Actor {
             // If this fails, clients are notified once more.
             if let Err(error) = keeping.forget_notices().await {
                 tracing::warn!(session, %error, "notices that were delivered could not be forgotten");
+            }
+            let _ = task.send(ActorTask::Forgotten);
+        });
+    }
+
+    fn keep_name(&mut self, named: Named) {
+        let (keeping, task) = (self.keeping.clone(), self.task.clone());
+        let session = self.name.clone();
+        self.under_way += 1;
+        tokio::spawn(async move {
+            if let Err(error) = keeping.name_author(&named).await {
+                tracing::warn!(session, %error, "what somebody is called who draws is not kept");
             }
             let _ = task.send(ActorTask::Forgotten);
         });

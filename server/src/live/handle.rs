@@ -33,6 +33,8 @@ pub(super) enum Request {
     People(oneshot::Sender<Vec<Principal>>),
     /// Everybody who has been here.
     Register(oneshot::Sender<Register>),
+    /// Those who are here and have a name.
+    Named(oneshot::Sender<Vec<PersonNamed>>),
     /// Whoever has a number in the session, and what whoever asks is called there.
     Person(u32, Principal, oneshot::Sender<PersonHere>),
     /// The place of a row.
@@ -47,6 +49,9 @@ pub(super) enum Request {
     /// Nothing can be kept any more, for this reason.
     StoreFailed(String),
 }
+
+/// Somebody's number, who they are, and what they are called.
+pub type PersonNamed = (u32, Arc<str>, Arc<str>);
 
 /// Whoever has a number, if they are here; and the name of whoever asks, if they are and have one.
 pub type PersonHere = (Option<Entrant>, Option<Arc<str>>);
@@ -146,6 +151,13 @@ impl SessionHandle {
     pub async fn register(&self) -> Result<Register, Ended> {
         let (answer, answered) = oneshot::channel();
         self.send(Request::Register(answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// Those who are here and have a name.
+    pub(super) async fn named(&self) -> Result<Vec<PersonNamed>, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Named(answer)).await?;
         answered.await.map_err(|_| Ended)
     }
 

@@ -2,12 +2,13 @@
 
 use std::{sync::Arc, time::Duration};
 
-use espalier_session::{JournalEntry, Place};
+use espalier_session::{JournalEntry, Named, Place, Principal};
 
 use super::pins::pins_of_session;
 use crate::{
     SIMULATION_VERSION,
-    store::{AnyStore, Lease, NewSnapshot, Store, StoreError},
+    store::{AnyStore, Authors, Lease, NewSnapshot, Store, StoreError},
+    time,
 };
 
 /// A session without clients for so long is unloaded.
@@ -74,6 +75,23 @@ impl Keeping {
         match self {
             Self::Stored(store, _) => pins_of_session(session, &**store).await,
             Self::Nowhere => Ok(Vec::new()),
+        }
+    }
+
+    /// What authors are called.
+    pub(super) async fn named_authors(&self, authors: &[Principal]) -> Result<Vec<Named>, StoreError> {
+        match self {
+            Self::Stored(store, _) => store.named_authors(authors).await,
+            // It has them from the session that it is of.
+            Self::Nowhere => Ok(Vec::new()),
+        }
+    }
+
+    /// An author is called so.
+    pub(super) async fn name_author(&self, named: &Named) -> Result<(), StoreError> {
+        match self {
+            Self::Stored(store, _) => store.name_author(named, &time::now()).await,
+            Self::Nowhere => Ok(()),
         }
     }
 

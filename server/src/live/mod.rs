@@ -13,7 +13,7 @@ mod restoring;
 mod socket;
 mod turn;
 
-pub use handle::{Ended, SessionFigures, SessionHandle};
+pub use handle::{Ended, PersonNamed, SessionFigures, SessionHandle};
 pub use loading::open;
 pub use pins::{StoredPin, pins_of};
 pub use readers::Unread;

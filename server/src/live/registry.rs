@@ -18,7 +18,7 @@ use tokio_util::{sync::CancellationToken, task::TaskTracker};
 
 use super::{
     actor::{Actor, Services},
-    handle::{PersonHere, SessionFigures, SessionHandle},
+    handle::{PersonHere, PersonNamed, SessionFigures, SessionHandle},
     keeping::Keeping,
     loading::{Opening, Progress},
     restoring::{self, OpenError, Opened},
@@ -163,6 +163,15 @@ impl Sessions {
         let slot = self.0.slots().get(name).cloned();
         let session = slot.as_ref().and_then(|slot| slot.session.get())?;
         timeout(LOOKING, session.look()).await.ok().and_then(Result::ok)
+    }
+
+    /// Those who are in a session and have a name; nobody where it is not in memory.
+    pub async fn named(&self, name: &str) -> Vec<PersonNamed> {
+        let slot = self.0.slots().get(name).cloned();
+        match slot.as_ref().and_then(|slot| slot.session.get()) {
+            Some(session) => session.named().await.unwrap_or_default(),
+            None => Vec::new(),
+        }
     }
 
     /// Whoever has this number in a session, and what whoever asks is called there; nothing where it is not in memory.

@@ -3,17 +3,17 @@
 use std::collections::BTreeSet;
 
 use espalier_proto::{Notice, access::Role};
-use espalier_session::JournalEntry;
+use espalier_session::{JournalEntry, Named, Principal};
 
 #[cfg(test)]
 use super::MemoryStore;
 use super::{
-    Answer, AnswerKey, Answering, Answers, Audit, Collection, CollectionChange, CommentChange, Comments,
-    Commits, Damage, Event, Finding, Group, Groups, Heir, Lease, Library, Locks, MostAnswers, NewComment,
-    NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes, Picture, Removal, Room,
-    SessionLine, SessionQuery, SessionTree, SqliteStore, Standing, Standings, Store, StoreError,
-    StoredSession, StoredThread, StoredTree, StoredVersion, TreeChange, TreeDocument, TreeQuery, User,
-    UserChange, Users, Visits,
+    Answer, AnswerKey, Answering, Answers, Audit, Authors, Collection, CollectionChange, CommentChange,
+    Comments, Commits, Damage, Event, Finding, Group, Groups, Heir, Lease, Library, Locks, MostAnswers,
+    NewComment, NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes, Picture,
+    Removal, Room, SessionLine, SessionQuery, SessionTree, SqliteStore, Standing, Standings, Store,
+    StoreError, StoredSession, StoredThread, StoredTree, StoredVersion, TreeChange, TreeDocument, TreeQuery,
+    User, UserChange, Users, Visits,
 };
 use crate::access::SecretHash;
 
@@ -372,6 +372,16 @@ impl Visits for AnyStore {
 
     async fn forget_session(&self, session: &str, person: Option<&str>) -> Result<bool, StoreError> {
         delegate!(self.forget_session(session, person))
+    }
+}
+
+impl Authors for AnyStore {
+    async fn name_author(&self, named: &Named, at: &str) -> Result<(), StoreError> {
+        delegate!(self.name_author(named, at))
+    }
+
+    async fn named_authors(&self, authors: &[Principal]) -> Result<Vec<Named>, StoreError> {
+        delegate!(self.named_authors(authors))
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod answers;
 mod audit;
+mod authors;
 mod comments;
 mod finding;
 mod groups;
@@ -21,6 +22,7 @@ use self::answers::{
     an_answer_is_kept_for_one_request, answers_of_all_callers_are_bounded, answers_of_one_caller_are_bounded,
 };
 use self::audit::{events_are_listed_newest_first, events_that_come_again_are_counted};
+use self::authors::authors_are_called_as_they_were_last;
 use self::comments::{
     comments_are_bounded, comments_change_and_go, comments_go_with_their_tree,
     threads_are_listed_newest_first, what_is_seen_of_threads_only_grows,
@@ -51,13 +53,25 @@ use self::visits::{
     sessions_know_their_size, who_is_removed_was_in_no_session,
 };
 use super::{
-    Answers, Audit, Comments, Damage, Finding, Groups, Lease, Library, Locks, NewSession, NewSnapshot,
-    Passes, Standings, Store, StoreError, StoredSession, Users, Visits,
+    Answers, Audit, Authors, Comments, Damage, Finding, Groups, Lease, Library, Locks, NewSession,
+    NewSnapshot, Passes, Standings, Store, StoreError, StoredSession, Users, Visits,
 };
 
 /// A store whose rows a test can damage.
 pub trait Breakable:
-    Store + Library + Finding + Passes + Users + Groups + Audit + Answers + Comments + Locks + Standings + Visits
+    Store
+    + Library
+    + Finding
+    + Passes
+    + Users
+    + Groups
+    + Audit
+    + Answers
+    + Comments
+    + Locks
+    + Standings
+    + Visits
+    + Authors
 {
     /// Changes a command in the row of the journal that begins with an entry.
     async fn break_journal(&self, session: &str, first: u64);
@@ -145,6 +159,7 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         comments_are_bounded,
         comments_go_with_their_tree,
         a_tree_is_locked_with_its_sessions,
+        authors_are_called_as_they_were_last,
         sessions_are_listed_to_who_was_in_them,
         sessions_are_taken_off_lists,
         pages_hold_each_session_once,

@@ -2,6 +2,7 @@
 
 mod answers;
 mod audit;
+mod authors;
 mod comments;
 mod finding;
 mod groups;
@@ -19,7 +20,7 @@ use std::{
 };
 
 use espalier_proto::Notice;
-use espalier_session::JournalEntry;
+use espalier_session::{JournalEntry, Named, Principal};
 
 use super::{
     Collection, Damage, Group, Heir, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, Noted, Pass, Removal,
@@ -50,6 +51,8 @@ struct Kept {
     /// By their numbers.
     events: BTreeMap<u64, Noted>,
     last_event: u64,
+    /// Each with the time when it was called so.
+    authors: BTreeMap<Principal, (String, Named)>,
     /// Who has locked which tree.
     locks: BTreeMap<String, String>,
     removals: Vec<Removal>,

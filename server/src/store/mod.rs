@@ -1,11 +1,12 @@
 //! What is kept: sessions with their journals and snapshots, and the library of trees.
 //!
-//! [`Store`], [`Library`], [`Finding`], [`Passes`], [`Users`], [`Groups`], [`Audit`], [`Answers`], [`Comments`], [`Locks`], [`Standings`] and [`Visits`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
+//! [`Store`], [`Library`], [`Finding`], [`Passes`], [`Users`], [`Groups`], [`Audit`], [`Answers`], [`Comments`], [`Locks`], [`Standings`], [`Visits`] and [`Authors`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
 //! does, the model in `memory.rs` the second. The rest of the server knows [`AnyStore`] alone.
 
 mod answers;
 mod any;
 mod audit;
+mod authors;
 mod comments;
 #[cfg(test)]
 mod contract;
@@ -33,6 +34,7 @@ pub use self::{
     answers::{Answer, AnswerKey, Answering, Answers, MostAnswers},
     any::AnyStore,
     audit::{Audit, DONE, EXPORT, Event, MOST_EVENTS, Noted},
+    authors::Authors,
     comments::{
         CommentChange, Comments, MOST_COMMENTS, MOST_PICTURES, MOST_THREADS, NewComment, StoredComment,
         StoredThread,

@@ -177,6 +177,7 @@ impl Session {
         let bytes = text.len();
         let number = self.journal.append(principal, id, text);
         if let Some(author) = self.authors.get_mut(principal) {
+            self.room.names_changed |= author.last_entry == 0;
             author.last_entry = number;
         }
         self.queue.push(Order { number, author: principal.clone(), id, command, bytes, act });

@@ -12,8 +12,9 @@ use crate::{
     clients::{Client, ConnectedClient},
     document::Document,
     entrant::Entrant,
-    io::{ClientId, Output},
+    io::{ClientId, Named, Output},
     presence::{FramesOfTick, Presence, Register, Said},
+    principal::Principal,
     rights::{Access, forbidden},
 };
 
@@ -35,6 +36,10 @@ const GATHER_MS: u64 = 10_000;
 #[derive(Debug, Default)]
 pub(super) struct Room {
     pub(super) register: Register,
+    /// What authors are called, as it is kept.
+    kept_names: BTreeMap<Principal, Arc<str>>,
+    /// Whether somebody may be called otherwise, or has become an author.
+    pub(super) names_changed: bool,
     /// Counts frames.
     tick: u32,
     tick_due: u64,
@@ -47,7 +52,7 @@ pub(super) struct Room {
 
 impl Session {
     /// Somebody has said hello.
-    pub(super) fn enter_room(&mut self, client: ClientId, principal: &crate::Principal) -> Presence {
+    pub(super) fn enter_room(&mut self, client: ClientId, principal: &Principal) -> Presence {
         let here: Vec<_> = self.present().map(|presence| (presence.device, presence.person)).collect();
         let entrant = self.clients.get(&client).map(|client| client.entrant.clone());
         let Entrant { person, name, .. } = entrant.unwrap_or_else(|| Entrant::new("", Role::Viewer));
@@ -55,7 +60,7 @@ impl Session {
         if let Some(given) = name {
             self.room.register.give_name(person, given);
         }
-        self.room.people_changed = true;
+        (self.room.people_changed, self.room.names_changed) = (true, true);
         Presence::new(device, person, self.now)
     }
 
@@ -91,6 +96,7 @@ impl Session {
         let person = connected.presence.person;
         let is_renamed = name.is_some_and(|name| self.room.register.name(person, name));
         self.room.people_changed |= is_another || is_renamed;
+        self.room.names_changed |= is_renamed;
     }
 
     /// A page follows the camera of a device, or none (`PS4`).
@@ -160,6 +166,7 @@ impl Session {
 
     /// Does what is due now: asks who is there, and tells what is new.
     pub(super) fn keep_room(&mut self) {
+        self.keep_names();
         self.ask_who_is_there();
         if self.room.people_changed && self.now >= self.room.people_due {
             self.room.people_changed = false;
@@ -169,6 +176,32 @@ impl Session {
         if self.next_tick().is_some_and(|due| due <= self.now) {
             self.tick();
         }
+    }
+
+    /// Has it kept what those are called who have done something (`PS6`).
+    fn keep_names(&mut self) {
+        if !std::mem::take(&mut self.room.names_changed) {
+            return;
+        }
+        for client in self.clients.values() {
+            let Some(ConnectedClient { principal, presence, .. }) = &client.connected else { continue };
+            let is_author = self.authors.get(principal).is_some_and(|author| author.last_entry > 0);
+            let Some(name) = self.room.register.called(presence.person).filter(|_| is_author) else {
+                continue;
+            };
+            if self.room.kept_names.get(principal).is_none_or(|kept| **kept != *name) {
+                let (author, name): (_, Arc<str>) = (principal.clone(), name.into());
+                self.room.kept_names.insert(author.clone(), Arc::clone(&name));
+                let person = Some(Arc::clone(&client.entrant.person));
+                self.outputs.push_back(Output::Named(Named { author, person, name }));
+            }
+        }
+        // Those who have left are kept under their last name already.
+        let clients = &self.clients;
+        self.room.kept_names.retain(|author, _| {
+            let mut here = clients.values().filter_map(|client| client.connected.as_ref());
+            here.any(|connected| connected.principal == *author)
+        });
     }
 
     /// When something is due next.
@@ -230,8 +263,20 @@ impl Session {
         Some(Entrant { name: name.or_else(|| client.entrant.name.clone()), ..client.entrant.clone() })
     }
 
+    /// Those who are here and have a name: their numbers, who they are, and what they are called. Each once.
+    pub fn named(&self) -> Vec<(u32, Arc<str>, Arc<str>)> {
+        let here = self.clients.values().filter_map(|client| {
+            let number = client.connected.as_ref()?.presence.person;
+            let given = client.entrant.name.as_deref();
+            let name = self.room.register.name_of(number).or(given)?;
+            Some((number, (Arc::clone(&client.entrant.person), name.into())))
+        });
+        let once: BTreeMap<u32, (Arc<str>, Arc<str>)> = here.collect();
+        once.into_iter().map(|(number, (person, name))| (number, person, name)).collect()
+    }
+
     /// What whoever is at a device is called, if they are here and have a name.
-    pub fn called(&self, at: &crate::Principal) -> Option<Arc<str>> {
+    pub fn called(&self, at: &Principal) -> Option<Arc<str>> {
         let is_it = |connected: &&ConnectedClient| connected.principal == *at;
         let found = self.clients.values().filter_map(|client| client.connected.as_ref()).find(is_it)?;
         self.person(found.presence.person)?.name

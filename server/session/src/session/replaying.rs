@@ -5,7 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use espalier_proto::{Author, ServerMessage};
 
 use super::{Session, restoring::Restored};
-use crate::{author::Authors, document::Document, presence::Register, snapshot::RestoreError};
+use crate::{
+    author::Authors, document::Document, io::Named, presence::Register, principal::Principal,
+    snapshot::RestoreError,
+};
 
 impl Session {
     /// A copy of the session of which these are the document, as a [`Input::Read`](crate::Input::Read) gave it, and the
@@ -23,12 +26,35 @@ impl Session {
         // Whoever comes back after a copy was lost goes on counting their commands.
         session.authors = Authors::restored(&BTreeMap::new());
         session.room.register = people;
-        if let Some(work) = session.home.take() {
-            session.timeline = session.line_of(&work.document);
-            session.told_timeline = session.timeline.clone();
-            session.home = Some(work);
-        }
+        session.number_authors();
         Ok(session)
+    }
+
+    /// Who did what stands on the lines of time, as journals know them.
+    pub fn authors(&self) -> Vec<Principal> {
+        let mut authors = BTreeSet::new();
+        if let Some(work) = &self.home {
+            work.document.timeline_of(|author| {
+                authors.insert(author.clone());
+                0
+            });
+        }
+        authors.into_iter().collect()
+    }
+
+    /// What some of them were called before the session was opened, before anybody comes.
+    pub fn remember(&mut self, named: impl IntoIterator<Item = Named>) {
+        named.into_iter().for_each(|named| self.room.register.remember(named));
+        self.number_authors();
+    }
+
+    /// The lines of time get the numbers that people have.
+    fn number_authors(&mut self) {
+        if let Some(work) = self.home.take() {
+            self.timeline = self.line_of(&work.document);
+            self.told_timeline = self.timeline.clone();
+            self.home = Some(work);
+        }
     }
 
     /// Everybody who has been here, and what they are called.

@@ -98,3 +98,40 @@ fn rp3_a_replay_names_who_did_what_by_their_numbers_in_the_session() {
     let expected = [(session[0], Some("Ann".to_owned())), (session[1], Some("Bo".to_owned()))];
     assert_eq!(named, expected);
 }
+
+/// The authors that are told in a replay.
+fn authors(world: &mut World) -> Vec<(u32, Option<String>)> {
+    let mut replay = world.replay();
+    let viewer = enter(&mut replay, "Cy", Role::Viewer);
+    replay.settle();
+    let told = replay.peer(viewer).texts.iter().find_map(|text| match text {
+        ServerMessage::Authors { authors } => Some(authors.clone()),
+        _ => None,
+    });
+    told.expect("they follow the welcome").into_iter().map(|it| (it.person, it.name)).collect()
+}
+
+#[test]
+fn rp3_names_outlive_the_server() {
+    let mut world = grown();
+    let di = enter(&mut world, "Di", Role::Editor);
+    world.settle();
+    let before = authors(&mut world);
+    assert_eq!(before.iter().map(|(_, name)| name.as_deref()).collect::<Vec<_>>(), [Some("Ann"), Some("Bo")]);
+    let kept: Vec<&str> = world.named.iter().map(|named| &*named.name).collect();
+    assert_eq!(kept, ["Ann", "Bo"], "nothing is kept of whoever only looks");
+    world.leave(di);
+    world.crash();
+    assert_eq!(authors(&mut world), before);
+    // Who comes back at another device is the same person, and may choose another name.
+    let bo = world.connect_as(Entrant { name: Some("Bo".into()), ..Entrant::new("Bo", Role::Editor) });
+    world.hello(bo, "another-device-of-Bo", None);
+    world.command(bo, 1, json!({ "kind": "go_to", "step": 7 }));
+    world.command(bo, 2, grow(1));
+    world.send(bo, &json!({ "type": "here", "name": "Robert" }));
+    world.settle();
+    let renamed = vec![before[0].clone(), (before[1].0, Some("Robert".to_owned()))];
+    assert_eq!(authors(&mut world), renamed);
+    world.crash();
+    assert_eq!(authors(&mut world), renamed);
+}

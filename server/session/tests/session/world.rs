@@ -9,7 +9,7 @@ use espalier_proto::{
     version::{CloseCode, PROTOCOL_VERSION},
 };
 use espalier_session::{
-    Access, ActId, Anchor, ClientId, Document, Entrant, Input, JournalEntry, Output, PredictionRun,
+    Access, ActId, Anchor, ClientId, Document, Entrant, Input, JournalEntry, Named, Output, PredictionRun,
     Principal, ReadDocument, ReadId, Session, Tail, Urgency, Work,
 };
 use serde_json::{Value, json};
@@ -65,6 +65,8 @@ pub struct World {
     pub notified: usize,
     answers: Vec<Input>,
     pub anchors: Vec<Option<Anchor>>,
+    /// What authors are called, as it is kept.
+    pub named: Vec<Named>,
     pub documents: Vec<(ReadId, ReadDocument)>,
     pub acts: Vec<(ActId, Result<Option<PlacedObstacle>, Problem>)>,
     pub writing: Option<(u64, Vec<JournalEntry>)>,
@@ -118,6 +120,7 @@ impl World {
             notified: 0,
             answers: Vec::new(),
             anchors: Vec::new(),
+            named: Vec::new(),
             documents: Vec::new(),
             acts: Vec::new(),
             writing: None,
@@ -145,6 +148,7 @@ impl World {
         self.session =
             Session::restore_with("plane-tree", self.next_epoch, snapshot, SEED, entries, tail, &mut |_| {})
                 .unwrap();
+        self.session.remember(self.named.iter().cloned());
         self.next_epoch += 1;
         self.peers.clear();
         (self.writing, self.working, self.wake_at) = (None, None, None);
@@ -240,6 +244,7 @@ impl World {
                 }
             }
             Output::Anchored(_, anchor) => self.anchors.push(anchor),
+            Output::Named(named) => self.named.push(named),
             Output::Notified => self.notified += 1,
             Output::Acted { act, outcome } => self.acts.push((act, outcome)),
             Output::Document { read, document } => self.documents.push((read, document)),

@@ -185,6 +185,32 @@ async fn cm2_acknowledged_commands_survive_a_restart() {
     assert_eq!(visitor.session.read().await.unwrap().bytes, before.bytes);
 }
 
+#[tokio::test]
+async fn rp3_who_did_what_is_known_by_name_after_a_restart() {
+    let house = House::new().await;
+    let mut visitor = house.visit().await;
+    visitor.say(r#"{"type":"here","name":"Anne"}"#).await;
+    visitor.grow(1).await;
+    visitor.acknowledged().await;
+    visitor.say(r#"{"type":"here","name":"Ann"}"#).await;
+    visitor.reached(3).await;
+    let house = house.restarted().await;
+    let session = house.sessions.open("oak").await.unwrap().unwrap();
+    let (document, people) = (session.read().await.unwrap(), session.register().await.unwrap());
+    let replay = Session::replay("copy", 1, &document.bytes, people).unwrap();
+    let session = house.sessions.play("copy", replay, room(&house));
+    let (outbox, outgoings) = outbox::lane();
+    let client = session.join(outbox, Entrant::new("a stranger", Role::Viewer)).await.unwrap();
+    let mut visitor = Visitor { session, client, outgoings };
+    visitor.say(&HELLO.replace("test-client", "another-client")).await;
+    let authors = visitor.hear(|message| match message {
+        ServerMessage::Authors { authors } => Some(authors),
+        _ => None,
+    });
+    let names: Vec<_> = authors.await.into_iter().map(|author| author.name).collect();
+    assert_eq!(names, [Some("Ann".to_owned())]);
+}
+
 fn grown(number: u64) -> JournalEntry {
     let command = r#"{"kind":"grow","steps":2}"#.into();
     let principal = Principal::client("test-client").unwrap();

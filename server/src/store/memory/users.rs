@@ -51,6 +51,9 @@ impl Users for MemoryStore {
         let person = person_of(name);
         kept.sessions.values_mut().for_each(|session| _ = session.people.remove(&person));
         kept.threads.values_mut().flatten().for_each(|(_, thread)| thread.forget_reader(&person));
+        for (_, named) in kept.authors.values_mut() {
+            named.person.take_if(|of| **of == *person);
+        }
         Ok(kept.users.remove(&folded(name)).is_some())
     }
 }

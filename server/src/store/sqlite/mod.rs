@@ -2,6 +2,7 @@
 
 mod answers;
 mod audit;
+mod authors;
 mod care;
 mod comments;
 mod finding;

@@ -86,6 +86,7 @@ impl UserWrite {
                 for sql in [
                     "DELETE FROM session_people WHERE person = ?",
                     "DELETE FROM comments_seen WHERE person = ?",
+                    "UPDATE authors SET person = NULL WHERE person = ?",
                 ] {
                     sqlx::query(sql).bind(person_of(name)).execute(&mut *connection).await?;
                 }
