@@ -56,6 +56,28 @@ pub struct Bookmark {
     pub mode: Slug,
 }
 
+/// Somebody whom a comment is for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields, expecting = "an object with name")]
+pub struct NewMention {
+    /// As others see them.
+    pub name: Name,
+    /// Their number among the people of the session, where several have the name (`CT7`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub person: Option<u32>,
+}
+
+/// Somebody whom a comment is for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct Mention {
+    /// As they were called then.
+    pub name: String,
+    /// Whether that is whoever asks, whatever they are called now.
+    pub you: bool,
+}
+
 /// Something to say.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields, expecting = "an object with text")]
@@ -66,10 +88,14 @@ pub struct NewComment {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub author: Option<Name>,
-    /// Whom it is for: names as people have them here.
+    /// Whom it is for.
     #[serde(default)]
-    #[ts(as = "Option<Vec<String>>", optional)]
-    pub mentions: List<Name, 0, MAX_MENTIONS>,
+    #[ts(as = "Option<Vec<NewMention>>", optional)]
+    pub mentions: List<NewMention, 0, MAX_MENTIONS>,
+    /// The session of the tree in which those people are who are given by number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub session: Option<String>,
     /// What they see.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
@@ -179,7 +205,7 @@ pub struct Comment {
     /// In words.
     pub text: String,
     /// Whom it is for.
-    pub mentions: Vec<String>,
+    pub mentions: Vec<Mention>,
     /// What they saw.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]

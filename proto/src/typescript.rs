@@ -221,6 +221,8 @@ pub fn declarations() -> String {
         comment::ThreadPlace::decl(&config),
         comment::Bookmark::decl(&config),
         comment::NewComment::decl(&config),
+        comment::NewMention::decl(&config),
+        comment::Mention::decl(&config),
         comment::NewPin::decl(&config),
         comment::NewThread::decl(&config),
         comment::ChangeThread::decl(&config),

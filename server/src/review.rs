@@ -149,8 +149,9 @@ pub async fn summary(
                     out.paragraph(language.of(LEFT_OUT));
                 }
             }
-            if !said.mentions.is_empty() {
-                out.note(&format!("{} {}", language.of(FOR), said.mentions.join(", ")));
+            let names: Vec<&str> = said.mentions.iter().map(|one| one.name()).collect();
+            if !names.is_empty() {
+                out.note(&format!("{} {}", language.of(FOR), names.join(", ")));
             }
             out.text(&said.text);
             out.end_comment();

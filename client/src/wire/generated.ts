@@ -3276,9 +3276,13 @@ text: string,
  */
 author?: string, 
 /**
- * Whom it is for: names as people have them here.
+ * Whom it is for.
  */
-mentions?: Array<string>, 
+mentions?: Array<NewMention>, 
+/**
+ * The session of the tree in which those people are who are given by number.
+ */
+session?: string, 
 /**
  * What they see.
  */
@@ -3291,6 +3295,26 @@ sketch?: Array<Array<[number, number]>>,
  * A picture of it, as a data URL like a thumbnail.
  */
 picture?: string, };
+
+export type NewMention = { 
+/**
+ * As others see them.
+ */
+name: string, 
+/**
+ * Their number among the people of the session, where several have the name (`CT7`).
+ */
+person?: number, };
+
+export type Mention = { 
+/**
+ * As they were called then.
+ */
+name: string, 
+/**
+ * Whether that is whoever asks, whatever they are called now.
+ */
+you: boolean, };
 
 export type NewPin = { 
 /**
@@ -3368,7 +3392,7 @@ text: string,
 /**
  * Whom it is for.
  */
-mentions: Array<string>, 
+mentions: Array<Mention>, 
 /**
  * What they saw.
  */

@@ -28,6 +28,7 @@ use super::{
     failure::{Body, Failure, Path, Query},
     guard::Named,
     limit::Limit,
+    mentions::{self, Called},
     sessions, trees,
 };
 use crate::{
@@ -74,7 +75,7 @@ pub(super) struct Page {
 pub(crate) struct Said {
     pub(crate) text: String,
     #[serde(default)]
-    pub(crate) mentions: Vec<String>,
+    pub(crate) mentions: Vec<Called>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) bookmark: Option<Bookmark>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -123,7 +124,7 @@ pub(super) async fn begin(
 ) -> Result<impl IntoResponse, Failure> {
     there(&shared, &tree).await?;
     count(&shared, &caller)?;
-    let comment = kept(comment, &caller)?;
+    let comment = kept(&shared, &tree, comment, &caller).await?;
     let session = pin.as_ref().map(|pin| pin.session.clone());
     let pin = match pin {
         Some(pin) => Some(pinned(&shared, &tree, &caller, pin).await?.to_json()),
@@ -144,7 +145,8 @@ pub(super) async fn reply(
 ) -> Result<impl IntoResponse, Failure> {
     there(&shared, &tree).await?;
     count(&shared, &caller)?;
-    let added = shared.store.add_comment(&tree, thread, kept(comment, &caller)?).await.map_err(full)?;
+    let comment = kept(&shared, &tree, comment, &caller).await?;
+    let added = shared.store.add_comment(&tree, thread, comment).await.map_err(full)?;
     let number = added.ok_or_else(no_thread)?;
     shared.store.see_thread(&tree, &caller.person(), thread, number).await?;
     tell(&shared, &tree, None, thread).await?;
@@ -267,7 +269,7 @@ fn told(thread: StoredThread, caller: &Caller, seen: &BTreeMap<u32, u32>) -> Res
                 written_at: comment.written_at,
                 edited_at: comment.edited_at,
                 text,
-                mentions,
+                mentions: mentions.into_iter().map(|one| one.told(caller)).collect(),
                 bookmark,
                 sketch,
                 picture: comment.has_picture,
@@ -299,11 +301,19 @@ pub(super) fn called(caller: &Caller, said: Option<String>) -> String {
 }
 
 /// A comment as the store keeps it.
-fn kept(new: NewComment, caller: &Caller) -> Result<store::NewComment, Problem> {
-    let NewComment { text, author, mentions, bookmark, sketch, picture } = new;
+async fn kept(
+    shared: &Shared,
+    tree: &str,
+    new: NewComment,
+    caller: &Caller,
+) -> Result<store::NewComment, Failure> {
+    let NewComment { text, author, mentions, session, bookmark, sketch, picture } = new;
+    if let Some(session) = &session {
+        require_session(shared, tree, caller, session, "comment.session").await?;
+    }
     let picture = picture.as_deref().map(thumbnail::from_data_url).transpose();
     let picture = picture.map_err(|problem| Problem { field: Some("picture".into()), ..problem })?;
-    let mentions = mentions.iter().map(|name| name.as_str().to_owned()).collect();
+    let mentions = mentions::found(shared, tree, session.as_deref(), mentions.into()).await?;
     let said = Said { text: text.into(), mentions, bookmark, sketch };
     Ok(store::NewComment {
         person: caller.person(),
@@ -317,12 +327,7 @@ fn kept(new: NewComment, caller: &Caller) -> Result<store::NewComment, Problem> 
 /// The place that a thread is pinned to, as the session of the tree has it.
 async fn pinned(shared: &Shared, tree: &str, caller: &Caller, pin: NewPin) -> Result<StoredPin, Failure> {
     let NewPin { session, at } = pin;
-    shared.ask(caller, Action::JoinSession, Named::Session(&session)).await?;
-    let of = shared.store.tree_of(&session).await?;
-    if of.is_none_or(|of| of.id != tree) {
-        let problem = Problem::new(Reason::NoSession, "The tree has no such session.");
-        return Err(problem.at("pin.session", "the name of a session of the tree").into());
-    }
+    require_session(shared, tree, caller, &session, "pin.session").await?;
     let anchor = sessions::open(shared, &session).await?.anchor(at.row).await?;
     let anchor = anchor.ok_or_else(|| {
         Problem::new(Reason::BranchGone, format!("There is no living metamer with the row {}.", at.row))
@@ -330,6 +335,23 @@ async fn pinned(shared: &Shared, tree: &str, caller: &Caller, pin: NewPin) -> Re
     })?;
     let at = ThreadPlace { along: at.along, offset: at.offset, place: at.place };
     Ok(StoredPin { at, anchor })
+}
+
+/// Fails where the tree has no such session, or whoever asks may not be in it.
+async fn require_session(
+    shared: &Shared,
+    tree: &str,
+    caller: &Caller,
+    session: &str,
+    field: &str,
+) -> Result<(), Failure> {
+    shared.ask(caller, Action::JoinSession, Named::Session(session)).await?;
+    let of = shared.store.tree_of(session).await?;
+    if of.is_some_and(|of| of.id == tree) {
+        return Ok(());
+    }
+    let problem = Problem::new(Reason::NoSession, "The tree has no such session.");
+    Err(problem.at(field, "the name of a session of the tree").into())
 }
 
 /// Counts that somebody writes a comment (`LM22`).

@@ -20,6 +20,7 @@ mod keys;
 mod limit;
 mod links;
 mod locks;
+mod mentions;
 mod obstacles;
 mod origin;
 mod owners;

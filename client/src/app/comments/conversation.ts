@@ -1,7 +1,7 @@
 import { computed, signal } from "@preact/signals";
 import { DRAW_MODES } from "../../scene/mode/draw-mode";
 import type { Vec3 } from "../../scene/vector";
-import type { Bookmark, NewComment, PinPlace, Thread } from "../../wire/generated";
+import type { Bookmark, NewComment, NewMention, PinPlace, Thread } from "../../wire/generated";
 import { findSession } from "../connection/session-api";
 import { explained } from "../problems/explained";
 import { RequestFailed } from "../requests/request";
@@ -11,7 +11,7 @@ import { pointerAt } from "../together/own-pointer";
 import { onWood } from "../together/wood-place";
 import { say } from "../words/say";
 import * as api from "./comment-api";
-import { callsFor, unreadIn } from "./filters";
+import { callsForMe, unreadIn } from "./filters";
 import { type Line, picture } from "./view-picture";
 
 /** A comment that is being written. */
@@ -55,7 +55,7 @@ export class Conversation {
   readonly news = computed<News | null>(() => {
     const threads = [...(this.threads.value?.values() ?? [])];
     const count = threads.reduce((sum, thread) => sum + unreadIn(thread).length, 0);
-    const isForMe = threads.some((thread) => callsFor(thread, this.self.value));
+    const isForMe = threads.some(callsForMe);
     const text = say(isForMe ? "comments.unread.me" : "comments.unread", { count });
     return count === 0 ? null : { count, isForMe, text };
   });
@@ -155,7 +155,7 @@ export class Conversation {
   }
 
   /** Says it; true once the server has it. */
-  async send(text: string, mentions: readonly string[], showsView: boolean): Promise<boolean> {
+  async send(text: string, mentions: readonly NewMention[], showsView: boolean): Promise<boolean> {
     const [draft, tree] = [this.draft.peek(), this.tree.peek()];
     if (draft === null || tree === null || this.sending.peek()) {
       return false;
@@ -234,7 +234,7 @@ export class Conversation {
     this.giveUp();
   }
 
-  async #comment(text: string, mentions: readonly string[], showsView: boolean): Promise<NewComment> {
+  async #comment(text: string, mentions: readonly NewMention[], showsView: boolean): Promise<NewComment> {
     const { settings } = this.#studio;
     const author = settings.author.peek().trim();
     const bookmark = showsView ? this.#bookmark() : null;
@@ -244,6 +244,9 @@ export class Conversation {
       text,
       ...(author === "" ? {} : { author }),
       ...(mentions.length === 0 ? {} : { mentions: [...mentions] }),
+      ...(this.#session !== null && mentions.some(({ person }) => person !== undefined)
+        ? { session: this.#session }
+        : {}),
       ...(bookmark ? { bookmark } : {}),
       ...(bookmark && lines.length > 0 ? { sketch: lines.map((line) => line.map(([x, y]) => [x, y])) } : {}),
       ...(seen ? { picture: seen } : {}),

@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { Comment, Pin, Thread } from "../../wire/generated";
-import { authorsOf, callsFor, FILTERS, isUnread, isWanted, unreadIn } from "./filters";
+import { authorsOf, callsForMe, FILTERS, isUnread, isWanted, unreadIn } from "./filters";
 
 function comment(number: number, author: string, rest: Partial<Comment> = {}): Comment {
   const written_at = "2026-05-01T12:00:00.000Z";
@@ -14,7 +14,7 @@ function thread(number: number, comments: Comment[], rest: Partial<Thread> = {})
 const AT = { along: 0.5, offset: [0, 0, 0], place: [0, 1, 0] } as unknown as NonNullable<Thread["at"]>;
 const THREADS = [
   thread(1, [comment(1, "Ann", { own: true }), comment(2, "Bo")], { seen: 1, at: AT }),
-  thread(2, [comment(1, "Bo", { mentions: ["ANN"] })], { seen: 1 }),
+  thread(2, [comment(1, "Bo", { mentions: [{ name: "ANN", you: true }] })], { seen: 1 }),
   thread(3, [comment(1, "Cy")], { seen: 1, at: AT, resolved: { by: "Bo", at: "2026" } }),
 ];
 const PINS = new Map<number, Pin>([
@@ -30,26 +30,27 @@ it.each([
   ["detached", [3]],
   ["all", [1, 2, 3]],
 ] as const)("CT4: %s shows threads %j", (filter, expected) => {
-  const shown = THREADS.filter((one) => isWanted(one, PINS.get(one.thread), { filter, person: null, self: ["Ann"] }));
+  const shown = THREADS.filter((one) => isWanted(one, PINS.get(one.thread), { filter, person: null }));
   expect(shown.map((one) => one.thread)).toEqual(expected);
 });
 
 it("CT4: threads of a person are those in which they have said something", () => {
   const of = (person: string) =>
-    THREADS.filter((one) => isWanted(one, undefined, { filter: "all", person, self: [] })).map((one) => one.thread);
+    THREADS.filter((one) => isWanted(one, undefined, { filter: "all", person })).map((one) => one.thread);
   expect([of("Bo"), of("Cy"), of("Ed")]).toEqual([[1, 2], [3], []]);
   expect(authorsOf(THREADS)).toEqual(["Ann", "Bo", "Cy"]);
 });
 
-it("CT4: nobody without a name is named, and nothing of one's own is unread", () => {
-  const unnamed = THREADS.filter((one) => isWanted(one, undefined, { filter: "mentions", person: null, self: [""] }));
-  expect(unnamed).toEqual([]);
+it("CT4: nothing of one's own is unread", () => {
   expect(isUnread(thread(9, [comment(1, "Ann", { own: true })]))).toBe(false);
   expect(FILTERS).toHaveLength(6);
 });
 
 it("CT4: what was not seen is counted, and told apart where it is for whoever looks", () => {
-  const both = thread(9, [comment(1, "Bo", { mentions: ["Ann"] }), comment(2, "Bo"), comment(3, "Cy")], { seen: 1 });
+  const mentions = [{ name: "Ann as she was called", you: true }];
+  const both = thread(9, [comment(1, "Bo", { mentions }), comment(2, "Bo"), comment(3, "Cy")], { seen: 1 });
   expect(unreadIn(both).map(({ comment }) => comment)).toEqual([2, 3]);
-  expect([callsFor(both, ["Ann"]), callsFor({ ...both, seen: 0 }, ["?", "ann"])]).toEqual([false, true]);
+  expect([callsForMe(both), callsForMe({ ...both, seen: 0 })]).toEqual([false, true]);
+  const another = thread(9, [comment(1, "Bo", { mentions: [{ name: "Ann", you: false }] })]);
+  expect(callsForMe(another)).toBe(false);
 });

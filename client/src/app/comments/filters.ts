@@ -1,5 +1,4 @@
 import type { Comment, Pin, Thread } from "../../wire/generated";
-import { isSameName } from "./mentions";
 
 /** Which threads a list shows. */
 export const FILTERS = ["open", "mine", "mentions", "unread", "detached", "all"] as const;
@@ -10,8 +9,6 @@ export interface Wanted {
   readonly filter: Filter;
   /** What somebody must have taken part, if anybody must. */
   readonly person: string | null;
-  /** What whoever looks is called, by whatever names. */
-  readonly self: readonly string[];
 }
 
 /** Whether there is something in a thread that whoever looks has not seen. */
@@ -24,18 +21,18 @@ export function unreadIn({ comments, seen }: Thread): Comment[] {
   return comments.filter(({ comment, own }) => comment > seen && !own);
 }
 
-/** Whether a comment is for whoever is called so. */
-export function isFor({ mentions }: Comment, self: readonly string[]): boolean {
-  return mentions.some((name) => self.some((own) => isSameName(name, own)));
+/** Whether a comment is for whoever looks (`CT7`). */
+export function isForMe({ mentions }: Comment): boolean {
+  return mentions.some(({ you }) => you);
 }
 
-/** Whether something in a thread that was not seen is for whoever is called so. */
-export function callsFor(thread: Thread, self: readonly string[]): boolean {
-  return unreadIn(thread).some((comment) => isFor(comment, self));
+/** Whether something in a thread that was not seen is for whoever looks. */
+export function callsForMe(thread: Thread): boolean {
+  return unreadIn(thread).some(isForMe);
 }
 
 /** Whether a list shows a thread. */
-export function isWanted(thread: Thread, pin: Pin | undefined, { filter, person, self }: Wanted): boolean {
+export function isWanted(thread: Thread, pin: Pin | undefined, { filter, person }: Wanted): boolean {
   if (person !== null && !thread.comments.some(({ author }) => author === person)) {
     return false;
   }
@@ -45,7 +42,7 @@ export function isWanted(thread: Thread, pin: Pin | undefined, { filter, person,
     case "mine":
       return thread.comments.some(({ own }) => own);
     case "mentions":
-      return thread.comments.some((comment) => isFor(comment, self));
+      return thread.comments.some(isForMe);
     case "unread":
       return isUnread(thread);
     case "detached":

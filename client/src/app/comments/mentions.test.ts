@@ -1,5 +1,15 @@
 import { expect, it } from "vitest";
-import { asked, completed, matching, mentionedIn, piecesOf } from "./mentions";
+import {
+  asked,
+  type Candidate,
+  candidates,
+  completed,
+  labelOf,
+  matching,
+  mentionedIn,
+  mentionsOf,
+  piecesOf,
+} from "./mentions";
 
 const NAMES = ["Ann", "Anna Lee", "Bo", "Émile"];
 
@@ -23,7 +33,8 @@ it.each([
   ["bo", []],
   ["x", []],
 ])("CT1: %j may become %j", (typed, expected) => {
-  expect(matching(NAMES, typed)).toEqual(expected);
+  const all = candidates([], NAMES);
+  expect(matching(all, typed).map(({ name }) => name)).toEqual(expected);
 });
 
 it("CT1: a name takes the place of what was typed of it, and the caret stands behind it", () => {
@@ -40,4 +51,30 @@ it("CT1: a text is told apart in mentions and what is between", () => {
   ]);
   expect(piecesOf("nobody", NAMES)).toEqual([{ text: "nobody", name: null }]);
   expect(mentionedIn("@Bo and @bo and @Ann", NAMES)).toEqual(["Bo", "Ann"]);
+});
+
+const HERE: Candidate[] = [
+  { name: "Bo", person: 2 },
+  { name: "bo", person: 5 },
+  { name: "Ann", person: 3 },
+  { name: "Ann", person: 3 },
+];
+
+it("CT7: two of one name are told apart, and one at two devices is one", () => {
+  const all = candidates(HERE, ["Ann", "Cy"]);
+  expect(all).toEqual([...HERE.slice(0, 3), { name: "Cy", person: null }]);
+  expect(all.map((one) => labelOf(one, all))).toEqual(["Bo (2)", "bo (5)", "Ann", "Cy"]);
+});
+
+it("CT7: who was picked from the list is meant by the name, and who alone has it", () => {
+  const all = candidates(HERE, ["Cy"]);
+  const [first, second] = HERE as [Candidate, Candidate];
+  expect(mentionsOf("@Bo and @Ann and @Cy", all, [], [first, second])).toEqual([
+    { name: "bo", person: 5 },
+    { name: "Ann", person: 3 },
+    { name: "Cy" },
+  ]);
+  expect(mentionsOf("@Bo", all, [], [])).toEqual([{ name: "Bo" }]);
+  expect(mentionsOf("@Bo", all, [first], [second])).toEqual([{ name: "Bo", person: 2 }]);
+  expect(mentionsOf("nobody", all, [], [second])).toEqual([]);
 });

@@ -33,7 +33,7 @@ async fn ct1_threads_are_begun_answered_and_read() {
     let bookmark = json!({ "camera": camera, "step": 4, "line": 0, "mode": "lit" });
     let sketch = json!([[[0.25, 0.5], [0.5, 0.75]]]);
     let comment = json!({
-        "text": " too <b>thin</b>\nhere ", "author": "Ann", "mentions": ["Ben"],
+        "text": " too <b>thin</b>\nhere ", "author": "Ann", "mentions": [{ "name": "Ben" }],
         "bookmark": bookmark, "sketch": sketch, "picture": png(),
     });
     let (status, begun) = asked(&server, &ann, &Method::POST, THREADS, &json!({ "comment": comment })).await;
@@ -49,7 +49,7 @@ async fn ct1_threads_are_begun_answered_and_read() {
 
     let list = asked(&server, &ben, &Method::GET, THREADS, &Value::Null).await.1;
     assert_eq!((&list[0]["seen"], &list[0]["comments"][0]["own"]), (&json!(0), &json!(false)));
-    assert_eq!(list[0]["comments"][0]["mentions"], json!(["Ben"]));
+    assert_eq!(list[0]["comments"][0]["mentions"], json!([{ "name": "Ben", "you": false }]));
     let own = format!("{THREADS}/1");
     let answer = json!({ "text": "thicker then", "author": "Cy" });
     let (status, answered) = asked(&server, &ann, &Method::POST, &format!("{own}/comments"), &answer).await;
@@ -80,7 +80,11 @@ async fn lm22_what_cannot_be_said_is_named() {
         (said(""), 400, "comment.text"),
         (said(&"x".repeat(4001)), 400, "comment.text"),
         (said("\u{3164}"), 400, "comment.text"),
-        (json!({ "comment": { "text": "a", "mentions": vec!["Bo"; 17] } }), 400, "comment.mentions"),
+        (
+            json!({ "comment": { "text": "a", "mentions": vec![json!({ "name": "Bo" }); 17] } }),
+            400,
+            "comment.mentions",
+        ),
         (json!({ "comment": { "text": "a", "sketch": [[[1.5, 0]]] } }), 400, "comment.sketch[0][0][0]"),
         (json!({ "comment": { "text": "a", "picture": "data:text/html;base64,AA" } }), 400, "picture"),
         (json!({ "comment": { "text": "a" }, "colour": 1 }), 400, "colour"),

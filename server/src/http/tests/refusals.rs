@@ -79,7 +79,7 @@ pub(super) fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
             "POST /api/v1/trees/{tree}/threads/{thread}/comments",
             names(&["text"]),
             json!({
-                "text": "Thicker", "author": "Ada", "mentions": ["Bo"], "sketch": [[[0.5, 0.5]]],
+                "text": "Thicker", "author": "Ada", "mentions": [{ "name": "Bo" }], "sketch": [[[0.5, 0.5]]],
                 "bookmark": {
                     "camera": { "target": [0, 5, 0], "yaw": 0, "pitch": 0, "distance": 30 },
                     "step": 4, "line": 0, "mode": "lit",

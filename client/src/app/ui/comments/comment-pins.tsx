@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
 import { Conversation } from "../../comments/conversation";
-import { callsFor, isUnread } from "../../comments/filters";
+import { callsForMe, isUnread } from "../../comments/filters";
 import type { Studio } from "../../studio";
 import { language, say } from "../../words/say";
 import { useAnimationFrames } from "../use-animation-frames";
@@ -69,7 +69,7 @@ export function CommentPins({ studio }: { studio: Studio }) {
             class="comment-pin"
             data-thread={thread.thread}
             data-unread={isUnread(thread)}
-            data-me={callsFor(thread, conversation.self.value)}
+            data-me={callsForMe(thread)}
           >
             <svg class="overlay" aria-hidden="true">
               <line />

@@ -2,7 +2,16 @@ import { useRef, useState } from "preact/hooks";
 import { MAX_COMMENT_CHARACTERS } from "../../../wire/generated";
 import type { Conversation } from "../../comments/conversation";
 import { authorsOf } from "../../comments/filters";
-import { asked, completed, isSameName, matching, mentionedIn } from "../../comments/mentions";
+import {
+  asked,
+  type Candidate,
+  candidates,
+  completed,
+  isSameName,
+  labelOf,
+  matching,
+  mentionsOf,
+} from "../../comments/mentions";
 import type { Studio } from "../../studio";
 import { companions } from "../../together/people";
 import { say } from "../../words/say";
@@ -15,21 +24,24 @@ interface ComposeProps {
 /** Words, whom they are for, and the view with what is drawn on it. */
 export function Compose({ studio, conversation }: ComposeProps) {
   const [text, setText] = useState("");
-  const [chosen, setChosen] = useState<readonly string[]>([]);
+  const [chosen, setChosen] = useState<readonly Candidate[]>([]);
+  /** Who was meant by a name in the text, where it was taken from the list. */
+  const [picked, setPicked] = useState<readonly Candidate[]>([]);
   // An answer is mostly about the view that is there already.
   const [showsView, setShowsView] = useState(conversation.draft.peek()?.thread === null);
   const [caret, setCaret] = useState(0);
   const [closed, setClosed] = useState(false);
   const field = useRef<HTMLTextAreaElement>(null);
   const self = conversation.self.value;
-  const here = companions(studio.together.people.value).map(({ name }) => name);
+  const here = companions(studio.together.people.value).map(({ name, person }) => ({ name, person: person.person }));
   const known = authorsOf(conversation.threads.value?.values() ?? []);
-  const names = [...new Set([...here, ...known])].filter((name) => !self.some((own) => isSameName(name, own)));
+  const all = candidates(here, known).filter(({ name }) => !self.some((own) => isSameName(name, own)));
   const typed = closed ? null : asked(text, caret);
-  const offered = typed === null ? [] : matching(names, typed).slice(0, 6);
+  const offered = typed === null ? [] : matching(all, typed).slice(0, 6);
   const [first] = offered;
-  const mention = (name: string) => {
-    const next = completed(text, caret, name);
+  const mention = (one: Candidate) => {
+    const next = completed(text, caret, one.name);
+    setPicked([...picked, one]);
     setText(next.text);
     setCaret(next.caret);
     // Once the field has the new text.
@@ -47,7 +59,7 @@ export function Compose({ studio, conversation }: ComposeProps) {
       onSubmit={(event) => {
         event.preventDefault();
         if (text.trim() !== "") {
-          const mentions = [...new Set([...chosen, ...mentionedIn(text, names)])];
+          const mentions = mentionsOf(text, all, chosen, picked);
           void conversation.send(text, mentions, showsView).then((sent) => sent && setText(""));
         }
       }}
@@ -79,29 +91,31 @@ export function Compose({ studio, conversation }: ComposeProps) {
       </label>
       {offered.length > 0 && (
         <fieldset class="comment-names" aria-label={say("comments.mention")}>
-          {offered.map((name) => (
-            <button type="button" class="small" key={name} onClick={() => mention(name)}>
-              @{name}
+          {offered.map((one) => (
+            <button type="button" class="small" key={labelOf(one, all)} onClick={() => mention(one)}>
+              @{labelOf(one, all)}
             </button>
           ))}
         </fieldset>
       )}
-      {names.length > 0 && offered.length === 0 && (
+      {all.length > 0 && offered.length === 0 && (
         <fieldset class="comment-names">
           <legend>{say("comments.for")}</legend>
-          {names.slice(0, 12).map((name) => (
-            <button
-              type="button"
-              class="small"
-              key={name}
-              aria-pressed={chosen.includes(name)}
-              onClick={() =>
-                setChosen(chosen.includes(name) ? chosen.filter((other) => other !== name) : [...chosen, name])
-              }
-            >
-              {name}
-            </button>
-          ))}
+          {all.slice(0, 12).map((one) => {
+            const isOne = ({ name, person }: Candidate) => name === one.name && person === one.person;
+            const isChosen = chosen.some(isOne);
+            return (
+              <button
+                type="button"
+                class="small"
+                key={labelOf(one, all)}
+                aria-pressed={isChosen}
+                onClick={() => setChosen(isChosen ? chosen.filter((other) => !isOne(other)) : [...chosen, one])}
+              >
+                {labelOf(one, all)}
+              </button>
+            );
+          })}
         </fieldset>
       )}
       <label class="comment-check">

@@ -1,5 +1,5 @@
 import { useState } from "preact/hooks";
-import type { Comment, Pin, Thread } from "../../../wire/generated";
+import type { Comment, Mention, Pin, Thread } from "../../../wire/generated";
 import { pictureAddress } from "../../comments/comment-api";
 import type { Conversation } from "../../comments/conversation";
 import { isSameName, mentionedIn, piecesOf } from "../../comments/mentions";
@@ -69,20 +69,19 @@ export function stateText({ at }: Thread, pin: Pin | undefined): string {
 
 interface WordsProps {
   readonly text: string;
-  readonly mentions: readonly string[];
-  /** What whoever reads is called. */
-  readonly self: readonly string[];
+  readonly mentions: readonly Mention[];
 }
 
 /** What was said, with those it is for. */
-function Words({ text, mentions, self }: WordsProps) {
+function Words({ text, mentions }: WordsProps) {
+  const names = mentions.map(({ name }) => name);
   return (
     <>
-      {piecesOf(text, mentions).map(({ text, name }, i) =>
+      {piecesOf(text, names).map(({ text, name }, i) =>
         name === null ? (
           text
         ) : (
-          <mark class="mention" key={i} data-me={self.some((own) => isSameName(name, own))}>
+          <mark class="mention" key={i} data-me={mentions.some((one) => one.you && isSameName(one.name, name))}>
             {text}
           </mark>
         ),
@@ -103,8 +102,9 @@ function CommentView({ studio, conversation, thread, comment }: CommentViewProps
   const isOtherStep =
     bookmark !== undefined && now !== null && bookmark.line === now.line && bookmark.step !== now.step;
   // Who is named in the words themselves is not named twice.
-  const named = mentionedIn(text, mentions);
-  const others = mentions.filter((name) => !named.includes(name));
+  const names = mentions.map(({ name }) => name);
+  const named = mentionedIn(text, names);
+  const others = names.filter((name) => !named.includes(name));
   const mayDelete = studio.rights.mayComment && (comment.own || studio.rights.mayGovern);
   return (
     <li data-own={comment.own}>
@@ -121,7 +121,7 @@ function CommentView({ studio, conversation, thread, comment }: CommentViewProps
         </p>
       )}
       <p class="comment-text">
-        <Words text={text} mentions={mentions} self={conversation.self.value} />
+        <Words text={text} mentions={mentions} />
       </p>
       {comment.picture && tree !== null && (
         <img

@@ -2,7 +2,7 @@ import { useEffect, useState } from "preact/hooks";
 import type { Thread } from "../../../wire/generated";
 import { reviewAddress } from "../../comments/comment-api";
 import type { Conversation } from "../../comments/conversation";
-import { authorsOf, callsFor, FILTERS, type Filter, isUnread, isWanted, unreadIn } from "../../comments/filters";
+import { authorsOf, callsForMe, FILTERS, type Filter, isUnread, isWanted, unreadIn } from "../../comments/filters";
 import type { Studio } from "../../studio";
 import { dateText } from "../../words/date-text";
 import { language, say } from "../../words/say";
@@ -74,8 +74,7 @@ function ThreadList({ studio, conversation, threads }: ThreadListProps) {
   const [filter, setFilter] = useState<Filter>("open");
   const [person, setPerson] = useState<string | null>(null);
   const pins = studio.comments.pins.value;
-  const self = conversation.self.value;
-  const wanted = threads.filter((thread) => isWanted(thread, pins.get(thread.thread), { filter, person, self }));
+  const wanted = threads.filter((thread) => isWanted(thread, pins.get(thread.thread), { filter, person }));
   const authors = authorsOf(threads);
   const tree = conversation.tree.value;
   return (
@@ -145,8 +144,8 @@ function ThreadList({ studio, conversation, threads }: ThreadListProps) {
                 <strong>{thread.comments[0]?.author}</strong>{" "}
                 <span class="quiet">{dateText(thread.comments[0]?.written_at ?? "")}</span>
                 {isUnread(thread) && (
-                  <span class="comment-new" data-me={callsFor(thread, self)}>
-                    {say(callsFor(thread, self) ? "comments.new.me" : "comments.new.in", {
+                  <span class="comment-new" data-me={callsForMe(thread)}>
+                    {say(callsForMe(thread) ? "comments.new.me" : "comments.new.in", {
                       count: unreadIn(thread).length,
                     })}
                   </span>
