@@ -2,6 +2,7 @@
 
 mod delays;
 mod person;
+mod progress;
 mod scenarios;
 mod site;
 

@@ -13,6 +13,7 @@ use tokio_tungstenite::{
     WebSocketStream, client_async,
     tungstenite::{Message, client::IntoClientRequest, http::header::AUTHORIZATION},
 };
+use tokio_util::sync::CancellationToken;
 
 use super::{
     LoadError,
@@ -128,6 +129,17 @@ impl Person {
             heard?;
         }
         Ok(())
+    }
+
+    /// Takes in what comes until something has happened: whoever reads nothing is let go (`FL3`).
+    pub async fn wait(mut self, happened: CancellationToken) -> Result<Self, LoadError> {
+        loop {
+            tokio::select! {
+                biased;
+                () = happened.cancelled() => return Ok(self),
+                heard = hear(&mut self.socket) => { self.take(heard?).await?; }
+            }
+        }
     }
 
     /// Draws strokes around the tree, ten parts of them a second, each taken back when it has ended, so that the tree stays as

@@ -2,17 +2,20 @@
 
 use std::{sync::Arc, time::Duration};
 
+use futures_util::{StreamExt, stream};
 use serde_json::json;
 use tokio::{
     io::{AsyncReadExt, AsyncWriteExt},
     task::JoinSet,
     time::{Instant, sleep_until, timeout},
 };
+use tokio_util::sync::CancellationToken;
 
 use super::{
     Load, LoadError,
     delays::{Delays, Table},
     person::{Measured, Person},
+    progress::Progress,
     site::Site,
 };
 
@@ -52,25 +55,33 @@ const GATHERING: Duration = Duration::from_secs(2);
 /// Tasks that begin at once, so that the server is not asked for everything in one moment.
 const AT_ONCE: usize = 16;
 
+/// Connections that send nonsense at once: fewer than the server has places for.
+const CONNECTED_AT_ONCE: usize = 64;
+/// Nonsense that is not answered, because more may come, is given up after so long.
+const GIVEN_UP: Duration = Duration::from_millis(200);
+
 /// Sessions, in one of `one_in` of which somebody draws.
 async fn sessions(site: &Arc<Site>, load: &Load, one_in: u32) -> Result<Table, LoadError> {
-    let mut people = Vec::new();
-    for chunk in (0..load.sessions).collect::<Vec<_>>().chunks(AT_ONCE) {
-        let begun: JoinSet<_> = chunk
-            .iter()
-            .map(|&number| {
-                let (site, metamers) = (Arc::clone(site), load.metamers);
-                async move {
-                    let (session, drawer) = planted(&site, number, metamers).await?;
-                    let viewer = Person::join(&site, &session, &key("viewer", number)).await?;
-                    Ok::<_, LoadError>((number, drawer, viewer))
-                }
-            })
-            .collect();
-        for one in begun.join_all().await {
-            people.push(one?);
-        }
+    let all_here = CancellationToken::new();
+    let mut begun = stream::iter(0..load.sessions)
+        .map(async |number| {
+            let (session, drawer) = planted(site, number, load.metamers).await?;
+            let viewer = Person::join(site, &session, &key("viewer", number)).await?;
+            Ok::<_, LoadError>((number, drawer, viewer))
+        })
+        .buffer_unordered(AT_ONCE);
+    let mut waiting = JoinSet::new();
+    let mut progress = Progress::of(load.sessions, "sessions are planted");
+    while let Some(one) = begun.next().await {
+        let ((number, drawer, viewer), all_here) = (one?, all_here.clone());
+        waiting.spawn(async move {
+            let (drawer, viewer) = tokio::try_join!(drawer.wait(all_here.clone()), viewer.wait(all_here))?;
+            Ok::<_, LoadError>((number, drawer, viewer))
+        });
+        progress.count();
     }
+    all_here.cancel();
+    let people = waiting.join_all().await.into_iter().collect::<Result<Vec<_>, _>>()?;
     let first = Instant::now() + GATHERING;
     let until = first + load.time();
     let mut under_way = JoinSet::new();
@@ -171,26 +182,31 @@ async fn idle(site: &Arc<Site>, load: &Load) -> Result<Table, LoadError> {
     let session = site.begin_session(&json!({})).await?;
     let first = Person::join(site, &session, "somebody").await?;
     let before = site.memory().await?;
-    let mut people = vec![first];
-    for number in 1..load.sockets {
-        people.push(Person::join(site, &session, &key("idle", number)).await?);
+    // Everybody hears of everybody who comes, and takes that in.
+    let measured = CancellationToken::new();
+    let mut people = JoinSet::new();
+    people.spawn(first.wait(measured.clone()));
+    let mut coming = stream::iter(1..load.sockets)
+        .map(async |number| Person::join(site, &session, &key("idle", number)).await)
+        .buffer_unordered(AT_ONCE);
+    let mut progress = Progress::of(load.sockets, "sockets are there");
+    while let Some(person) = coming.next().await {
+        people.spawn(person?.wait(measured.clone()));
+        progress.count();
+        // Nobody leaves of themselves: whoever is let go is told of at once.
+        if let Some(gone) = people.try_join_next() {
+            gone.map_err(|error| LoadError::Lost(error.to_string()))??;
+        }
     }
-    // Everybody hears of everybody who comes.
-    let until = Instant::now() + GATHERING;
-    let heard: JoinSet<_> = people
-        .into_iter()
-        .map(|mut person| async move {
-            person.stay(until).await?;
-            Ok::<_, LoadError>(person)
-        })
-        .collect();
-    let people = heard.join_all().await.into_iter().collect::<Result<Vec<_>, _>>()?;
+    sleep_until(Instant::now() + GATHERING).await;
     if let (Some(before), Some(after)) = (before, site.memory().await?) {
         let each = after.saturating_sub(before) / u64::from(load.sockets.max(2) - 1);
         table.figure("kB of memory for a socket", format!("{:.1}", each as f64 / 1e3));
     }
-    table.figure("sockets", people.len());
     with_memory(site, &mut table).await;
+    measured.cancel();
+    let people = people.join_all().await.into_iter().collect::<Result<Vec<_>, _>>()?;
+    table.figure("sockets", people.len());
     Ok(table)
 }
 
@@ -208,26 +224,21 @@ async fn malformed(site: &Arc<Site>, load: &Load) -> Result<Table, LoadError> {
     let mut table = Table::default();
     let before = site.memory().await?;
     let mut delays = Delays::default();
-    let numbers: Vec<u32> = (0..load.connections).collect();
-    for chunk in numbers.chunks(AT_ONCE) {
-        let begun: JoinSet<_> = chunk
-            .iter()
-            .map(|&number| {
-                let site = Arc::clone(site);
-                async move {
-                    let begun = Instant::now();
-                    let mut stream = site.connect().await?;
-                    // Whether it is taken or refused is the server's affair.
-                    let _ = stream.write_all(NONSENSE[number as usize % NONSENSE.len()]).await;
-                    let mut answer = [0; 1024];
-                    let _ = timeout(Duration::from_millis(200), stream.read(&mut answer)).await;
-                    Ok::<_, LoadError>(begun.elapsed())
-                }
-            })
-            .collect();
-        for one in begun.join_all().await {
-            delays.push(one?);
-        }
+    let mut begun = stream::iter(0..load.connections)
+        .map(async |number| {
+            let begun = Instant::now();
+            let mut stream = site.connect().await?;
+            // Whether it is taken or refused is the server's affair.
+            let _ = stream.write_all(NONSENSE[number as usize % NONSENSE.len()]).await;
+            let mut answer = [0; 1024];
+            let _ = timeout(GIVEN_UP, stream.read(&mut answer)).await;
+            Ok::<_, LoadError>(begun.elapsed())
+        })
+        .buffer_unordered(CONNECTED_AT_ONCE);
+    let mut progress = Progress::of(load.connections, "connections are done");
+    while let Some(one) = begun.next().await {
+        delays.push(one?);
+        progress.count();
     }
     sleep_until(Instant::now() + GATHERING).await;
     table.delays("a connection, until it is answered or given up", delays);
