@@ -1,6 +1,6 @@
 //! Binary mesh deltas: rings of generalized cylinders as columns of a table with one row per metamer.
 //!
-//! A frame is a 16-byte header and a body of [`ChunkChange`]s. Rows are metamers in birth order; a chunk is
+//! A frame is a header and a body of [`ChunkChange`]s. Rows are metamers in birth order; a chunk is
 //! [`CHUNK_ROWS`] consecutive rows with one generation. `PROTOCOL.md` gives the layout byte by byte (`FR`).
 
 use crate::{
@@ -140,19 +140,27 @@ impl Rows {
         debug_assert!(self.is_consistent(), "all columns have one length");
         varint::write(out, self.len() as u32);
         write_column(out, &self.parent, |v| *v);
-        write_positions(out, &self.position);
-        write_column(out, &self.radius, |v| u32::from(*v));
-        out.extend_from_slice(&self.foliage);
-        out.extend_from_slice(&self.light);
+        write_positions(out, &unlike(&self.parent, &self.position));
+        write_radii(out, &self.radius);
+        write_bytes(out, &self.foliage);
+        write_bytes(out, &self.light);
         write_births(out, &self.born);
     }
 
     fn read(bytes: &mut &[u8]) -> Result<Self, FrameError> {
         let count = read_count(bytes)?;
+        let parent = read_column(bytes, count, Some)?;
+        let mut position = read_positions(bytes, count)?;
+        for row in 1..count {
+            if parent[row] == NEXT {
+                position[row] =
+                    std::array::from_fn(|axis| position[row][axis].wrapping_add(position[row - 1][axis]));
+            }
+        }
         Ok(Self {
-            parent: read_column(bytes, count, Some)?,
-            position: read_positions(bytes, count)?,
-            radius: read_column(bytes, count, |v| u16::try_from(v).ok())?,
+            parent,
+            position,
+            radius: read_radii(bytes, count)?,
             foliage: read_bytes(bytes, count)?,
             light: read_bytes(bytes, count)?,
             born: read_births(bytes, count)?,
@@ -198,8 +206,8 @@ impl Values {
         match self {
             Self::Parent(v) => write_column(out, v, |v| *v),
             Self::Position(v) => write_positions(out, v),
-            Self::Radius(v) => write_column(out, v, |v| u32::from(*v)),
-            Self::Foliage(v) | Self::Light(v) => out.extend_from_slice(v),
+            Self::Radius(v) => write_radii(out, v),
+            Self::Foliage(v) | Self::Light(v) => write_bytes(out, v),
             Self::Born(v) => write_births(out, v),
         }
     }
@@ -208,7 +216,7 @@ impl Values {
         Ok(match column {
             0 => Self::Parent(read_column(bytes, count, Some)?),
             1 => Self::Position(read_positions(bytes, count)?),
-            2 => Self::Radius(read_column(bytes, count, |v| u16::try_from(v).ok())?),
+            2 => Self::Radius(read_radii(bytes, count)?),
             3 => Self::Foliage(read_bytes(bytes, count)?),
             4 => Self::Light(read_bytes(bytes, count)?),
             5 => Self::Born(read_births(bytes, count)?),
@@ -217,13 +225,16 @@ impl Values {
     }
 }
 
+/// The parent of a row that goes on where the row before it ends.
+const NEXT: u32 = 2;
+
 const TRUNCATE: u8 = 1;
 const REPLACE: u8 = 2;
 const APPEND: u8 = 3;
 const PATCH: u8 = 4;
 
 impl ChunkChange {
-    fn write(&self, out: &mut Vec<u8>) {
+    fn write(&self, sequence: u32, out: &mut Vec<u8>) {
         match self {
             Self::Truncate { rows } => {
                 out.push(TRUNCATE);
@@ -232,13 +243,13 @@ impl ChunkChange {
             Self::Replace { chunk, generation, rows } => {
                 out.push(REPLACE);
                 varint::write(out, *chunk);
-                varint::write(out, *generation);
+                varint::write(out, sequence.wrapping_sub(*generation));
                 rows.write(out);
             }
             Self::Append { chunk, generation, start, rows } => {
                 out.push(APPEND);
                 varint::write(out, *chunk);
-                varint::write(out, *generation);
+                varint::write(out, sequence.wrapping_sub(*generation));
                 varint::write(out, *start);
                 rows.write(out);
             }
@@ -246,7 +257,7 @@ impl ChunkChange {
                 debug_assert_eq!(rows.len(), values.len(), "one value a row");
                 out.push(PATCH);
                 varint::write(out, *chunk);
-                varint::write(out, *generation);
+                varint::write(out, sequence.wrapping_sub(*generation));
                 out.push(values.column() as u8);
                 varint::write(out, rows.len() as u32);
                 let mut next = 0;
@@ -259,13 +270,13 @@ impl ChunkChange {
         }
     }
 
-    fn read(bytes: &mut &[u8]) -> Result<Self, FrameError> {
+    fn read(bytes: &mut &[u8], sequence: u32) -> Result<Self, FrameError> {
         let kind = read_byte(bytes)?;
         let first = read_varint(bytes)?;
         if kind == TRUNCATE {
             return Ok(Self::Truncate { rows: first });
         }
-        let (chunk, generation) = (first, read_varint(bytes)?);
+        let (chunk, generation) = (first, sequence.wrapping_sub(read_varint(bytes)?));
         match kind {
             REPLACE => Ok(Self::Replace { chunk, generation, rows: Rows::read(bytes)? }),
             APPEND => {
@@ -296,26 +307,28 @@ impl Frame {
     pub fn encode(&self) -> Vec<u8> {
         let flags = if self.catch_up { FLAG_CATCH_UP } else { 0 };
         let header = Header { flags, epoch: self.epoch, sequence: self.sequence };
-        envelope::seal(FrameKind::MeshDelta, header, &write_changes(&self.changes))
+        envelope::seal(FrameKind::MeshDelta, header, &write_changes(&self.changes, self.sequence))
     }
 
     /// Reads a frame; any bytes at all give a frame or an error.
     pub fn decode(bytes: &[u8]) -> Result<Self, FrameError> {
         let (Header { flags, epoch, sequence }, body) = envelope::open(bytes, FrameKind::MeshDelta)?;
-        Ok(Self { epoch, sequence, catch_up: flags & FLAG_CATCH_UP != 0, changes: read_changes(&body)? })
+        let changes = read_changes(&body, sequence)?;
+        Ok(Self { epoch, sequence, catch_up: flags & FLAG_CATCH_UP != 0, changes })
     }
 }
 
-pub(crate) fn write_changes(changes: &[ChunkChange]) -> Vec<u8> {
+/// The changes of a frame with this sequence.
+pub(crate) fn write_changes(changes: &[ChunkChange], sequence: u32) -> Vec<u8> {
     let mut body = Vec::new();
-    changes.iter().for_each(|change| change.write(&mut body));
+    changes.iter().for_each(|change| change.write(sequence, &mut body));
     body
 }
 
-pub(crate) fn read_changes(mut body: &[u8]) -> Result<Vec<ChunkChange>, FrameError> {
+pub(crate) fn read_changes(mut body: &[u8], sequence: u32) -> Result<Vec<ChunkChange>, FrameError> {
     let mut changes = Vec::new();
     while !body.is_empty() {
-        changes.push(ChunkChange::read(&mut body)?);
+        changes.push(ChunkChange::read(&mut body, sequence)?);
     }
     Ok(changes)
 }
@@ -326,11 +339,33 @@ fn write_column<T>(out: &mut Vec<u8>, values: &[T], mut code: impl FnMut(&T) -> 
     }
 }
 
+/// Of a row that goes on where the row before it ends, how it differs from that: shoots are nearly straight.
+fn unlike(parents: &[u32], positions: &[[i32; 3]]) -> Vec<[i32; 3]> {
+    let before = |row: usize| if row > 0 && parents[row] == NEXT { positions[row - 1] } else { [0; 3] };
+    let rows = positions.iter().enumerate();
+    rows.map(|(row, p)| std::array::from_fn(|axis| p[axis].wrapping_sub(before(row)[axis]))).collect()
+}
+
+/// Each as the difference to the one before it, modulo 256.
+fn write_bytes(out: &mut Vec<u8>, bytes: &[u8]) {
+    let mut before = 0;
+    out.extend(bytes.iter().map(|&byte| byte.wrapping_sub(std::mem::replace(&mut before, byte))));
+}
+
 /// All x, then all y, then all z: like stands beside like, which packs better.
 fn write_positions(out: &mut Vec<u8>, positions: &[[i32; 3]]) {
     for axis in 0..3 {
         write_column(out, positions, |p| varint::zigzag(p[axis]));
     }
+}
+
+/// Each as the difference to the one before it: what grows on one axis is nearly equally thick.
+fn write_radii(out: &mut Vec<u8>, radii: &[u16]) {
+    let mut before = 0;
+    write_column(out, radii, |&code| {
+        let code = i32::from(code);
+        varint::zigzag(code - std::mem::replace(&mut before, code))
+    });
 }
 
 /// Each as the difference to the one before it: rows are in birth order, so nearly all are 0.
@@ -357,7 +392,14 @@ fn read_count(bytes: &mut &[u8]) -> Result<usize, FrameError> {
 fn read_bytes(bytes: &mut &[u8], count: usize) -> Result<Vec<u8>, FrameError> {
     let (taken, rest) = bytes.split_at_checked(count).ok_or(FrameError::Truncated)?;
     *bytes = rest;
-    Ok(taken.to_vec())
+    let mut before = 0u8;
+    Ok(taken
+        .iter()
+        .map(|&difference| {
+            before = before.wrapping_add(difference);
+            before
+        })
+        .collect())
 }
 
 fn read_column<T>(
@@ -366,6 +408,15 @@ fn read_column<T>(
     mut parse: impl FnMut(u32) -> Option<T>,
 ) -> Result<Vec<T>, FrameError> {
     (0..count).map(|_| parse(read_varint(bytes)?).ok_or(FrameError::Body)).collect()
+}
+
+fn read_radii(bytes: &mut &[u8], count: usize) -> Result<Vec<u16>, FrameError> {
+    let mut before = 0i32;
+    read_column(bytes, count, |difference| {
+        let code = u16::try_from(before.checked_add(varint::unzigzag(difference))?).ok()?;
+        before = code.into();
+        Some(code)
+    })
 }
 
 fn read_births(bytes: &mut &[u8], count: usize) -> Result<Vec<u32>, FrameError> {

@@ -20,12 +20,12 @@ impl GhostFrame {
     /// The frame as bytes.
     pub fn encode(&self) -> Vec<u8> {
         let header = Header { flags: 0, epoch: self.epoch, sequence: self.sequence };
-        envelope::seal(FrameKind::Ghost, header, &write_changes(&self.changes))
+        envelope::seal(FrameKind::Ghost, header, &write_changes(&self.changes, self.sequence))
     }
 
     /// Reads a frame; any bytes at all give a frame or an error.
     pub fn decode(bytes: &[u8]) -> Result<Self, FrameError> {
         let (Header { epoch, sequence, .. }, body) = envelope::open(bytes, FrameKind::Ghost)?;
-        Ok(Self { epoch, sequence, changes: read_changes(&body)? })
+        Ok(Self { epoch, sequence, changes: read_changes(&body, sequence)? })
     }
 }

@@ -10,6 +10,11 @@ export class ByteReader {
     return this.at >= this.bytes.length;
   }
 
+  /** How many bytes are left. */
+  get left(): number {
+    return this.bytes.length - this.at;
+  }
+
   byte(): number {
     const value = this.bytes[this.at];
     if (value === undefined) throw new FrameError("The frame is cut short.");

@@ -1,3 +1,4 @@
+import { ByteReader } from "./bytes";
 import { FrameError } from "./frame-error";
 import { FrameKind, HEADER_BYTES, MAX_BODY_BYTES } from "./generated";
 import { inflateRaw } from "./inflate";
@@ -12,7 +13,7 @@ export interface OpenedFrame {
   readonly body: Uint8Array;
 }
 
-const VERSION = 1;
+const VERSION = 2;
 /** The only flag, and only mesh deltas have it. */
 const CATCH_UP = 1;
 
@@ -26,20 +27,21 @@ export function kindOf(bytes: ArrayBuffer): Kind | undefined {
 export async function openFrame(bytes: ArrayBuffer, wanted: Kind): Promise<OpenedFrame> {
   if (bytes.byteLength < HEADER_BYTES) throw new FrameError("The frame is cut short.");
   const header = new DataView(bytes, 0, HEADER_BYTES);
+  const rest = new ByteReader(new Uint8Array(bytes, HEADER_BYTES));
   const [version, kind, codec, flags] = [0, 1, 2, 3].map((at) => header.getUint8(at)) as [
     number,
     number,
     number,
     number,
   ];
-  if (version !== VERSION) throw new FrameError(`Frame version ${version} is not 1.`);
+  if (version !== VERSION) throw new FrameError(`Frame version ${version} is not 2.`);
   if (kind !== wanted) throw new FrameError(`Frame kind ${kind} is not ${wanted}.`);
   const known = wanted === FrameKind.MeshDelta ? CATCH_UP : 0;
   if ((flags & ~known) !== 0) throw new FrameError(`Reserved flags 0x${flags.toString(16)} are set.`);
-  const length = header.getUint32(12, true);
+  const [sequence, length] = [rest.varint(), rest.varint()];
   if (length > MAX_BODY_BYTES) throw new FrameError("The body is larger than 64 MiB.");
-  const body = await unpack(codec, new Uint8Array(bytes, HEADER_BYTES), length);
-  return { epoch: header.getUint32(4, true), sequence: header.getUint32(8, true), flags, body };
+  const body = await unpack(codec, new Uint8Array(bytes, bytes.byteLength - rest.left), length);
+  return { epoch: header.getUint32(4, true), sequence, flags, body };
 }
 
 async function unpack(codec: number, payload: Uint8Array<ArrayBuffer>, length: number): Promise<Uint8Array> {

@@ -4,12 +4,13 @@ import { decodeBend } from "./bend-frame";
 import { decodeFrame, FrameError } from "./frame";
 import { decodeServerFrame } from "./server-frame";
 
+function varint(value: number): number[] {
+  return value < 128 ? [value] : [(value % 128) + 128, ...varint(Math.floor(value / 128))];
+}
+
 function headed(body: number[], header: { codec?: number; flags?: number; length?: number } = {}): ArrayBuffer {
-  const bytes = new Uint8Array(16 + body.length);
-  bytes.set([1, 1, header.codec ?? 0, header.flags ?? 0]);
-  new DataView(bytes.buffer).setUint32(12, header.length ?? body.length, true);
-  bytes.set(body, 16);
-  return bytes.buffer;
+  const start = [2, 1, header.codec ?? 0, header.flags ?? 0, 0, 0, 0, 0, 0];
+  return new Uint8Array([...start, ...varint(header.length ?? body.length), ...body]).buffer;
 }
 
 async function refused(bytes: ArrayBuffer, sentence: RegExp) {
@@ -50,7 +51,7 @@ describe("a frame", () => {
       bytes[at] = value;
       return bytes.buffer;
     };
-    await refused(with_(0, 2), /version 2 is not 1/);
+    await refused(with_(0, 3), /version 3 is not 2/);
     await refused(with_(1, 7), /kind 7/);
     await refused(with_(2, 2), /Codec 2/);
     await refused(with_(3, 2), /flags 0x2/);
@@ -62,6 +63,7 @@ describe("a frame", () => {
     await refused(headed([1, 0], { length: 3 }), /length/);
     await refused(headed([1, 0], { length: 1 }), /length/);
     await refused(headed([], { length: 64 * 1024 * 1024 + 1 }), /64 MiB/);
+    await refused(headed([]).slice(0, 8), /cut short/);
   });
 
   it("FR2: unpacks to exactly the stated length", async () => {
@@ -85,7 +87,13 @@ describe("a frame", () => {
     await refused(headed([2, 0, 1, 129, 2]), /count of 257/);
     await refused(headed([3, 0, 1, 255, 1, 2, ...new Array(16).fill(0)]), /past the end/);
     await refused(headed([4, 0, 1, 4, 2, 255, 1, 0, 7, 7]), /past the end/);
-    await refused(headed([4, 0, 1, 2, 1, 0, 128, 128, 4]), /16 bits/);
+    await refused(headed([4, 0, 1, 2, 1, 0, 128, 128, 8]), /16 bits/);
+    await refused(headed([4, 0, 1, 2, 1, 0, 1]), /16 bits/);
+  });
+
+  it("reads radii as differences", async () => {
+    const frame = await decodeFrame(headed([4, 0, 0, 2, 3, 0, 0, 0, 144, 6, 0, 3]));
+    expect(frame.changes[0]).toMatchObject({ column: "radius", values: Uint16Array.of(392, 392, 390) });
   });
 
   it("reads births as differences", async () => {

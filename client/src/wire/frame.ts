@@ -40,28 +40,30 @@ export interface Rows {
 export type Values = { [C in keyof Rows]: { column: C; values: Rows[C] } }[keyof Rows];
 
 const CATCH_UP = 1;
+/** The parent of a row that goes on where the row before it ends. */
+const NEXT = 2;
 
 /** Reads a mesh delta; any bytes at all give a frame or a `FrameError` (FR1–FR3). */
 export async function decodeFrame(bytes: ArrayBuffer): Promise<Frame> {
   const { epoch, sequence, flags, body } = await openFrame(bytes, FrameKind.MeshDelta);
-  return { epoch, sequence, catchUp: (flags & CATCH_UP) !== 0, changes: readChanges(body) };
+  return { epoch, sequence, catchUp: (flags & CATCH_UP) !== 0, changes: readChanges(body, sequence) };
 }
 
-/** A body that is a list of changes. */
-export function readChanges(body: Uint8Array): ChunkChange[] {
+/** A body that is a list of changes, of a frame with this sequence. */
+export function readChanges(body: Uint8Array, sequence: number): ChunkChange[] {
   const reader = new ByteReader(body);
   const changes: ChunkChange[] = [];
-  while (!reader.done) changes.push(readChange(reader));
+  while (!reader.done) changes.push(readChange(reader, sequence));
   return changes;
 }
 
-function readChange(reader: ByteReader): ChunkChange {
+function readChange(reader: ByteReader, sequence: number): ChunkChange {
   const kind = reader.byte();
   if (kind < 1 || kind > 4) throw new FrameError(`Change ${kind} is unknown.`);
   const first = reader.varint();
   if (kind === 1) return { change: "truncate", rows: first };
   const chunk = first;
-  const generation = reader.varint();
+  const generation = (sequence - reader.varint()) >>> 0;
   if (kind === 2) return { change: "replace", chunk, generation, rows: readRows(reader) };
   if (kind === 3) {
     const start = reader.varint();
@@ -94,12 +96,13 @@ function readGaps(reader: ByteReader, count: number): Uint8Array {
 
 function readRows(reader: ByteReader): Rows {
   const count = readCount(reader);
+  const parent = readVarints(reader, count);
   return {
-    parent: readVarints(reader, count),
-    position: readPositions(reader, count),
+    parent,
+    position: likeBefore(parent, readPositions(reader, count)),
     radius: readRadii(reader, count),
-    foliage: reader.take(count),
-    light: reader.take(count),
+    foliage: readBytes(reader, count),
+    light: readBytes(reader, count),
     born: readBirths(reader, count),
   };
 }
@@ -113,9 +116,9 @@ function readValues(reader: ByteReader, column: number, count: number): Values {
     case 2:
       return { column: "radius", values: readRadii(reader, count) };
     case 3:
-      return { column: "foliage", values: reader.take(count) };
+      return { column: "foliage", values: readBytes(reader, count) };
     case 4:
-      return { column: "light", values: reader.take(count) };
+      return { column: "light", values: readBytes(reader, count) };
     case 5:
       return { column: "born", values: readBirths(reader, count) };
     default:
@@ -126,6 +129,22 @@ function readValues(reader: ByteReader, column: number, count: number): Values {
 function readVarints(reader: ByteReader, count: number): Uint32Array {
   const values = new Uint32Array(count);
   for (let i = 0; i < count; i += 1) values[i] = reader.varint();
+  return values;
+}
+
+/** A row that goes on where the row before it ends travels as the difference to how that one went. */
+function likeBefore(parent: Uint32Array, values: Int32Array): Int32Array {
+  for (let i = 1; i < parent.length; i += 1) {
+    if (parent[i] !== NEXT) continue;
+    for (let axis = 3 * i; axis < 3 * i + 3; axis += 1) values[axis] = values[axis]! + values[axis - 3]!;
+  }
+  return values;
+}
+
+/** Each travels as the difference to the one before it, modulo 256. */
+function readBytes(reader: ByteReader, count: number): Uint8Array {
+  const values = reader.take(count);
+  for (let i = 1; i < count; i += 1) values[i] = values[i]! + values[i - 1]!;
   return values;
 }
 
@@ -140,11 +159,13 @@ function readBirths(reader: ByteReader, count: number): Uint32Array {
   return values;
 }
 
+/** Each travels as the difference to the one before it. */
 function readRadii(reader: ByteReader, count: number): Uint16Array {
   const values = new Uint16Array(count);
+  let code = 0;
   for (let i = 0; i < count; i += 1) {
-    const code = reader.varint();
-    if (code > 0xffff) throw new FrameError(`A radius code of ${code} has more than 16 bits.`);
+    code += reader.zigzag();
+    if (code < 0 || code > 0xffff) throw new FrameError(`A radius code of ${code} has not 16 bits.`);
     values[i] = code;
   }
   return values;

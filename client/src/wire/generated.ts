@@ -40,7 +40,7 @@ export const CHUNK_ROWS = 256;
 export const POSITION_STEPS = 256;
 export const MIN_RADIUS = 0.001;
 export const RADIUS_LOG_STEP = 0.01;
-export const HEADER_BYTES = 16;
+export const HEADER_BYTES = 8;
 export const MAX_BODY_BYTES = 67108864;
 
 export const BOUNDS = {

@@ -13,5 +13,5 @@ export interface GhostFrame {
 /** Reads a ghost; any bytes at all give one or a `FrameError`. */
 export async function decodeGhost(bytes: ArrayBuffer): Promise<GhostFrame> {
   const { epoch, sequence, body } = await openFrame(bytes, FrameKind.Ghost);
-  return { epoch, sequence, changes: readChanges(body) };
+  return { epoch, sequence, changes: readChanges(body, sequence) };
 }
