@@ -9,6 +9,7 @@ use crate::{
     shapes::Shape,
     siblings::damping_by_company,
     statics::Borne,
+    whole::whole_rates,
     wood::{Scale, Wood},
     {NONE, Rows},
 };
@@ -71,8 +72,9 @@ impl Joints {
     /// calibrated; it changes which limbs move as little as calibration does.
     pub fn of(rows: &Rows, limbs: &Limbs, wood: &Wood, suppleness: f64) -> Self {
         let drag = Borne::of(wood, &wood.drag_area);
-        let modes = modes(limbs, wood, &drag);
-        let plants = plants(rows, limbs, wood, &modes);
+        let mass = Borne::of(wood, &wood.mass);
+        let modes = modes(limbs, wood, &mass, &drag);
+        let plants = plants(rows, limbs, wood, &modes, &mass);
         let of_plant = |limb: usize| &plants[plant_of(limbs, limb)];
         let mut chosen = chosen(limbs, &modes, of_plant);
         let mut joint_of_limb = vec![NONE; limbs.all().len()];
@@ -161,8 +163,7 @@ fn find_lowest(joints: &mut [Joint], wood: &Wood, rides: &[Ride]) {
 const RIGID: Mode = Mode { rate: f64::INFINITY, drag: 0.0 };
 
 /// How each limb swings by itself, uncalibrated.
-fn modes(limbs: &Limbs, wood: &Wood, drag: &Borne) -> Vec<Mode> {
-    let mass = Borne::of(wood, &wood.mass);
+fn modes(limbs: &Limbs, wood: &Wood, mass: &Borne, drag: &Borne) -> Vec<Mode> {
     let mass_spread = spread(wood, &wood.mass);
     let drag_spread = spread(wood, &wood.drag_area);
     let mut modes = Modes::default();
@@ -191,7 +192,7 @@ fn modes(limbs: &Limbs, wood: &Wood, drag: &Borne) -> Vec<Mode> {
                 let about_node = about_origin - 2.0 * node.dot(moment) + weight * node.length_squared();
                 (weight, ACROSS * about_node.max(0.0))
             };
-            let (borne_mass, borne_inertia) = borne(&mass, &wood.mass, &mass_spread);
+            let (borne_mass, borne_inertia) = borne(mass, &wood.mass, &mass_spread);
             let (borne_area, borne_spread) = borne(drag, &wood.drag_area, &drag_spread);
             stations.push(Station {
                 length: wood.length[row],
@@ -227,12 +228,12 @@ fn spread(wood: &Wood, weights: &[f64]) -> Vec<f64> {
 struct Plant {
     /// ω² below which a limb is a joint, before calibration.
     slow: f64,
-    /// Factor of the modulus that makes its trunk swing as observed.
+    /// Factor of the modulus that makes it swing as observed.
     softer: f64,
 }
 
 /// By row of a seed; others are not asked for.
-fn plants(rows: &Rows, limbs: &Limbs, wood: &Wood, modes: &[Mode]) -> Vec<Plant> {
+fn plants(rows: &Rows, limbs: &Limbs, wood: &Wood, modes: &[Mode], mass: &Borne) -> Vec<Plant> {
     let mut plants = vec![Plant { slow: 0.0, softer: 1.0 }; rows.len()];
     let mut seed = vec![NONE; rows.len()];
     let mut top: Vec<f64> = wood.place.iter().map(|place| place.y).collect();
@@ -243,6 +244,7 @@ fn plants(rows: &Rows, limbs: &Limbs, wood: &Wood, modes: &[Mode]) -> Vec<Plant>
             *top = top.max(wood.place[row].y);
         }
     }
+    let whole = whole_rates(wood, mass, &seed);
     for row in (0..rows.len()).filter(|&row| rows.parent[row] == NONE) {
         let Some(trunk) = limbs.onward(row as u32).and_then(|first| limbs.limb(first)) else { continue };
         let rate = modes[trunk as usize].rate;
@@ -250,7 +252,8 @@ fn plants(rows: &Rows, limbs: &Limbs, wood: &Wood, modes: &[Mode]) -> Vec<Plant>
         let observed = OBSERVED * OBSERVED * TAU * TAU / height.max(1e-3);
         let slow = (SLOW * SLOW * TAU * TAU).max(SLOW_BESIDE_TRUNK * SLOW_BESIDE_TRUNK * rate);
         // A trunk without length swings in no way, and says nothing of what stands beside it.
-        let softer = if rate.is_finite() { (observed / rate).clamp(SOFTEST, 1.0) } else { 1.0 };
+        let swings = rate.is_finite() && whole[row].is_finite();
+        let softer = if swings { (observed / whole[row]).clamp(SOFTEST, 1.0) } else { 1.0 };
         plants[row] = Plant { slow, softer };
     }
     plants

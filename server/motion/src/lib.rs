@@ -25,6 +25,7 @@ mod siblings;
 mod spectrum;
 pub mod statics;
 mod sway;
+mod whole;
 mod wind;
 mod wood;
 

@@ -94,6 +94,11 @@ impl Wood {
         self.place[row as usize]
     }
 
+    /// Mass of a row with its leaves, kg.
+    pub fn mass(&self, row: u32) -> f64 {
+        self.mass[row as usize]
+    }
+
     /// Drag area of a row with its leaves, m².
     pub fn drag_area(&self, row: u32) -> f64 {
         self.drag_area[row as usize]

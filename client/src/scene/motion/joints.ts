@@ -4,6 +4,7 @@ import { JOINT, RIDE, ridesOf } from "./rides";
 import { Shapes } from "./shapes";
 import { dampingByCompany } from "./siblings";
 import { type Borne, borneBy, spreadOf } from "./statics";
+import { wholeRates } from "./whole";
 import { type Scale, type Wood, woodOf } from "./wood";
 
 /** The most joints of a table, slowest first. */
@@ -66,8 +67,9 @@ export function jointsOf(rows: MotionRows, scale: Scale, suppleness: number): Gr
 /** O(rows), apart from ordering limbs by frequency. `suppleness` is the user's: wood that much softer than calibrated. */
 function jointsIn(rows: MotionRows, limbs: Limbs, wood: Wood, suppleness: number): Joints {
   const drag = borneBy(wood, wood.dragArea);
-  const modes = modesOf(limbs, wood, drag);
-  const plants = plantsOf(rows, limbs, wood, modes);
+  const mass = borneBy(wood, wood.mass);
+  const modes = modesOf(limbs, wood, mass, drag);
+  const plants = plantsOf(rows, limbs, wood, modes, mass);
   const plantOf = plantsOfLimbs(limbs);
   const chosen = chosenOf(rows, limbs, modes, (limb) => plants.slow[plantOf[limb]!]!);
   const count = chosen.length;
@@ -131,8 +133,7 @@ interface Modes {
 }
 
 /** How each limb swings by itself, uncalibrated. */
-function modesOf(limbs: Limbs, wood: Wood, drag: Borne): Modes {
-  const mass = borneBy(wood, wood.mass);
+function modesOf(limbs: Limbs, wood: Wood, mass: Borne, drag: Borne): Modes {
   const massSpread = spreadOf(wood, wood.mass);
   const dragSpread = spreadOf(wood, wood.dragArea);
   const stations = new Stations();
@@ -197,8 +198,9 @@ function modesOf(limbs: Limbs, wood: Wood, drag: Borne): Modes {
   return modes;
 }
 
-/** By row of a seed: ω² below which a limb is a joint, before calibration; and what makes its trunk swing as observed. */
-function plantsOf(rows: MotionRows, limbs: Limbs, { place }: Wood, modes: Modes) {
+/** By row of a seed: ω² below which a limb is a joint, before calibration; and what makes the plant swing as observed. */
+function plantsOf(rows: MotionRows, limbs: Limbs, wood: Wood, modes: Modes, mass: Borne) {
+  const { place } = wood;
   const count = rows.parent.length;
   const slow = new Float64Array(count);
   const softer = new Float64Array(count).fill(1);
@@ -210,6 +212,7 @@ function plantsOf(rows: MotionRows, limbs: Limbs, { place }: Wood, modes: Modes)
     seed[row] = parent < 0 ? row : seed[parent]!;
     if (limbs.of[row] !== NONE) top[seed[row]!] = Math.max(top[seed[row]!]!, place[3 * row + 1]!);
   }
+  const whole = wholeRates(wood, mass, seed);
   for (let row = 0; row < count; row += 1) {
     if (rows.parent[row]! >= 0) continue;
     const first = rows.onward[row]!;
@@ -223,7 +226,8 @@ function plantsOf(rows: MotionRows, limbs: Limbs, { place }: Wood, modes: Modes)
       SLOW_BESIDE_TRUNK * SLOW_BESIDE_TRUNK * (Number.isNaN(rate) ? 0 : rate),
     );
     // A trunk without length swings in no way, and says nothing of what stands beside it.
-    if (Number.isFinite(rate)) softer[row] = Math.min(Math.max(observed / rate, SOFTEST), 1);
+    const swings = Number.isFinite(rate) && Number.isFinite(whole[row]);
+    if (swings) softer[row] = Math.min(Math.max(observed / whole[row]!, SOFTEST), 1);
   }
   return { slow, softer };
 }

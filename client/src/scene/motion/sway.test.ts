@@ -75,6 +75,37 @@ describe("a swaying tree", () => {
     expect(worst).toBeLessThan(0.06);
   });
 
+  it.each(SWAYING_TREES)("moves as far as one sees trees move: $name", (tree) => {
+    const grown = jointsOf(motionRows(tableOfSwaying(tree)), tree, 1);
+    const { wood, joints } = grown;
+    const exposure = exposureOf(joints, wood, behindCrowns(wood, [1, 0, 0]));
+    const height = wood.place.reduce((most, each, at) => (at % 3 === 1 ? Math.max(most, each) : most), 0);
+    /** How far nodes go within eight seconds from one place to another, as a share of the tree's height, in ascending order. */
+    const travels = (speed: number, turbulence: number) => {
+      const wind = windOf({ velocity: [speed, 0, 0], turbulence, seed: 7 }, 8);
+      const sway = new Sway(new Answers(joints, wind, exposure));
+      const looks = Array.from({ length: 80 }, (_, at) => nodesAt(grown, bendsAt(grown, sway, 0.1 * at)));
+      const reach = (row: number) =>
+        Math.hypot(
+          ...[0, 1, 2].map((a) => {
+            const ways = looks.map((places) => places[3 * row + a]!);
+            return Math.max(...ways) - Math.min(...ways);
+          }),
+        );
+      const wooden = Array.from(wood.length.keys()).filter((row) => wood.length[row]! > 0);
+      return wooden.map((row) => reach(row) / height).sort((a, b) => a - b);
+    };
+    const quantile = (sorted: number[], share: number) => sorted[Math.floor(share * (sorted.length - 1))]!;
+    // In a breeze leaves and twigs are seen to move, and hardly anything else; in a storm whole limbs.
+    const breeze = travels(3, 0.6);
+    expect(quantile(breeze, 0.5)).toBeLessThan(0.002);
+    expect(quantile(breeze, 0.9)).toBeLessThan(0.007);
+    expect(quantile(breeze, 1)).toBeLessThan(0.03);
+    const storm = travels(18, 0.8);
+    expect(quantile(storm, 0.5)).toBeGreaterThan(0.02);
+    expect(quantile(storm, 1)).toBeLessThan(0.4);
+  });
+
   it("passes from one wind to another without a jump", () => {
     const sway = swayOf(willow);
     const other = windOf({ velocity: [-9, 0, 0], turbulence: 0.5, seed: 3 }, 600);

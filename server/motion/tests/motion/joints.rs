@@ -2,7 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use espalier_motion::{NONE, statics::in_even_wind};
+use espalier_motion::{
+    Joint, NONE,
+    statics::{deflections, in_even_wind},
+};
 use glam::DVec3;
 
 use crate::trees::{Tree, pole, unlike};
@@ -35,6 +38,37 @@ fn calibration_makes_stout_trees_softer_and_none_stiffer() {
         );
         assert_eq!((trunk.level, trunk.parent), (0, None));
         assert!(trunk.frequency < 3.0 * observed, "{}", tree.name);
+    }
+}
+
+#[test]
+fn wood_is_softened_until_the_whole_plant_swings_as_observed() {
+    let trees = unlike();
+    for tree in trees.iter().chain([&pole(60, [0, 256, 0], |_| 2.0)]) {
+        let mass: Vec<f64> = (0..tree.rows.len() as u32).map(|row| tree.wood.mass(row)).collect();
+        let slower = [DVec3::X, DVec3::Z].map(|pull| {
+            let bent = deflections(&tree.wood, &mass, pull);
+            let [mut pulled, mut moved] = [0.0; 2];
+            for row in 0..tree.rows.len() {
+                let Some(node) = tree.rows.row(row as u32).parent else { continue };
+                let middle = 0.5 * (bent[node as usize].shift + bent[row].shift);
+                pulled += mass[row] * middle.dot(pull);
+                moved += mass[row] * middle.length_squared();
+            }
+            pulled / moved
+        });
+        let whole = slower[0].min(slower[1]).sqrt() / TAU;
+        let height = (0..tree.rows.len()).map(|row| tree.wood.place(row as u32).y).fold(0.0, f64::max);
+        let observed = 2.4 / height.sqrt();
+        let Joint { softness, frequency, .. } = tree.joints.all()[0];
+        let believed = frequency * softness.sqrt();
+        println!(
+            "{}: whole {whole:.2} Hz of trunk {believed:.2}, observed {observed:.2}, softness {softness:.2}",
+            tree.name
+        );
+        assert!(whole < 1.01 * believed, "{}: what a trunk bears makes it no faster", tree.name);
+        let expected = (whole / observed * (whole / observed)).clamp(1.0, 9.0);
+        assert!((softness / expected - 1.0).abs() < 1e-9, "{}: {softness} for {expected}", tree.name);
     }
 }
 
