@@ -46,6 +46,7 @@ fn file(export: Export, plant: &Plant, model: &Model) -> Vec<u8> {
         species: Some("Oak"),
         seed: Some(7),
         parameters: &parameters,
+        obstacles: &[],
         author: None,
         licence: None,
     };
