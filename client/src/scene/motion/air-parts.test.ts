@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { blows, CALM, stirs } from "./air-settings";
+import { blows, CALM, stilled, stirs } from "./air-settings";
 import { Amount } from "./amount";
 import { Pace } from "./pace";
 import { SharedClock } from "./shared-clock";
@@ -13,6 +13,9 @@ describe("what is set of the wind", () => {
       expect(stirs({ ...CALM, [load]: 0.5 })).toBe(false);
     }
     expect(stirs({ ...CALM, rise: -2 })).toBe(true);
+    const storm = { ...CALM, speed: 18, rise: 3, snow: 0.2, sag: 1, flutter: 2 };
+    expect(stilled(storm)).toEqual({ ...storm, speed: 0, rise: 0 });
+    expect(stirs(stilled(storm))).toBe(false);
   });
 });
 
@@ -23,13 +26,31 @@ describe("how much wind there is", () => {
     expect(amount.at(600, true, false)).toBeCloseTo(0.5);
     expect(amount.at(1200, true, false)).toBe(1);
     expect(amount.changing).toBe(false);
+    expect(amount.at(1200, true, true)).toBe(1);
     expect(amount.at(1325, true, true)).toBeCloseTo(0.5);
     expect(amount.at(1450, true, true)).toBe(0);
     expect(amount.at(1450, true, false)).toBe(0);
     expect(amount.changing).toBe(true);
     expect(amount.at(9000, true, false)).toBe(1);
+    expect(amount.at(9000, false, false)).toBe(1);
     expect(amount.at(9600, false, false)).toBeCloseTo(0.5);
     expect(amount.at(20_000, false, false)).toBe(0);
+  });
+
+  it("rises from where it is, however long ago the last frame was, but for what it has missed", () => {
+    const amount = new Amount();
+    amount.at(0, false, false);
+    expect(amount.at(60_000, true, false)).toBe(0);
+    expect(amount.at(60_600, true, false)).toBeCloseTo(0.5);
+    expect(new Amount().at(60_000, true, false, 300)).toBeCloseTo(0.15625);
+  });
+
+  it("rises once there is something to show it with", () => {
+    const amount = new Amount();
+    for (let now = 0; now < 3000; now += 16) amount.wait(true);
+    expect(amount.at(3000, true, false, 300)).toBe(0);
+    expect(amount.changing).toBe(true);
+    expect(amount.at(3600, true, false)).toBeCloseTo(0.5);
   });
 
   it("stays within 0 and 1 where the clock goes back", () => {

@@ -14,6 +14,11 @@ export function stirs({ speed, rise }: Pick<AirSettings, "speed" | "rise">): boo
   return speed > 0 || rise !== 0;
 }
 
+/** The same for who is to see nothing move: what stands otherwise than it grew does so all the same. */
+export function stilled(settings: AirSettings): AirSettings {
+  return { ...settings, speed: 0, rise: 0 };
+}
+
 /** Whether anything stands otherwise than it grew. */
 export function blows(settings: AirSettings): boolean {
   return stirs(settings) || settings.sag > 0 || settings.snow > 0 || settings.rain > 0;

@@ -8,6 +8,7 @@ import { soundAir } from "./air-numbers";
 import { type AirSettings, alongOf, blows, CALM, stirs, velocityOf } from "./air-settings";
 import { Amount } from "./amount";
 import { Answers } from "./answers";
+import { type Blend, blendOf, blendOver } from "./blend";
 import type { Hand } from "./hand";
 import { Hands, pluckedAnew } from "./hands";
 import { JointMaker, type JointOrder } from "./joint-maker";
@@ -21,7 +22,7 @@ import { type PlaceOf, restingPlace, swayedPlace } from "./places";
 import { pose, STAND } from "./pose";
 import { Riding } from "./riding";
 import type { SharedClock } from "./shared-clock";
-import { Sway } from "./sway";
+import type { Sway } from "./sway";
 import { SwayMaterials } from "./sway-materials";
 import { LIVE_PERIOD, type Wind, windOf } from "./wind";
 import { Winds } from "./winds";
@@ -36,8 +37,6 @@ const MIXED = 500;
 /** Milliseconds between two looks at how far the tree reaches, and rows that are looked at. */
 const MEASURED = 1000;
 const SAMPLES = 600;
-/** Metres of snow that hide what they lie on. */
-const COVERED = 0.04;
 /** Which gusts come; everybody has the same. */
 const SEED = 7;
 
@@ -65,7 +64,9 @@ export class Air {
   private moving: Moving | null = null;
   private riding: Riding | null = null;
   private exposure: Float64Array = new Float64Array(0);
-  private wind: Wind = windOf({ velocity: [0, 0, 0], turbulence: 0, seed: SEED }, LIVE_PERIOD);
+  private readonly known = new WeakMap<AirSettings, Wind>();
+  /** Whether no wind has blown yet, or what blew has died away. */
+  private rested = true;
   private sway: Sway | null = null;
   private bends = new Float64Array(0);
   private stands = new Float64Array(0);
@@ -78,6 +79,9 @@ export class Air {
   /** The obstacles that shelter was found behind last. */
   private around: readonly DrawnObstacle[] | null = null;
   private seen = { epoch: 0, sequence: null as number | null, at: Number.NEGATIVE_INFINITY };
+  /** What the wind is in the frame that is seen, and in the one that another comes over. */
+  private blend: Blend | null = null;
+  private before: Blend | null = null;
   private mixing = Number.NEGATIVE_INFINITY;
   private measured = Number.NEGATIVE_INFINITY;
   private margin: number;
@@ -166,14 +170,22 @@ export class Air {
     // In a calm nobody asks the server for its time.
     const { time, jumped } = wanted || this.blowing ? this.clock.read() : { time: 0, jumped: false };
     const missed = wanted ? 1000 * this.winds.lateness(time) : 0;
-    // Beside what would become of it the tree stands as it grew.
-    const amount = this.amount.at(began, wanted, this.stage.world.ghost.group.visible, missed);
-    if (!wanted && (amount === 0 || !this.blowing)) {
-      this.rest();
+    if (!wanted && !this.blowing) {
+      this.amount.wait(false);
       return false;
     }
     if (document.hidden) return false;
-    if (!this.prepare(began)) return false;
+    if (!this.prepare(began)) {
+      this.amount.wait(wanted);
+      return false;
+    }
+    // Beside what would become of it the tree stands as it grew.
+    const amount = this.amount.at(began, wanted, this.stage.world.ghost.group.visible, missed);
+    if (!wanted && amount === 0) {
+      this.rest();
+      return false;
+    }
+    if (this.rested) this.begin(this.wanted);
     const { moving, sway, stage, riding } = this;
     if (!moving || !sway || !riding) return false;
     if (jumped && this.held === null) this.mix(began);
@@ -192,15 +204,15 @@ export class Air {
     }
     this.rows.stand(moving.hinges, this.stands, this.exposed);
     const share = Math.min(1, Math.max(0, (began - this.mixing) / MIXED));
+    const smooth = share * share * (3 - 2 * share);
+    this.blend = blendOver(this.before, blendOf(this.winds.shares(at), this.windIn, at), smooth);
     this.rows.draw(stage.renderer, {
-      wind: this.wind,
+      blend: this.blend,
       internodeLength: this.scale.internodeLength,
       time: at,
       amount,
-      share: share * share * (3 - 2 * share),
-      flutter: this.wanted.flutter * this.leaves,
-      snow: amount * Math.min(1, this.wanted.snow / COVERED),
-      rain: amount * this.wanted.rain,
+      share: smooth,
+      leaves: this.leaves,
     });
     this.materials.sway(true);
     stage.world.shadow.stale ||= this.pace.shadow(began);
@@ -247,7 +259,7 @@ export class Air {
   /** Sees to joints for the rows that there are; says whether there is all that a frame takes. */
   private prepare(began: number): boolean {
     const { table } = this.stage.world;
-    if (!this.materials.ready) {
+    if (!this.materials.complete) {
       void this.materials.prepare().then(() => this.disposed || this.stage.invalidate());
     }
     if (table.rows === 0) {
@@ -311,8 +323,7 @@ export class Air {
     this.riding.follow(table);
     this.rows.ride(this.riding.rows, this.riding.count);
     this.hands.adopt(moving, before, { table, riding: this.riding }, grown!.rows.radiusCode);
-    this.winds.begin(this.wanted);
-    this.sway = new Sway(this.answers(this.wanted));
+    this.sway = this.winds.stand(this.wanted, this.answers);
     for (const pluck of before && sway ? pluckedAnew(sway.plucked, before.first, moving.first) : []) {
       this.sway.pluck(pluck);
     }
@@ -320,24 +331,36 @@ export class Air {
   };
 
   /** A wind, and what all joints answer it. */
-  private answers(settings: AirSettings): Answers {
-    const { turbulence, damping } = settings;
-    this.wind = windOf({ velocity: velocityOf(settings), turbulence, seed: SEED }, LIVE_PERIOD);
+  private readonly answers = (settings: AirSettings): Answers => {
     const sag = loaded(this.moving!.loads, settings);
-    return new Answers(this.moving!.joints, this.wind, this.exposure, { damping, sag });
+    return new Answers(this.moving!.joints, this.windIn(settings), this.exposure, { damping: settings.damping, sag });
+  };
+
+  private readonly windIn = (settings: AirSettings): Wind => {
+    const { turbulence } = settings;
+    const wind =
+      this.known.get(settings) ?? windOf({ velocity: velocityOf(settings), turbulence, seed: SEED }, LIVE_PERIOD);
+    this.known.set(settings, wind);
+    return wind;
+  };
+
+  /** A wind is there at once. */
+  private begin(settings: AirSettings): void {
+    this.rested = false;
+    this.winds.begin(settings);
+    this.sway = this.winds.stand(settings, this.answers);
   }
 
   /** Has other winds take over that were set. */
   private tune(began: number, time: number): void {
-    const answers = (settings: AirSettings) => this.answers(settings);
     if (this.held === null) {
-      this.winds.pass(this.sway!, time, answers, () => this.mix(began));
+      this.winds.pass(this.sway!, time, this.answers, () => this.mix(began));
       return;
     }
     const latest = this.winds.latest(time);
     if (!latest) return;
     this.mix(began);
-    this.sway = new Sway(answers(latest));
+    this.begin(latest);
   }
 
   /** Whether one wind still takes over from another. */
@@ -349,6 +372,7 @@ export class Air {
   private mix(began = performance.now()): void {
     if (!this.blowing) return;
     this.rows.remember();
+    this.before = this.blend;
     this.mixing = began;
   }
 
@@ -370,6 +394,7 @@ export class Air {
   /** The tree stands as it grew, and is drawn as if there were no wind. */
   private rest(): void {
     if (!this.blowing) return;
+    this.rested = true;
     this.materials.sway(false);
     this.pace.rest();
     const { world } = this.stage;
@@ -380,6 +405,7 @@ export class Air {
   /** There is no tree any more. */
   private forget(): void {
     this.rest();
+    this.rested = true;
     this.moving = null;
     this.riding = null;
     this.shown = null;

@@ -13,17 +13,16 @@ import {
   Scene,
   UnsignedIntType,
   Vector3,
-  Vector4,
   type WebGLRenderer,
   WebGLRenderTarget,
 } from "three";
 import { CHUNK_ROWS } from "../../wire/generated";
 import type { Uniforms } from "../materials";
-import type { Vec3 } from "../vector";
+import type { Blend } from "./blend";
 import { ROW_NUMBERS } from "./moving";
 import { type Hinges, STAND } from "./pose";
 import { JOINT_TEXELS, JOINTS_A_LINE, MOST_GUSTS, MOVE_FRAGMENT, MOVE_VERTEX } from "./sway-shaders";
-import { angleAt, type Wind } from "./wind";
+import { LIVE_PERIOD } from "./wind";
 
 const TEXEL = 4;
 const LINE = CHUNK_ROWS * ROW_NUMBERS;
@@ -34,18 +33,16 @@ export const FLUTTER_CELLS = (256 * 10) / 600;
 
 /** What a frame of moving rows is made with. */
 export interface Motion {
-  readonly wind: Wind;
+  /** All winds together that blow. */
+  readonly blend: Blend;
   readonly internodeLength: number;
   readonly time: number;
   /** How much of the wind there is, 0 to 1. */
   readonly amount: number;
   /** How much of this frame is shown over the one that was held, 0 to 1. */
   readonly share: number;
-  /** How much leaves flutter. */
-  readonly flutter: number;
-  /** How far snow covers what it lies on, and how wet everything is, 0 to 1 each. */
-  readonly snow: number;
-  readonly rain: number;
+  /** How much leaves flutter beside those of others. */
+  readonly leaves: number;
 }
 
 /** How each row moves, as a texture that the graphics card makes from joints: a fragment a row and frame. */
@@ -65,7 +62,6 @@ export class MovedRows {
   /** The uniforms are those that all shaders share. */
   constructor(private readonly shared: Uniforms) {
     this.targets = [target(1), target(1)];
-    const gusts = Array.from({ length: 2 * MOST_GUSTS }, () => new Vector4());
     this.uniforms = {
       uNodes: shared.uNodes!,
       uRides: { value: null },
@@ -74,7 +70,8 @@ export class MovedRows {
       uShare: { value: 1 },
       uRows: { value: 0 },
       uGusts: { value: 0 },
-      uGust: { value: gusts },
+      uGust: { value: new Float32Array(TEXEL * MOST_GUSTS) },
+      uSize: { value: new Float32Array(TEXEL * Math.ceil(MOST_GUSTS / TEXEL)) },
       uAir: { value: new Vector3() },
     };
     shared.uMoved = { value: this.targets[0].texture };
@@ -184,23 +181,21 @@ export class MovedRows {
   }
 
   /** The gusts that pass over the tree, as they are now. */
-  private blow({ wind, internodeLength, time, amount, flutter, snow, rain }: Motion): void {
-    const gusts = this.uniforms.uGust!.value as Vector4[];
-    let count = 0;
-    for (const { harmonic, direction, amplitude, phase, wave } of wind.lines) {
-      if (direction !== 0 || count === MOST_GUSTS) continue;
-      const angle = angleAt(harmonic, wind.period, time) + phase;
-      gusts[2 * count]!.set(wave[0] * internodeLength, wave[1] * internodeLength, wave[2] * internodeLength, angle);
-      gusts[2 * count + 1]!.set(amplitude, 0, 0, 0);
-      count += 1;
+  private blow({ blend, internodeLength, time, amount, leaves }: Motion): void {
+    const { uniforms, shared } = this;
+    const [waves, sizes] = [uniforms.uGust!.value as Float32Array, uniforms.uSize!.value as Float32Array];
+    const gusts = blend.gusts.slice(0, MOST_GUSTS);
+    for (const [at, { wave, angle, size }] of gusts.entries()) {
+      for (let a = 0; a < 3; a += 1) waves[TEXEL * at + a] = wave[a]! * internodeLength;
+      waves[TEXEL * at + 3] = angle;
+      sizes[at] = size;
     }
-    this.uniforms.uGusts!.value = count;
-    const gone = time - wind.period * Math.floor(time / wind.period);
-    (this.uniforms.uAir!.value as Vector3).set(wind.speed, gone, amount);
-    const [x, , z] = wind.axes[0] as Vec3;
-    (this.shared.uLee!.value as Vector3).set(x, 0, z);
-    this.shared.uWeather!.value = [snow, rain];
-    this.shared.uFlutter!.value = [flutter, (gone * FLUTTER_CELLS) % 256];
+    uniforms.uGusts!.value = gusts.length;
+    const gone = time - LIVE_PERIOD * Math.floor(time / LIVE_PERIOD);
+    (uniforms.uAir!.value as Vector3).set(blend.speed, gone, amount);
+    (shared.uLee!.value as Vector3).set(blend.lee[0], 0, blend.lee[2]);
+    shared.uWeather!.value = [amount * blend.snow, amount * blend.rain];
+    shared.uFlutter!.value = [blend.flutter * leaves, (gone * FLUTTER_CELLS) % 256];
   }
 }
 

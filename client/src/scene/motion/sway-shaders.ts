@@ -23,10 +23,11 @@ Sway unpacked(uvec4 texel) {
 }
 `;
 
-/** Texels of a joint's numbers in a line of their texture, and of the lines of a wind that a shader takes. */
+/** Texels of a joint's numbers in a line of their texture. */
 export const JOINTS_A_LINE = 64;
 export const JOINT_TEXELS = 3;
-export const MOST_GUSTS = 20;
+/** Lines along the wind that a shader takes: 14 of each wind, and of seven that set in a quarter of a second apart none is over. */
+export const MOST_GUSTS = 98;
 
 export const MOVE_VERTEX = /* glsl */ `
 in vec3 position;
@@ -45,7 +46,8 @@ uniform highp usampler2D uBefore;
 uniform float uShare; // of what moves now; the rest is as before
 uniform int uRows;
 uniform int uGusts;
-uniform vec4 uGust[2 * ${MOST_GUSTS}]; // wave number with the line's angle; amplitude along the wind
+uniform vec4 uGust[${MOST_GUSTS}]; // wave number with the line's angle
+uniform vec4 uSize[${Math.ceil(MOST_GUSTS / 4)}]; // amplitudes along the wind in m/s, four together
 uniform vec3 uAir; // speed in m/s, seconds of the period, how much of it there is
 out uvec4 moved;
 ${PACK}${UNPACK}
@@ -60,13 +62,10 @@ float quiver(float number, float least) {
   float times = floor((least + 3.0 * fract(number * 57.31)) * 600.0) / 600.0;
   return sin(6.2831853 * (fract(times * uAir.y) + fract(number * 131.7)));
 }
-float speedAt(vec3 place, float share) {
-  float gust = 1.0;
-  for (int k = 0; k < uGusts; k++) {
-    vec4 line = uGust[2 * k];
-    gust += uGust[2 * k + 1].x * cos(line.w - dot(line.xyz, place));
-  }
-  return max(0.0, uAir.x * share * gust * uAir.z);
+float speedAt(vec3 place) {
+  float speed = uAir.x;
+  for (int k = 0; k < uGusts; k++) speed += uSize[k >> 2][k & 3] * cos(uGust[k].w - dot(uGust[k].xyz, place));
+  return max(0.0, speed * uAir.z);
 }
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
@@ -80,13 +79,13 @@ void main() {
   int joint = int(a.x);
   vec3 shift = vec3(0.0);
   vec4 turn = vec4(0, 0, 0, 1);
-  float air = speedAt(rest, 1.0);
+  float air = speedAt(rest);
   if (joint >= 0) {
     ivec2 place = ivec2((joint % ${JOINTS_A_LINE}) * ${JOINT_TEXELS}, joint / ${JOINTS_A_LINE});
     vec4 bend = texelFetch(uJoints, place, 0);
     vec4 stands = texelFetch(uJoints, place + ivec2(1, 0), 0);
     vec3 origin = texelFetch(uJoints, place + ivec2(2, 0), 0).xyz;
-    air = speedAt(rest, bend.w);
+    air *= bend.w;
     vec3 still = rest;
     if (c.w >= 0.0) {
       // What is too stiff to bend shivers about where it stands.

@@ -24,10 +24,37 @@ export interface Pluck {
 
 const STOOD: Vec3 = [0, 0, 0];
 
+/** What took the place of what was before it, and when. */
+export interface Follower {
+  readonly since: number;
+}
+
+/** How much of what followed at a time is there so many seconds later, from 0 to 1. */
+export function fadedIn(gone: number): number {
+  const share = Math.min(Math.max(gone / FADE, 0), 1);
+  return share * share * (3 - 2 * share);
+}
+
+/** What follows one upon another, with a next one. A clock that was put back leaves the one that has been there longest. */
+export function followedBy<One extends Follower>(all: readonly One[], next: One): One[] {
+  const before = all.filter(({ since }) => since < next.since);
+  return [...(before.length > 0 ? before : all.slice(0, 1)), next];
+}
+
+/** What is left of what follows one upon another at a time: the last that is there in full, and what came after it. */
+export function leftAt<One extends Follower>(all: readonly One[], time: number): readonly One[] {
+  return all.slice(
+    Math.max(
+      0,
+      all.findLastIndex(({ since }) => time >= since + FADE),
+    ),
+  );
+}
+
 /** How joints stand, as a function of time: the wind of now, winds of before that fade, and plucks. */
 export class Sway {
   /** Answers to winds one after another, and when each took the place of the one before. */
-  private readonly winds: { since: number; answers: Answers }[];
+  private winds: readonly { since: number; readonly answers: Answers }[];
   private readonly plucks: Pluck[] = [];
   private newer: Float64Array;
 
@@ -40,12 +67,7 @@ export class Sway {
   /** From `at` on another wind blows, which takes over within a second and a half. The joints stay what they are. */
   change(answers: Answers, at: number): void {
     if (answers.count !== this.present.count) throw new Error("A wind is changed for the same joints.");
-    const before = this.winds.filter(({ since }) => since < at);
-    // A clock that was put back leaves the one that has blown longest.
-    this.winds.splice(0, this.winds.length, ...(before.length > 0 ? before : this.winds.slice(0, 1)), {
-      since: at,
-      answers,
-    });
+    this.winds = followedBy(this.winds, { since: at, answers });
   }
 
   /** The last wind took the place of the one before at another time. */
@@ -62,8 +84,7 @@ export class Sway {
 
   /** Forgets what is over at a time. */
   forget(time: number): void {
-    const over = this.winds.findLastIndex(({ since }) => time >= since + FADE);
-    if (over > 0) this.winds.splice(0, over);
+    this.winds = leftAt(this.winds, time);
     const { damping, rate } = this.present;
     for (let i = this.plucks.length - 1; i >= 0; i -= 1) {
       const { joint, at, bend, speed = STOOD } = this.plucks[i]!;
@@ -90,8 +111,9 @@ export class Sway {
   /** The rotations of all joints at a time in seconds, radians. */
   bends(time: number, out: Float64Array): void {
     const { newer } = this;
-    for (const { since, answers } of this.winds) {
-      const share = Math.min(Math.max((time - since) / FADE, 0), 1);
+    for (const [at, { since, answers }] of this.winds.entries()) {
+      // Where a clock was put back there is nothing before the first.
+      const share = at === 0 ? 1 : fadedIn(time - since);
       // A wind that is still to come.
       if (share === 0) continue;
       if (share === 1) {
@@ -99,8 +121,7 @@ export class Sway {
         continue;
       }
       answers.bends(time, newer);
-      const smooth = share * share * (3 - 2 * share);
-      for (let i = 0; i < newer.length; i += 1) out[i]! += smooth * (newer[i]! - out[i]!);
+      for (let i = 0; i < newer.length; i += 1) out[i]! += share * (newer[i]! - out[i]!);
     }
     for (const pluck of this.plucks) this.addPluck(pluck, time, out);
     for (let joint = 0; joint < this.present.count; joint += 1) limit(out, 3 * joint);

@@ -119,6 +119,54 @@ describe("winds", () => {
     expect(pass(60)).toEqual(["3 at 60"]);
   });
 
+  it("go on as they are where other joints stand in them", () => {
+    const { winds, pass } = setUp();
+    winds.set(wind(3), 10);
+    pass(10);
+    pass(10.4);
+    winds.set(wind(5), 10.9);
+    expect(pass(10.95)).toEqual([]);
+    const shares = winds.shares(10.95);
+    const seen: number[] = [];
+    const count = { count: 1, rate: [1], damping: [0.1] };
+    const sway = winds.stand(wind(9), ({ speed }) => {
+      const bends = (_: number, out: Float64Array) => out.fill(speed / 10);
+      seen.push(speed);
+      return { ...count, bends } as unknown as Answers;
+    });
+    expect(seen, "that which fades, and that which blows").toEqual([1, 3]);
+    expect(winds.shares(10.95)).toEqual(shares);
+    const bends = new Float64Array(3);
+    sway.bends(10.75, bends);
+    expect(bends[0], "half way").toBeCloseTo(0.2);
+    expect(pass(11), "that which was to come").toEqual(["5 at 11"]);
+  });
+
+  it("share what is seen by the time alone", () => {
+    const { winds, pass } = setUp();
+    winds.set(wind(3), 10);
+    winds.set(wind(5), 10.75);
+    pass(10.75);
+    const speeds = (time: number) => winds.shares(time).map(({ settings, share }) => [settings.speed, share]);
+    expect(speeds(10.75)).toEqual([
+      [1, 0.5],
+      [3, 0.5],
+    ]);
+    expect(speeds(11.5)).toEqual([
+      [3, 0.5],
+      [5, 0.5],
+    ]);
+    expect(speeds(20)).toEqual([[5, 1]]);
+    // The server may have begun anew.
+    expect(speeds(0)).toEqual([[1, 1]]);
+  });
+
+  it("of other flutter set in like any other", () => {
+    const { winds, pass } = setUp();
+    winds.set({ ...wind(1), flutter: 2 }, 10);
+    expect(pass(10)).toEqual(["1 at 10"]);
+  });
+
   it("are there at once where time stands still", () => {
     const { winds } = setUp();
     winds.set(wind(3), 10);

@@ -1,6 +1,6 @@
 import { type AirSettings, blows } from "./air-settings";
 import type { Answers } from "./answers";
-import { FADE, type Sway } from "./sway";
+import { FADE, fadedIn, followedBy, leftAt, Sway } from "./sway";
 
 /** Winds set in at whole multiples of so many seconds of the time that all share; of several that are set between, the last does. */
 export const BEAT = 0.25;
@@ -17,12 +17,19 @@ export const LATE = 0.4;
 interface Onset {
   readonly settings: AirSettings;
   /** When it sets in, in seconds of the time that all share. */
-  at: number;
+  since: number;
+}
+
+/** How much of what is seen is that of a wind, from 0 to 1; those of all winds together are 1. */
+export interface WindShare {
+  readonly settings: AirSettings;
+  readonly share: number;
 }
 
 /** Which wind sets in when: the same on all pages, however late they hear of it. */
 export class Winds {
-  private present: Onset | null = null;
+  /** What blows, last, and before it what still fades. */
+  private blown: readonly Onset[] = [];
   private coming: Onset[] = [];
   private news: { readonly settings: AirSettings; readonly told: number | null }[] = [];
   private sheltered = false;
@@ -43,10 +50,30 @@ export class Winds {
     this.news = [...this.news, { settings, told }].slice(-MOST_SET);
   }
 
-  /** Another tree stands in this wind at once. */
+  /** This wind has always blown. */
   begin(settings: AirSettings): void {
-    this.present = { settings, at: Number.NEGATIVE_INFINITY };
+    this.blown = [{ settings, since: Number.NEGATIVE_INFINITY }];
     [this.coming, this.news, this.sheltered] = [[], [], false];
+  }
+
+  /** How other joints stand in these winds: one that fades goes on fading, and those to come are still to come. */
+  stand(settings: AirSettings, answers: (settings: AirSettings) => Answers): Sway {
+    if (this.blown.length === 0) this.begin(settings);
+    this.sheltered = false;
+    const [first, ...others] = this.blown;
+    const sway = new Sway(answers(first!.settings));
+    for (const { settings, since } of others) sway.change(answers(settings), since);
+    return sway;
+  }
+
+  /** How much there is of each wind at a time, the newest last. */
+  shares(time: number): readonly WindShare[] {
+    let shares: WindShare[] = [];
+    for (const [at, { settings, since }] of this.blown.entries()) {
+      const share = at === 0 ? 1 : fadedIn(time - since);
+      shares = [...shares.map((each) => ({ ...each, share: each.share * (1 - share) })), { settings, share }];
+    }
+    return shares.filter(({ share }) => share > 0);
   }
 
   /** Joints have come to stand in other shelter: a moment after the wind has turned, to which that belongs. */
@@ -57,17 +84,18 @@ export class Winds {
   /** Has winds that set in by a time take over in a tree. `late` is called before one does that would come as a surprise. */
   pass(sway: Sway, time: number, answers: (settings: AirSettings) => Answers, late: () => void): void {
     for (const { settings, told } of this.news.splice(0)) this.want(settings, told, time, sway);
-    const due = this.coming.filter(({ at }) => at <= time);
-    this.coming = this.coming.filter(({ at }) => at > time);
+    const due = this.coming.filter(({ since }) => since <= time);
+    this.coming = this.coming.filter(({ since }) => since > time);
     for (const onset of due) {
-      this.present = onset;
-      if (time - onset.at > LATE) late();
-      sway.change(answers(onset.settings), onset.at);
+      this.blown = followedBy(this.blown, onset);
+      if (time - onset.since > LATE) late();
+      sway.change(answers(onset.settings), onset.since);
     }
-    const { present } = this;
+    this.blown = leftAt(this.blown, time);
+    const present = this.blown.at(-1);
     if (!this.sheltered || !present) return;
     this.sheltered = false;
-    sway.change(answers(present.settings), time < present.at + FADE ? present.at : time);
+    sway.change(answers(present.settings), time < present.since + FADE ? present.since : time);
   }
 
   /** The wind that was set last, at once, where time stands still; null where it blows already. */
@@ -82,22 +110,23 @@ export class Winds {
     // In a calm what blew last dies away.
     if (!blows(settings)) return;
     const isTold = told !== null && told <= now + AHEAD;
-    const at = Math.ceil((isTold ? told : now) / BEAT) * BEAT;
-    const last = this.coming.at(-1) ?? this.present;
+    const since = Math.ceil((isTold ? told : now) / BEAT) * BEAT;
+    const present = this.blown.at(-1);
+    const last = this.coming.at(-1) ?? present;
     if (last && tuningOf(last.settings) === tuningOf(settings)) {
       // One that has blown for long stays: the server may have begun anew, and its time with it.
-      if (!isTold || Math.abs(at - last.at) > AHEAD || at === last.at) return;
-      last.at = at;
-      if (last === this.present) sway?.retime(at);
+      if (!isTold || Math.abs(since - last.since) > AHEAD || since === last.since) return;
+      last.since = since;
+      if (last === present) sway?.retime(since);
       return;
     }
-    if (this.coming.at(-1)?.at === at) this.coming.pop();
-    this.coming.push({ settings, at });
+    if (this.coming.at(-1)?.since === since) this.coming.pop();
+    this.coming.push({ settings, since });
     if (this.coming.length > MOST) this.coming.shift();
   }
 }
 
-/** All that a wind and the answers to it depend on. */
-function tuningOf({ speed, direction, rise, turbulence, sag, damping, snow, rain }: AirSettings): string {
-  return [speed, direction, rise, turbulence, sag, damping, snow, rain].join(" ");
+/** All of a wind that another takes over. */
+function tuningOf({ speed, direction, rise, turbulence, flutter, sag, damping, snow, rain }: AirSettings): string {
+  return [speed, direction, rise, turbulence, flutter, sag, damping, snow, rain].join(" ");
 }
