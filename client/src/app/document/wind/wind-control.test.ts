@@ -110,6 +110,18 @@ describe("the wind on a page", () => {
     expect(told.held).toBe(false);
   });
 
+  it("shows what lies on trees where less motion is asked for, and can be let go in a calm", () => {
+    const { wind, told } = page({ calmly: true });
+    wind.set({ speed: 5, rise: 1, snow: 0.2, sag: 0.5, rain: 1 });
+    expect(told.settings).toEqual({ ...CALM, snow: 0.2, sag: 0.5, rain: 1 });
+    wind.set({ speed: 0, rise: 0 });
+    expect(wind.toggles).toBe(true);
+    wind.toggle();
+    expect([wind.mode.value, wind.toggles]).toEqual(["moving", false]);
+    wind.set({ speed: 5 });
+    expect(wind.toggles).toBe(true);
+  });
+
   it("flutters by the form of leaves", () => {
     const { wind, told, leaves } = page();
     wind.set({ speed: 5 });

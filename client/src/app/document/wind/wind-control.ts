@@ -1,6 +1,6 @@
 import { effect, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import type { Air, AirStage } from "../../../scene/motion/air";
-import { type AirSettings, blows, CALM, sameAir } from "../../../scene/motion/air-settings";
+import { type AirSettings, blows, sameAir, stilled, stirs } from "../../../scene/motion/air-settings";
 import type { Hand } from "../../../scene/motion/hand";
 import type { Scale } from "../../../scene/motion/wood";
 import { DEFAULT_PARAMETERS, type LeafKind, type Parameters } from "../../../wire/generated";
@@ -61,7 +61,7 @@ export class WindControl {
       const scale: Scale = { internodeLength, leafSize };
       const told = page.told.value;
       const since = told && sameAir(told.settings, settings) ? told.since / 1000 : null;
-      this.#air?.set(mode === "still" ? CALM : settings, scale, leaves, since);
+      this.#air?.set(mode === "still" ? stilled(settings) : settings, scale, leaves, since);
       this.#air?.touch(touched);
       this.#air?.hold(mode === "held");
     });
@@ -83,6 +83,11 @@ export class WindControl {
   /** Sets some of the numbers. */
   set(patch: Partial<AirSettings>): void {
     this.#page.commit(patch);
+  }
+
+  /** Whether there is something to hold or to let go; where nothing moves for less motion that can be undone in a calm too. */
+  get toggles(): boolean {
+    return this.mode.value === "still" || stirs(this.settings.value);
   }
 
   /** Holds what moves, or lets it go. */

@@ -1,5 +1,5 @@
 import { useEffect } from "preact/hooks";
-import { type AirName, CALM, stirs } from "../../../scene/motion/air-settings";
+import { type AirName, CALM } from "../../../scene/motion/air-settings";
 import type { WindMode } from "../../document/wind/wind-control";
 import { windOf } from "../../document/wind/wind-of";
 import { PRESET_NAMES, presetOf, WIND_PRESETS } from "../../document/wind/wind-presets";
@@ -49,7 +49,7 @@ export function WindPanel({ studio }: { studio: Studio }) {
           type="button"
           class="wind-hold"
           aria-pressed={mode === "held"}
-          disabled={!stirs(settings)}
+          disabled={!wind.toggles}
           title={say("wind.hold.title")}
           onClick={() => wind.toggle()}
         >
