@@ -84,8 +84,10 @@ impl Joints {
         let mut joints = Vec::with_capacity(chosen.len());
         let mut shapes = Vec::with_capacity(chosen.len());
         for &limb in &chosen {
-            let Plant { softer, .. } = *of_plant(limb);
+            let Plant { softer, whole, .. } = *of_plant(limb);
             let (at, mode) = (limbs.all()[limb], modes[limb]);
+            // A trunk swings with all that it bears.
+            let rate = if is_trunk(limbs, limb) { mode.rate.min(whole) } else { mode.rate };
             let first = at.first as usize;
             let parent = at.bearer.map_or(NONE, |bearer| carriers[bearer as usize]);
             let softness = suppleness / softer;
@@ -96,7 +98,7 @@ impl Joints {
                 node: at.node,
                 parent: (parent != NONE).then_some(parent),
                 level: if parent == NONE { 0 } else { level(&joints, parent) + 1 },
-                frequency: (mode.rate / softness).sqrt() / TAU,
+                frequency: (rate / softness).sqrt() / TAU,
                 damping: 0.0,
                 drag: mode.drag,
                 softness,
@@ -230,11 +232,13 @@ struct Plant {
     slow: f64,
     /// Factor of the modulus that makes it swing as observed.
     softer: f64,
+    /// ω² of the whole, before calibration.
+    whole: f64,
 }
 
 /// By row of a seed; others are not asked for.
 fn plants(rows: &Rows, limbs: &Limbs, wood: &Wood, modes: &[Mode], mass: &Borne) -> Vec<Plant> {
-    let mut plants = vec![Plant { slow: 0.0, softer: 1.0 }; rows.len()];
+    let mut plants = vec![Plant { slow: 0.0, softer: 1.0, whole: f64::INFINITY }; rows.len()];
     let mut seed = vec![NONE; rows.len()];
     let mut top: Vec<f64> = wood.place.iter().map(|place| place.y).collect();
     for row in 0..rows.len() {
@@ -254,7 +258,7 @@ fn plants(rows: &Rows, limbs: &Limbs, wood: &Wood, modes: &[Mode], mass: &Borne)
         // A trunk without length swings in no way, and says nothing of what stands beside it.
         let swings = rate.is_finite() && whole[row].is_finite();
         let softer = if swings { (observed / whole[row]).clamp(SOFTEST, 1.0) } else { 1.0 };
-        plants[row] = Plant { slow, softer };
+        plants[row] = Plant { slow, softer, whole: whole[row] };
     }
     plants
 }
@@ -268,12 +272,15 @@ fn plant_of(limbs: &Limbs, limb: usize) -> usize {
     at.node as usize
 }
 
+/// Whether a limb goes on from the seed.
+fn is_trunk(limbs: &Limbs, limb: usize) -> bool {
+    let at = limbs.all()[limb];
+    at.bearer.is_none() && limbs.onward(at.node) == Some(at.first)
+}
+
 /// The limbs that move: trunks, and slow limbs of two rows at least; no more than there may be.
 fn chosen<'a>(limbs: &Limbs, modes: &[Mode], of_plant: impl Fn(usize) -> &'a Plant) -> Vec<usize> {
-    let is_trunk = |limb: usize| {
-        let at = limbs.all()[limb];
-        at.bearer.is_none() && limbs.onward(at.node) == Some(at.first)
-    };
+    let is_trunk = |limb: usize| is_trunk(limbs, limb);
     let moves = |&limb: &usize| {
         let is_slow = modes[limb].rate < of_plant(limb).slow && limbs.rows(limb as u32).len() >= 2;
         is_trunk(limb) && modes[limb].rate.is_finite() || is_slow

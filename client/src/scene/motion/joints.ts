@@ -71,7 +71,8 @@ function jointsIn(rows: MotionRows, limbs: Limbs, wood: Wood, suppleness: number
   const modes = modesOf(limbs, wood, mass, drag);
   const plants = plantsOf(rows, limbs, wood, modes, mass);
   const plantOf = plantsOfLimbs(limbs);
-  const chosen = chosenOf(rows, limbs, modes, (limb) => plants.slow[plantOf[limb]!]!);
+  const isTrunk = trunksOf(rows, limbs);
+  const chosen = chosenOf(limbs, modes, isTrunk, (limb) => plants.slow[plantOf[limb]!]!);
   const count = chosen.length;
   const jointOfLimb = new Int32Array(limbs.count).fill(NONE);
   for (const [joint, limb] of chosen.entries()) jointOfLimb[limb] = joint;
@@ -101,11 +102,14 @@ function jointsIn(rows: MotionRows, limbs: Limbs, wood: Wood, suppleness: number
     const parent = bearer === NONE ? NONE : carriers[bearer]!;
     const softness = suppleness / plants.softer[plantOf[limb]!]!;
     const { compliance } = shapes.find(limb);
+    const own = modes.rate[limb]!;
+    // A trunk swings with all that it bears.
+    const rate = isTrunk(limb) ? Math.min(own, plants.whole[plantOf[limb]!]!) : own;
     made.first[joint] = first;
     made.node[joint] = limbs.node[limb]!;
     made.parent[joint] = parent;
     made.level[joint] = parent === NONE ? 0 : made.level[parent]! + 1;
-    made.frequency[joint] = Math.sqrt(modes.rate[limb]! / softness) / TAU;
+    made.frequency[joint] = Math.sqrt(rate / softness) / TAU;
     made.drag[joint] = modes.drag[limb]!;
     made.softness[joint] = softness;
     for (let e = 0; e < 9; e += 1) made.compliance[9 * joint + e] = compliance[e]! * softness;
@@ -198,7 +202,7 @@ function modesOf(limbs: Limbs, wood: Wood, mass: Borne, drag: Borne): Modes {
   return modes;
 }
 
-/** By row of a seed: ω² below which a limb is a joint, before calibration; and what makes the plant swing as observed. */
+/** By row of a seed: ω² below which a limb is a joint, and ω² of the whole, before calibration; and what makes the plant swing as observed. */
 function plantsOf(rows: MotionRows, limbs: Limbs, wood: Wood, modes: Modes, mass: Borne) {
   const { place } = wood;
   const count = rows.parent.length;
@@ -229,7 +233,7 @@ function plantsOf(rows: MotionRows, limbs: Limbs, wood: Wood, modes: Modes, mass
     const swings = Number.isFinite(rate) && Number.isFinite(whole[row]);
     if (swings) softer[row] = Math.min(Math.max(observed / whole[row]!, SOFTEST), 1);
   }
-  return { slow, softer };
+  return { slow, softer, whole };
 }
 
 /** The seed of each limb's plant. */
@@ -241,9 +245,18 @@ function plantsOfLimbs({ count, bearer, node }: Limbs): Int32Array {
   return plants;
 }
 
+/** Which limbs go on from a seed. */
+function trunksOf({ onward }: MotionRows, { bearer, node, first }: Limbs): (limb: number) => boolean {
+  return (limb) => bearer[limb] === NONE && onward[node[limb]!] === first[limb];
+}
+
 /** The limbs that move: trunks, and slow limbs of two rows at least; no more than there may be, in ascending order. */
-function chosenOf(rows: MotionRows, limbs: Limbs, { rate }: Modes, slow: (limb: number) => number): number[] {
-  const isTrunk = (limb: number) => limbs.bearer[limb] === NONE && rows.onward[limbs.node[limb]!] === limbs.first[limb];
+function chosenOf(
+  limbs: Limbs,
+  { rate }: Modes,
+  isTrunk: (limb: number) => boolean,
+  slow: (limb: number) => number,
+): number[] {
   const chosen: number[] = [];
   for (let limb = 0; limb < limbs.count; limb += 1) {
     const isSlow = rate[limb]! < slow(limb) && limbs.begin[limb + 1]! - limbs.begin[limb]! >= 2;

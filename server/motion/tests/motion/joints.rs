@@ -37,7 +37,8 @@ fn calibration_makes_stout_trees_softer_and_none_stiffer() {
             trunk.frequency
         );
         assert_eq!((trunk.level, trunk.parent), (0, None));
-        assert!(trunk.frequency < 3.0 * observed, "{}", tree.name);
+        let is_softest = trunk.softness > 8.99;
+        assert!(trunk.frequency < 1.001 * observed || is_softest, "{}", tree.name);
     }
 }
 
