@@ -7,7 +7,6 @@
 The rules are in proto/PROTOCOL.md, every message in proto/protocol.schema.json, every address in proto/openapi.json.
 """
 import json
-import struct
 import sys
 import urllib.error
 import urllib.request
@@ -26,6 +25,16 @@ def request(method, address, body=None):
     except urllib.error.HTTPError as refusal:
         problem = json.load(refusal)
         raise SystemExit(f"{problem['detail']} ({problem['reason']})") from None
+
+
+def varint(data, at):
+    """The number at a place: seven bits a byte, the lowest first; the last byte is below 128."""
+    number = shift = 0
+    while True:
+        number |= (data[at] & 127) << shift
+        if data[at] < 128:
+            return number
+        at, shift = at + 1, shift + 7
 
 
 class Session:
@@ -53,9 +62,10 @@ class Session:
     def listen(self):
         message = self.socket.recv(timeout=60)
         if isinstance(message, bytes):
-            # A frame's header: version, kind, codec, flags, epoch, sequence, length of the body. The server sends no
-            # more than fits into its window until what has come is answered (FL1).
-            _, kind, _, _, _, sequence, _ = struct.unpack_from("<4B3I", message)
+            # A frame's header: version, kind, codec, flags in a byte each, epoch in four; then the sequence and the
+            # length of the body as varints (FR3). The server sends no more than fits into its window until what has
+            # come is answered (FL1).
+            kind, sequence = message[1], varint(message, 8)
             self.frame_bytes += len(message)
             self.send({"type": "received", "kind": kind, "sequence": sequence})
             return

@@ -84,6 +84,8 @@ pub struct Client {
     pub acknowledged: u32,
     /// The command up to which nothing is left to do (`CM11`).
     pub done: u32,
+    /// How often it was told what its rows must add up to (`CK1`).
+    pub checksums: usize,
     /// What was sent and is not known to be durable.
     pub unacknowledged: VecDeque<(u32, Value)>,
     /// Whether the last welcome took up the resume.
@@ -228,6 +230,7 @@ impl Client {
             role: None,
             acknowledged,
             done: 0,
+            checksums: 0,
             unacknowledged: VecDeque::new(),
             resumed,
             refused: Vec::new(),
@@ -336,6 +339,14 @@ impl Client {
             client.table.living() == client.state.metamers as usize
         })
         .await;
+    }
+
+    /// The form of the table once it has come in full (`FL5`), which is so when rows are added up.
+    pub async fn form(&mut self) -> Vec<Form> {
+        let told = self.checksums;
+        self.send_message(&json!({ "type": "check" })).await;
+        self.until("rows are added up (CK1)", |client| client.checksums > told).await;
+        self.table.form()
     }
 
     /// Takes in messages until the table has this form.
@@ -455,12 +466,12 @@ impl Client {
                 self.appearances += 1;
             }
             ServerMessage::Notice { notice } => self.notices.push(notice),
+            ServerMessage::Checksum { .. } => self.checksums += 1,
             // Said to a person, who is not here.
             ServerMessage::Hint { .. }
             | ServerMessage::Deed { .. }
             | ServerMessage::Branches { .. }
             | ServerMessage::Authors { .. }
-            | ServerMessage::Checksum { .. }
             | ServerMessage::Gathered { .. }
             | ServerMessage::Pins { .. }
             | ServerMessage::ThreadsChanged { .. } => {}

@@ -47,7 +47,7 @@ async fn a_backup_made_while_people_draw_is_restored_as_it_was() {
     let (database, copy) = (scratch.path("trees.db"), scratch.path("copy.db"));
     let server = Server::start(&database);
     let mut client = grown(&server, 8).await;
-    let before = client.table.form();
+    let before = client.form().await;
     save(&server, &client.session.clone());
 
     let made = care(&["backup", name(&copy)], &database);
@@ -65,10 +65,10 @@ async fn a_backup_made_while_people_draw_is_restored_as_it_was() {
     }
 
     grow(&mut client, 3).await;
-    assert_ne!(client.table.form(), before);
+    assert_ne!(client.form().await, before);
     let in_use = care(&["restore", name(&copy)], &database);
     assert!(in_use.code == 1 && in_use.stderr.contains("another Espalier server"), "{}", in_use.stderr);
-    let later = client.table.form();
+    let later = client.form().await;
     server.kill();
 
     let restored = care(&["restore", name(&copy)], &database);
@@ -165,7 +165,7 @@ async fn hs5_nothing_is_acknowledged_once_the_database_is_gone() {
     let (database, elsewhere) = (scratch.path("trees.db"), scratch.path("elsewhere.db"));
     let server = Server::start(&database);
     let mut client = grown(&server, 5).await;
-    let form = client.table.form();
+    let form = client.form().await;
     fs::rename(&database, &elsewhere).expect("it can be moved");
     // Nobody draws, and all are told nevertheless.
     while client.take_in().await {}

@@ -56,7 +56,7 @@ async fn cm4_commands_of_one_client_run_in_their_order() {
     let mut straight = Client::connect(server.port(), &session, "browser-2").await;
     straight.send(grow(4)).await;
     straight.until_settled().await;
-    client.until_form(&straight.table.form()).await;
+    client.until_form(&straight.form().await).await;
 }
 
 #[tokio::test]
@@ -87,10 +87,10 @@ async fn cm7_undo_and_redo_give_the_same_rows_back() {
         client.send(command).await;
     }
     client.until_settled().await;
-    let drawn = client.table.form();
+    let drawn = client.form().await;
     client.send(grow(5)).await;
     client.until_settled().await;
-    let grown = client.table.form();
+    let grown = client.form().await;
     assert_ne!(drawn, grown);
     client.send(json!({ "kind": "undo" })).await;
     client.until_settled().await;
@@ -106,7 +106,7 @@ async fn cm7_ungrow_takes_steps_back_exactly() {
     let (mut client, _server, _scratch) = Client::alone(&[]).await;
     client.send(grow(8)).await;
     client.until_settled().await;
-    let rows = client.table.form();
+    let rows = client.form().await;
     client.send(grow(4)).await;
     client.until_settled().await;
     client.send(json!({ "kind": "ungrow", "steps": 4 })).await;

@@ -80,8 +80,8 @@ async fn twenty_kills_lose_and_double_nothing_acknowledged() {
     assert_eq!(client.refused, []);
     assert!(cut_short > 0, "some kills came between sending and acknowledging");
 
-    let wanted = reference(&server, commands.into_iter()).await;
-    client.until_form(&wanted.table.form()).await;
+    let mut wanted = reference(&server, commands.into_iter()).await;
+    client.until_form(&wanted.form().await).await;
     assert!(client.state.metamers > 100, "the strokes grew {} metamers", client.state.metamers);
 }
 
@@ -107,8 +107,8 @@ async fn what_was_acknowledged_is_there_even_if_nobody_resends() {
     let durable = viewer.acknowledged;
     assert!(durable >= promised, "CM2: {durable} after {promised}");
     viewer.until_settled().await;
-    let wanted = reference(&server, commands.into_iter().take(durable as usize)).await;
-    viewer.until_form(&wanted.table.form()).await;
+    let mut wanted = reference(&server, commands.into_iter().take(durable as usize)).await;
+    viewer.until_form(&wanted.form().await).await;
 }
 
 #[tokio::test]
@@ -120,7 +120,7 @@ async fn hs5_a_server_that_stops_closes_with_1001_and_keeps_everything() {
     let mut client = Client::connect(server.port(), &session, "browser-1").await;
     client.send(json!({ "kind": "grow", "steps": 8 })).await;
     client.until_settled().await;
-    let rows = client.table.form();
+    let rows = client.form().await;
 
     let ending = tokio::task::spawn_blocking(move || server.terminate());
     while client.take_in().await {}
@@ -134,8 +134,8 @@ async fn hs5_a_server_that_stops_closes_with_1001_and_keeps_everything() {
     client.send(json!({ "kind": "grow", "steps": 2 })).await;
     client.until_settled().await;
     let grown = [8, 2].map(|steps| json!({ "kind": "grow", "steps": steps }));
-    let wanted = reference(&server, grown.into_iter()).await;
-    client.until_form(&wanted.table.form()).await;
+    let mut wanted = reference(&server, grown.into_iter()).await;
+    client.until_form(&wanted.form().await).await;
 }
 
 #[tokio::test]
@@ -169,5 +169,5 @@ async fn hs5_pages_go_on_where_they_were_on_the_next_process() {
     drawer.until_settled().await;
     assert_eq!((drawer.acknowledged as usize, drawer.refused.len()), (commands.len(), 0));
     assert!(drawer.state.metamers > 5, "the stroke grew on: {:?}", drawer.state);
-    viewer.until_form(&drawer.table.form()).await;
+    viewer.until_form(&drawer.form().await).await;
 }

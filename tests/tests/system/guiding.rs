@@ -22,7 +22,7 @@ async fn la1_a_lasso_grows_for_everybody_and_undoes() {
     first.send(heart(10.0, None)).await;
     first.until_settled().await;
     assert!(first.state.metamers > 200, "{:?}", first.state);
-    let heart = first.table.form();
+    let heart = first.form().await;
     second.until_form(&heart).await;
     second.send(json!({ "kind": "undo" })).await;
     second.until_settled().await;
@@ -38,7 +38,7 @@ async fn st1_what_was_stopped_survives_a_crash() {
     client.until("it grows", |client| client.state.step > 0).await;
     client.send(json!({ "kind": "stop" })).await;
     client.until_settled().await;
-    let (step, form) = (client.state.step, client.table.form());
+    let (step, form) = (client.state.step, client.form().await);
     assert!(step < 1000 && client.state.metamers > 0, "{step} steps");
     let server = server.kill_and_restart();
     client.reconnect(server.port()).await;
@@ -83,7 +83,7 @@ async fn lm4_the_budget_of_a_session_is_the_one_it_began_with() {
     client.until("the budget is reached", |client| client.state.budget_reached).await;
     client.until_settled().await;
     assert_eq!(client.state.metamer_budget, 600);
-    let form = client.table.form();
+    let form = client.form().await;
     client.send(grow(1)).await;
     client.until("more is refused", |client| !client.refused.is_empty()).await;
     assert!(client.refused[0].1.message.contains("600"), "{:?}", client.refused);

@@ -123,15 +123,15 @@ async fn a_reopened_tree_is_the_same_and_another_document() {
     assert_ne!(session, library.client.session);
     let port = library.server.port();
     let mut reopened = Client::connect(port, &session, "browser-2").await;
-    reopened.until_form(&library.client.table.form()).await;
+    reopened.until_form(&library.client.form().await).await;
 
     // Both go on alike, each for itself.
     reopened.send(json!({ "kind": "grow", "steps": 3 })).await;
     reopened.until_settled().await;
-    assert_ne!(reopened.table.form(), library.client.table.form());
+    assert_ne!(reopened.form().await, library.client.form().await);
     library.client.send(json!({ "kind": "grow", "steps": 3 })).await;
     library.client.until_settled().await;
-    reopened.until_form(&library.client.table.form()).await;
+    reopened.until_form(&library.client.form().await).await;
 }
 
 #[tokio::test]

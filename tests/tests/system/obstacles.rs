@@ -72,7 +72,7 @@ async fn ob3_obstacles_reach_everybody_and_survive_a_crash() {
     let rows = &first.table.rows;
     assert!(rows.iter().all(|row| row.position[0] <= 384), "something grew through the wall");
     assert!(rows.iter().any(|row| row.position[0] < -384), "nothing grew on the free side");
-    let (obstacles, form) = (first.obstacles.clone(), first.table.form());
+    let (obstacles, form) = (first.obstacles.clone(), first.form().await);
     let server = server.kill_and_restart();
     first.reconnect(server.port()).await;
     first.until("the list comes again", |client| !client.obstacles.is_empty()).await;

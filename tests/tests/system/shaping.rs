@@ -48,7 +48,7 @@ async fn a_kill_in_the_middle_of_a_bend_loses_nothing() {
     ann.send(grow(9)).await;
     ann.until_settled().await;
     let (top, base) = limb(&ann, 6);
-    let rest = ann.table.form();
+    let rest = ann.form().await;
     let mut all =
         vec![json!({ "kind": "bend_begin", "bend": 1, "base": base, "touches": vec![top], "stretch": 0.2 })];
     for part in 1..=12 {
@@ -75,7 +75,7 @@ async fn a_kill_in_the_middle_of_a_bend_loses_nothing() {
     let is_over = |ann: &Client| ann.bend_frames.last().is_none_or(|pose| pose.motions.is_empty());
     ann.until("the bend is over (BE5)", is_over).await;
     assert_eq!(ann.refused, []);
-    assert_ne!(ann.table.form()[..rest.len()], rest[..], "the branch was bent");
+    assert_ne!(ann.form().await[..rest.len()], rest[..], "the branch was bent");
     assert_eq!((ann.timeline.operations.len(), ann.timeline.done), (5, 5));
     assert_eq!(ann.widths.iter().map(|width| width.row).collect::<Vec<_>>(), [base]);
 
@@ -110,7 +110,7 @@ async fn tt2_two_people_scrub_through_growth_and_edits() {
     ann.send(json!({ "kind": "graft", "row": top, "onto": base, "rotation": rotation, "keep": true })).await;
     ann.send(grow(3)).await;
     ann.until_settled().await;
-    let end = ann.table.form();
+    let end = ann.form().await;
     let last = ann.timeline.last_step;
     assert_eq!(last, 13);
     for step in (0..last).rev().chain(1..=last) {
@@ -118,7 +118,7 @@ async fn tt2_two_people_scrub_through_growth_and_edits() {
         bob.listen(Duration::from_millis(3)).await;
     }
     ann.until_settled().await;
-    assert_eq!(ann.table.form(), end);
+    assert_eq!(ann.form().await, end);
     until_equal(&mut ann, &mut bob).await;
     // TT3, TT4: another future, and the first one again.
     ann.send(json!({ "kind": "go_to", "step": 5 })).await;
@@ -172,7 +172,7 @@ async fn what_another_has_cut_cannot_be_edited() {
     ann.send(json!({ "kind": "prune", "rows": vec![top] })).await;
     ann.until_settled().await;
     assert_eq!(ann.table.rows[top as usize].radius, 0, "it is cut");
-    let left = ann.table.form();
+    let left = ann.form().await;
     // Bob has not looked yet: his hands are where the branch was.
     let rotation = [0.0, 0.0, 0.6, 0.8];
     for (command, field) in [

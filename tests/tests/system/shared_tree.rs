@@ -55,8 +55,8 @@ async fn the_same_seed_and_commands_grow_the_same_tree() {
         trees.push(client);
     }
     let [first, again, other] = trees.as_mut_slice() else { panic!("there are three trees") };
-    first.until_form(&again.table.form()).await;
-    assert_ne!(first.table.form(), other.table.form());
+    first.until_form(&again.form().await).await;
+    assert_ne!(first.form().await, other.form().await);
 }
 
 #[tokio::test]
@@ -95,7 +95,7 @@ async fn rs2_another_epoch_is_not_resumed() {
     let mut client = Client::connect(server.port(), &session, "tablet-one").await;
     client.send(json!({ "kind": "grow", "steps": 5 })).await;
     client.until_settled().await;
-    let rows = client.table.form();
+    let rows = client.form().await;
     let epoch = client.table.epoch;
     let server = server.kill_and_restart();
     client.reconnect(server.port()).await;

@@ -103,7 +103,7 @@ async fn op1_kept_sessions_open_are_undone_redone_and_grown_on() {
         }
         // From the end of its line, so that redoing comes back here.
         many(&mut client, json!({ "kind": "redo" })).await;
-        let (rows, state) = (client.table.form(), client.state.clone());
+        let (rows, state) = (client.form().await, client.state.clone());
         many(&mut client, json!({ "kind": "undo" })).await;
         assert_eq!((client.state.metamers, client.state.can_undo), (0, false), "{name}: the seedling");
         many(&mut client, json!({ "kind": "redo" })).await;
@@ -169,7 +169,7 @@ async fn op2_op3_entries_of_an_older_simulation_are_done_again_and_said_once() {
     first.reconnect(server.port()).await;
     first.until_settled().await;
     assert!(regrown(&first) && regrown(&second), "{:?} {:?}", first.notices, second.notices);
-    let rows = first.table.form();
+    let rows = first.form().await;
 
     // The snapshot is made at once, so that a kill from here on leaves nothing to say again.
     let unkept = "SELECT count(*) FROM sessions WHERE notices IS NOT NULL OR last_snapshot IS NOT last_entry";

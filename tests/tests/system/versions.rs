@@ -49,7 +49,7 @@ async fn lb1_each_save_is_a_version_that_can_be_had_again() {
     let mut library = Library::new().await;
     let tree = library.save("Pear");
     let path = path_of(&tree);
-    let before = library.client.table.form();
+    let before = library.client.form().await;
     library.grow(3).await;
     let second = library.save_again(&path, "Grown on");
     assert_eq!(
@@ -133,7 +133,7 @@ async fn lb3_opening_a_tree_in_work_is_joining() {
     assert_eq!((&opened["session"], &opened["tree"]), (&ours, &saved));
     let mut friend = library.enter(&opened, "browser-2").await;
     library.grow(2).await;
-    friend.until_form(&library.client.table.form()).await;
+    friend.until_form(&library.client.form().await).await;
     let joined = library.post("/api/v1/sessions", open.clone(), 200);
     assert_eq!(
         (&joined["session"], &joined["tree"]["saved"]),
@@ -185,7 +185,7 @@ async fn lb4_a_template_begins_a_tree_of_its_own() {
     let begun = library.post("/api/v1/sessions", json!({ "tree": tree["id"], "template": true }), 201);
     assert_eq!(begun["tree"], Value::Null);
     let mut visitor = library.enter(&begun, "browser-2").await;
-    visitor.until_form(&library.client.table.form()).await;
+    visitor.until_form(&library.client.form().await).await;
     visitor.send(json!({ "kind": "grow", "steps": 2 })).await;
     visitor.until_settled().await;
     library.client = visitor;

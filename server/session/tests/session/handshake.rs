@@ -102,7 +102,7 @@ fn hs1_client_keys_have_a_form() {
 #[test]
 fn hs1_other_versions_close_with_4000() {
     for text in [
-        r#"{"type":"hello","protocol":2,"client":"birch-01"}"#,
+        r#"{"type":"hello","protocol":1,"client":"birch-01"}"#,
         r#"{"type":"hello","protocol":7,"user":{"shape":"unknown"}}"#,
     ] {
         let mut world = World::new();

@@ -91,7 +91,7 @@ fn cm10_what_the_server_says_keeps_to_the_schema() {
             "devices": [{ "device": 1, "state": "away", "tool": "brush", "follows": 2 }],
         }] }),
         json!({ "type": "refused", "id": 3, "problem": { "code": "refused", "reason": "no-room", "message": "no" } }),
-        json!({ "type": "appearance", "appearance": espalier_settings::Appearance::default() }),
+        json!({ "type": "appearance", "appearance": espalier_settings::Appearance::default(), "wind_since": 0 }),
         json!({ "type": "parameters", "parameters": espalier_settings::ParameterValues::default() }),
         json!({ "type": "timeline", "line": 0, "step": 0, "last_step": 0, "done": 0, "operations": [], "futures": [] }),
         json!({ "type": "timeline_changed", "line": 0, "step": 0, "last_step": 0, "done": 0, "from": 0, "operations": [] }),
