@@ -185,6 +185,8 @@ async fn forward(
     loop {
         tokio::select! {
             biased;
+            // First, so that whoever is told much is asked all the same whether they are still there.
+            _ = pings.tick() => sink.send(Message::Ping(Bytes::new())).await?,
             outgoing = outgoings.lane.recv() => match outgoing {
                 Some(Outgoing::Text(text)) => {
                     sink.send(Message::Text(Utf8Bytes::from(&*text))).await?;
@@ -203,7 +205,6 @@ async fn forward(
                     sink.send(Message::Binary(Bytes::from_owner(frame))).await?;
                 }
             }
-            _ = pings.tick() => sink.send(Message::Ping(Bytes::new())).await?,
         }
     }
 }
