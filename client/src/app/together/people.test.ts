@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { changesOf, companions, countHere, isFollowed } from "./people";
+import { countHere } from "./count-here";
+import { changesOf, companions, isFollowed } from "./people";
 import type { PeopleHere } from "./together";
 
 const HERE: PeopleHere = {

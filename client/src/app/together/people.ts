@@ -29,14 +29,6 @@ export function companions(here: PeopleHere | null): Companion[] {
   return all.filter(({ device }) => device.device !== here?.you).sort((a, b) => a.device.device - b.device.device);
 }
 
-/** How many people are here, as far as is known, where so many pages are connected: somebody may have several. */
-export function countHere(here: PeopleHere | null, pages: number): number {
-  if (here === null || here.more > 0) {
-    return pages;
-  }
-  return here.people.filter(({ devices }) => devices.some(({ state }) => state !== "gone")).length;
-}
-
 /** Whether this page's camera is followed. */
 export function isFollowed(here: PeopleHere | null): boolean {
   return companions(here).some(({ device }) => device.follows === here?.you);

@@ -1,7 +1,7 @@
 import { useMemo } from "preact/hooks";
 import { measuresOf } from "../../../scene/table/measures";
 import type { Studio } from "../../studio";
-import { countHere } from "../../together/people";
+import { countHere } from "../../together/count-here";
 import { countText, metresText, yearsText } from "../../words/measure-text";
 import { say } from "../../words/say";
 import { PeopleIcon } from "../icons";
