@@ -84,8 +84,8 @@ test("PS3: a person with two pages is one in the list, and has left when both ar
   expect(await row(ann, "Bo").getByRole("button", { name: "Follow" }).count(), "each can be followed").toBe(2);
   // Of his own other page he is told as well.
   await bo.press(bo.page.locator(".people-chip"));
-  expect(await bo.page.locator(".people > li").count()).toBe(2);
   await row(bo, "Bo").getByText("2 devices").waitFor();
+  expect(await bo.page.locator(".people > li").count()).toBe(2);
   await second.close();
   await untilStates(ann, "Bo", "one page is left", "here");
   await bo.page.close();
