@@ -1,27 +1,21 @@
 import { Data3DTexture, LinearFilter, RGBAFormat, Vector3, type Vector4 } from "three";
 import type { Uniforms } from "../materials";
 import type { TreeTable } from "../table/tree-table";
+import { TaskWorker, type WorkerPort } from "../task-worker";
 import { CROWN_SIDE, crownField } from "./crown-field";
 import { type CrownBox, crownOf } from "./crown-of";
 
 /** Milliseconds without a change of the tree after which its crown is looked at anew; while it grows the old one will do. */
 const SETTLED = 150;
 
-/** The part of a worker that is used; tests bring their own. */
-export interface CrownWorker {
-  onmessage: ((event: { readonly data: Uint8Array<ArrayBuffer> }) => void) | null;
-  onerror: (() => void) | null;
-  postMessage(order: CrownBox["order"]): void;
-  terminate(): void;
-}
+export type CrownWorker = WorkerPort<CrownBox["order"], Uint8Array<ArrayBuffer>>;
 
 /** The crown's field for shaders: made beside the page, and shown in place of the one before when the picture is at rest. */
 export class Crown {
   private readonly texture = new Data3DTexture(empty(), CROWN_SIDE, CROWN_SIDE, CROWN_SIDE);
   private readonly from = { value: new Vector3() };
   private readonly size = { value: new Vector3(1, 1, 1) };
-  private worker: CrownWorker | null = null;
-  private broken = false;
+  private readonly worker: TaskWorker<CrownBox["order"], Uint8Array<ArrayBuffer>>;
   private timer: ReturnType<typeof setTimeout> | undefined;
   /** What is being made, and what has been made and is not shown yet. */
   private making: CrownBox | null = null;
@@ -33,8 +27,13 @@ export class Crown {
     private readonly table: TreeTable,
     private readonly uniforms: Uniforms,
     private readonly told: () => void,
-    private readonly start: () => CrownWorker = startWorker,
+    start: () => CrownWorker = startWorker,
   ) {
+    this.worker = new TaskWorker(
+      start,
+      (field) => this.finish(field),
+      () => this.making && this.finish(crownField(this.making.order)),
+    );
     const { texture } = this;
     texture.format = RGBAFormat;
     texture.minFilter = LinearFilter;
@@ -78,7 +77,7 @@ export class Crown {
 
   dispose(): void {
     clearTimeout(this.timer);
-    this.worker?.terminate();
+    this.worker.end();
     this.texture.dispose();
   }
 
@@ -86,9 +85,8 @@ export class Crown {
     if (this.making) return;
     this.stale = false;
     this.making = crownOf(this.table, this.leaf);
-    if (!this.broken && !this.worker) this.worker = this.started();
-    if (this.worker) this.worker.postMessage(this.making.order);
-    else this.finish(crownField(this.making.order));
+    const { order } = this.making;
+    if (!this.worker.send(order)) this.finish(crownField(order));
   };
 
   /** How long leaves are, as if all of them were there. */
@@ -103,24 +101,6 @@ export class Crown {
     this.making = null;
     if (this.stale) this.changed();
     this.told();
-  }
-
-  private started(): CrownWorker | null {
-    try {
-      const worker = this.start();
-      worker.onmessage = ({ data }) => this.finish(data);
-      worker.onerror = () => {
-        // Whatever has become of it, the page can do the same.
-        this.broken = true;
-        worker.terminate();
-        this.worker = null;
-        if (this.making) this.finish(crownField(this.making.order));
-      };
-      return worker;
-    } catch {
-      this.broken = true;
-      return null;
-    }
   }
 }
 

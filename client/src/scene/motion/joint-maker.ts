@@ -1,4 +1,5 @@
 import type { DrawnObstacle } from "../obstacle-meshes";
+import { TaskWorker, type WorkerPort } from "../task-worker";
 import { type JointsMade, type JointTask, JointWork } from "./joint-work";
 import { ObstaclePost } from "./obstacle-post";
 
@@ -7,17 +8,11 @@ export interface JointOrder extends Omit<JointTask, "obstacles"> {
   readonly obstacles: readonly DrawnObstacle[];
 }
 
-/** The part of a worker that is used; tests bring their own. */
-export interface JointWorker {
-  onmessage: ((event: { readonly data: JointsMade }) => void) | null;
-  onerror: (() => void) | null;
-  postMessage(task: JointTask): void;
-  terminate(): void;
-}
+export type JointWorker = WorkerPort<JointTask, JointsMade>;
 
 /** Has joints made beside the page, one order at a time; where no worker is to be had, on the page after all. */
 export class JointMaker {
-  private worker: JointWorker | null = null;
+  private readonly worker: TaskWorker<JointTask, JointsMade>;
   private work: JointWork | null = null;
   private order: JointOrder | null = null;
   private readonly post = new ObstaclePost();
@@ -25,8 +20,14 @@ export class JointMaker {
   /** `made` hears of each answer. */
   constructor(
     private readonly made: (made: JointsMade, order: JointOrder) => void,
-    private readonly start: () => JointWorker = startWorker,
-  ) {}
+    start: () => JointWorker = startWorker,
+  ) {
+    this.worker = new TaskWorker(
+      start,
+      (made) => this.finish(made),
+      () => this.again(),
+    );
+  }
 
   /** Whether an order is in work. */
   get busy(): boolean {
@@ -36,41 +37,24 @@ export class JointMaker {
   /** Orders joints; only while none are in work. */
   make(order: JointOrder): void {
     this.order = order;
-    this.worker ??= this.started();
-    if (this.worker) this.worker.postMessage(this.taskOf(order));
-    else this.finish(this.onPage(order));
+    const task = this.taskOf(order);
+    if (!this.worker.send(task)) this.finish(this.onPage(task));
   }
 
   dispose(): void {
     this.order = null;
-    this.worker?.terminate();
-    this.worker = null;
+    this.worker.end();
   }
 
-  private started(): JointWorker | null {
-    if (this.work) return null;
-    try {
-      const worker = this.start();
-      worker.onmessage = ({ data }) => this.finish(data);
-      worker.onerror = () => this.giveUp(worker);
-      return worker;
-    } catch {
-      return null;
-    }
-  }
-
-  private giveUp(worker: JointWorker): void {
-    worker.terminate();
-    this.worker = null;
-    this.work = new JointWork();
+  /** What the worker knew is lost: an order without rows of its own is answered by nothing. */
+  private again(): void {
     this.post.forget();
-    // What the worker knew is lost: an order without rows of its own is answered by nothing.
-    if (this.order) this.finish(this.onPage(this.order));
+    if (this.order) this.finish(this.onPage(this.taskOf(this.order)));
   }
 
-  private onPage(order: JointOrder): JointsMade {
+  private onPage(task: JointTask): JointsMade {
     this.work ??= new JointWork();
-    return this.work.make(this.taskOf(order));
+    return this.work.make(task);
   }
 
   private taskOf({ grown, along, obstacles }: JointOrder): JointTask {

@@ -1,13 +1,8 @@
+import { TaskWorker, type WorkerPort } from "../task-worker";
 import type { Levels } from "./leaf-atlas";
 import type { Order } from "./paint";
 
-/** The part of a worker that is used; tests bring their own. */
-export interface PaintWorker {
-  onmessage: ((event: { readonly data: Levels[] }) => void) | null;
-  onerror: (() => void) | null;
-  postMessage(order: Order): void;
-  terminate(): void;
-}
+export type PaintWorker = WorkerPort<Order, Levels[]>;
 
 interface Job {
   readonly order: Order;
@@ -21,8 +16,7 @@ interface Job {
 export class Painter {
   /** Whether the picture is visible yet; before that no picture is painted. */
   begun = false;
-  private worker: PaintWorker | null = null;
-  private broken = false;
+  private readonly worker: TaskWorker<Order, Levels[]>;
   /** Whether nothing can be painted: neither the worker nor what paints on the page could be loaded. */
   lost = false;
   private current: Job | null = null;
@@ -33,10 +27,16 @@ export class Painter {
   /** `painted` is called after each finished picture, with what had been ordered; `failed` once nothing can be painted at all. */
   constructor(
     private readonly painted: (order: Order) => void = () => {},
-    private readonly start: () => PaintWorker = startWorker,
+    start: () => PaintWorker = startWorker,
     private readonly failed: () => void = () => {},
     private readonly load: () => Promise<Pick<typeof import("./paint"), "paint">> = () => import("./paint"),
-  ) {}
+  ) {
+    this.worker = new TaskWorker(
+      start,
+      (painted) => this.finish(painted),
+      () => this.again(),
+    );
+  }
 
   /** Orders a picture; the result cancels the order. */
   order(order: Order, done: (painted: Levels[]) => void): () => void {
@@ -55,17 +55,14 @@ export class Painter {
     this.disposed = true;
     this.waiting = [];
     this.current = null;
-    this.worker?.terminate();
-    this.worker = null;
+    this.worker.end();
   }
 
   private next(): void {
     if (this.lost || this.current || this.waiting.length === 0) return;
     this.current = this.waiting.shift()!;
     const { order } = this.current;
-    if (!this.broken && !this.worker) this.worker = this.started();
-    if (this.worker) this.worker.postMessage(order);
-    else void this.paintHere(order);
+    if (!this.worker.send(order)) void this.paintHere(order);
   }
 
   private async paintHere(order: Order): Promise<void> {
@@ -89,22 +86,8 @@ export class Painter {
     this.next();
   }
 
-  private started(): PaintWorker | null {
-    try {
-      const worker = this.start();
-      worker.onmessage = ({ data }) => this.finish(data);
-      worker.onerror = () => this.giveUp();
-      return worker;
-    } catch {
-      this.broken = true;
-      return null;
-    }
-  }
-
-  private giveUp(): void {
-    this.broken = true;
-    this.worker?.terminate();
-    this.worker = null;
+  /** What was in work is painted on the page. */
+  private again(): void {
     if (this.current) this.waiting.unshift(this.current);
     this.current = null;
     this.next();
