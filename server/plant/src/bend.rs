@@ -79,6 +79,14 @@ impl Bend {
         self.solve(STEPS_OF_REST);
     }
 
+    /// Whether each touch of the last event is back where it took hold, as nearly in each coordinate as `within`.
+    pub fn is_brought_back(&self, within: f32) -> bool {
+        let is_back = |&(internode, target): &(usize, DVec3)| {
+            (target - self.chain.node(internode + 1)).abs().max_element() <= f64::from(within)
+        };
+        self.targets.iter().all(is_back)
+    }
+
     /// How each internode of the path has moved: turned as its prism is, about its far end.
     pub fn motions(&self) -> Vec<Motion> {
         (0..self.chain.internodes()).map(|internode| self.motion(internode)).collect()

@@ -1,7 +1,7 @@
 //! Branches in people's hands: bends between their begin and their end (`BE`).
 
 use espalier_plant::{Bend, MetamerId, Plant, Widths, hash::StableHash};
-use espalier_proto::{Position, Problem, Reason, Share};
+use espalier_proto::{Position, Problem, Reason, Share, frame::POSITION_STEPS};
 use glam::Vec3;
 
 use super::{Document, branches::said, history::Kind};
@@ -160,7 +160,8 @@ impl Document {
 
     pub(super) fn end_bend(&mut self, cause: Cause<'_>, number: u32) -> Result<(), Problem> {
         let mut bend = self.bends.close(cause.author, number)?;
-        if !bend.is_moved {
+        // Clients know places as finely as frames tell them.
+        if !bend.is_moved || bend.solver.is_brought_back(1.0 / POSITION_STEPS) {
             return Ok(());
         }
         bend.solver.relax();

@@ -1,5 +1,7 @@
 //! Bends, widths, cuts and grafts, and what of them is refused.
 
+use espalier_proto::frame::POSITION_STEPS;
+
 use super::*;
 
 const NO_TURN: Quat = Quat::IDENTITY;
@@ -116,6 +118,28 @@ fn be4_a_bend_given_up_is_no_operation() {
         assert_eq!(document.open_bends(&who("ann")), [] as [u32; 0], "{travel:?} gives it up");
         apply(&mut document, &plain(Action::GoTo { step: 9 }));
     }
+}
+
+#[test]
+fn be4_a_bend_brought_back_is_no_operation() {
+    let mut document = tree();
+    let path = long_path(&document, 6);
+    let (before, timeline) = (document.plant().hash(), document.timeline());
+    // A client knows where wood is as finely as frames tell it.
+    let told = |place: Vec3| (place * POSITION_STEPS).round() / POSITION_STEPS;
+    let bent = |document: &mut Document, bend, last: &dyn Fn(Vec3) -> Vec3| {
+        let start = [path[0], path[2]].map(|id| end(document, id));
+        apply(document, &begin(bend, path[5], &[path[0], path[2]]));
+        for targets in [start.map(|place| place + Vec3::X), start.map(last)] {
+            apply(document, &plain(Action::BendMove { bend, targets: places(targets.to_vec()) }));
+        }
+        apply(document, &plain(Action::BendEnd { bend }));
+    };
+    bent(&mut document, 1, &told);
+    assert_eq!((document.plant().hash(), document.timeline()), (before, timeline), "nothing has moved");
+    assert!(document.bend_motions().is_empty());
+    bent(&mut document, 2, &|place| told(place) + Vec3::Y * 3.0 / POSITION_STEPS);
+    assert_eq!(document.timeline().operations.len(), 2, "a bend that moves wood a little is one");
 }
 
 #[test]
