@@ -15,7 +15,10 @@ use std::ops::Range;
 use espalier_plant::{AxisId, Columns, Condition, MetamerId, Plant, Widths, reserve};
 use glam::Vec3;
 
-pub use self::{changes::Changes, detail::Detail};
+pub use self::{
+    changes::Changes,
+    detail::{Detail, seen},
+};
 use crate::{
     foliage,
     radius_code::{self, NOT_DRAWN},
@@ -26,8 +29,6 @@ use crate::{
 pub const CHUNK_ROWS: usize = 256;
 /// Steps of a position in one internode.
 pub const POSITION_STEPS: f32 = 256.0;
-
-const VIGOR_BITS: u8 = 0xf0;
 
 /// The link of a seed.
 const NO_LINK: u32 = u32::MAX;
@@ -118,7 +119,7 @@ impl RingTable {
 
     /// Makes the table show the present of `plant`; chunks that change get `generation`.
     ///
-    /// Light and vigor that differ little from what the table shows stay as they are.
+    /// Light and vigor are shown in [few levels](seen).
     pub fn sync(&mut self, plant: &Plant, style: &Style, generation: u32) -> Changes {
         self.sync_in(Detail::Whole, plant, style, generation)
     }
@@ -272,9 +273,10 @@ impl RingTable {
         }
         let (light_step, vigor_step) = detail.steps();
         let looks = self.looks[rows].iter().zip(present.condition);
-        for ((differs, drawn), (held, look)) in differing.iter_mut().zip(drawn).zip(looks) {
+        for ((differs, drawn), (held, &look)) in differing.iter_mut().zip(drawn).zip(looks) {
+            let look = seen(look);
             let light = look.light.abs_diff(held.light) >= light_step;
-            let vigor = (look.vigor & VIGOR_BITS).abs_diff(held.vigor) >= vigor_step;
+            let vigor = look.vigor.abs_diff(held.vigor) >= vigor_step;
             *differs |= drawn & u8::from(light | vigor);
         }
         differing
@@ -286,9 +288,9 @@ impl RingTable {
         for (i, differs) in differing.iter_mut().enumerate().filter(|(_, differs)| **differs != 0) {
             let row = first + i;
             let (held_tips, tips) = (self.tips[row], pass.tips(row));
-            let (held, look) = (self.looks[row], pass.all.condition[row]);
+            let (held, look) = (self.looks[row], seen(pass.all.condition[row]));
             let looks_otherwise = look.light.abs_diff(held.light) >= light_step
-                || (look.vigor & VIGOR_BITS).abs_diff(held.vigor) >= vigor_step;
+                || look.vigor.abs_diff(held.vigor) >= vigor_step;
             let is_as_drawn = (held_tips == NO_TIPS) == (tips == NO_TIPS);
             let widths = radius(held_tips, pass.style).abs_diff(radius(tips, pass.style));
             let as_leafy = leaves(held_tips, pass.style) == leaves(tips, pass.style);
@@ -307,35 +309,31 @@ impl RingTable {
     ) -> bool {
         let style = pass.style;
         let former = pass.former.unwrap_or(style);
-        let (light_step, vigor_step) = Detail::Whole.steps();
-        let mut seen = false;
+        let mut changes = false;
         for row in rows.map(|i| first + i) {
             let (held_tips, tips) = (self.tips[row], pass.tips(row));
-            let (held, look) = (self.looks[row], pass.all.condition[row]);
+            let held = self.looks[row];
             // What is not drawn keeps its looks: a change would only cost bytes.
-            let steady = |held: u8, present: u8, hysteresis: u8| {
-                if tips == NO_TIPS || present.abs_diff(held) < hysteresis { held } else { present }
-            };
-            let light = steady(held.light, look.light, light_step);
-            let vigor = steady(held.vigor, look.vigor & VIGOR_BITS, vigor_step);
+            let look = if tips == NO_TIPS { held } else { seen(pass.all.condition[row]) };
             let (held_leaves, leaves) = (leaves(held_tips, former), leaves(tips, style));
             let is_as_wide = match pass.radii.get(row) {
                 Some(&code) => self.radii[row] == code,
                 None => radius(held_tips, former) == radius(tips, style),
             };
-            let differ = [!is_as_wide, (held_leaves, held.vigor) != (leaves, vigor), held.light != light];
+            let differ =
+                [!is_as_wide, (held_leaves, held.vigor) != (leaves, look.vigor), held.light != look.light];
             self.tips[row] = tips;
-            self.looks[row] = Condition { light, vigor };
+            self.looks[row] = look;
             self.leaves = self.leaves - u32::from(held_leaves) + u32::from(leaves);
             let Changes { radius, foliage, light, .. } = &mut pass.changes;
             for (column, differs) in [radius, foliage, light].into_iter().zip(differ) {
                 if differs {
                     column.push(row as u32);
-                    seen = true;
+                    changes = true;
                 }
             }
         }
-        seen
+        changes
     }
 
     fn truncate(&mut self, kept: usize, sent_style: &Style, generation: u32) {
@@ -363,8 +361,7 @@ impl RingTable {
         self.axes.extend_from_slice(new.axis);
         self.ends.extend_from_slice(new.end);
         self.tips.extend(rows.clone().map(|row| pass.tips(row)));
-        let present = |look: &Condition| Condition { light: look.light, vigor: look.vigor & VIGOR_BITS };
-        self.looks.extend(new.condition.iter().map(present));
+        self.looks.extend(new.condition.iter().copied().map(seen));
         self.leaves += all_leaves(&self.tips[rows.clone()], pass.style);
         if !rows.is_empty() {
             self.generations.truncate(rows.start / CHUNK_ROWS);

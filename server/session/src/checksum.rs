@@ -1,6 +1,6 @@
 //! What the rows that clients hold add up to (`CK1`).
 
-use espalier_mesh::RingTable;
+use espalier_mesh::{RingTable, radius_code::NOT_DRAWN};
 
 /// Bytes of a row in the sum.
 const ROW_BYTES: usize = 24;
@@ -35,7 +35,10 @@ fn append(table: &RingTable, row: u32, bytes: &mut Vec<u8>) {
     let link = table.parent(row).map_or(0, |parent| 2 * (row - parent) + u32::from(table.starts_axis(row)));
     bytes.extend(link.to_le_bytes());
     bytes.extend(table.position(row).into_iter().flat_map(i32::to_le_bytes));
-    bytes.extend(table.radius(row).to_le_bytes());
-    bytes.extend([table.foliage(row), table.light(row)]);
+    let radius = table.radius(row);
+    bytes.extend(radius.to_le_bytes());
+    // What is not drawn looks as it did when it was, and a table made anew does not know that.
+    let looks = if radius == NOT_DRAWN { [0, 0] } else { [table.foliage(row), table.light(row)] };
+    bytes.extend(looks);
     bytes.extend(table.born(row).to_le_bytes());
 }

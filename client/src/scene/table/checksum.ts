@@ -42,7 +42,9 @@ function write(table: Summed, row: number, view: DataView, at: number): void {
   view.setUint32(at, parent < 0 ? 0 : 2 * (row - parent) + table.startsAxis[row]!, true);
   for (let axis = 0; axis < 3; axis++) view.setInt32(at + 4 + 4 * axis, table.quantised[3 * row + axis]!, true);
   view.setUint16(at + 16, table.radiusCode[row]!, true);
-  view.setUint8(at + 18, table.foliage[row]!);
-  view.setUint8(at + 19, table.light[row]!);
+  // What is not drawn looks as it did when it was, which nobody knows who has not seen it.
+  const isDrawn = table.radiusCode[row] !== 0;
+  view.setUint8(at + 18, isDrawn ? table.foliage[row]! : 0);
+  view.setUint8(at + 19, isDrawn ? table.light[row]! : 0);
   view.setUint32(at + 20, table.born[row]!, true);
 }

@@ -6,7 +6,7 @@ use glam::Vec3;
 use super::{Failure, require};
 use crate::{
     foliage, radius_code,
-    ring_table::{CHUNK_ROWS, POSITION_STEPS, RingTable},
+    ring_table::{self, CHUNK_ROWS, POSITION_STEPS, RingTable},
     style::Style,
 };
 
@@ -69,10 +69,9 @@ fn check_row(
     require(CHECK, table.foliage(row) & 0xf == leaves, || {
         format!("row {row} bears other than {leaves} leaves")
     })?;
-    let condition = metamers.condition(id);
-    let light_off = table.light(row).abs_diff(condition.light);
-    let vigor_off = (table.foliage(row) >> 4).abs_diff(condition.vigor >> 4);
-    require(CHECK, !drawn || (light_off < 8 && vigor_off < 2), || format!("row {row} looks otherwise"))
+    let look = ring_table::seen(metamers.condition(id));
+    let is_same = (table.light(row), table.foliage(row) & 0xf0) == (look.light, look.vigor);
+    require(CHECK, !drawn || is_same, || format!("row {row} looks otherwise"))
 }
 
 #[cfg(test)]

@@ -75,14 +75,11 @@ fn row(plant: &Plant, id: MetamerId, style: &Style, widths: &Widths<'_>, held: O
     let parent = metamers.parent(id);
     let is_drawn = parent.is_some() && plant.is_alive(id);
     let look = metamers.condition(id);
-    let (mut light, mut vigor) = (look.light, look.vigor >> 4);
-    if let Some(held) = held {
-        if !is_drawn || light.abs_diff(held.light) < 8 {
-            light = held.light;
-        }
-        if !is_drawn || vigor.abs_diff(held.foliage >> 4) < 2 {
-            vigor = held.foliage >> 4;
-        }
+    // In 32 levels from 0 to 255, and in 8 from 0 to 15.
+    let (light, vigor) = (look.light / 8, look.vigor / 32);
+    let (mut light, mut vigor) = (light * 8 + light / 4, vigor * 2 + vigor / 4);
+    if let Some(held) = held.filter(|_| !is_drawn) {
+        (light, vigor) = (held.light, held.foliage >> 4);
     }
     Row {
         parent: parent.map(MetamerId::raw),

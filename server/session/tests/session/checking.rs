@@ -30,7 +30,7 @@ fn crc32(rows: &[Row]) -> u32 {
         bytes.extend(link.to_le_bytes());
         it.position.iter().for_each(|x| bytes.extend(x.to_le_bytes()));
         bytes.extend(it.radius.to_le_bytes());
-        bytes.extend([it.foliage, it.light]);
+        bytes.extend(if it.radius == 0 { [0, 0] } else { [it.foliage, it.light] });
         bytes.extend(it.born.to_le_bytes());
     }
     crc32fast::hash(&bytes)
@@ -103,6 +103,38 @@ fn ck1_a_client_that_holds_less_is_told_once_it_has_caught_up() {
     world.answer_frames(slow);
     world.settle();
     assert_eq!(told(world.peer(slow)), [own(world.peer(slow))]);
+}
+
+#[test]
+fn ck1_after_a_crash_rows_look_as_they_did() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    let at = |x: f32| json!({ "position": [x, 9.0, 0.0], "radius": 2.0 });
+    let commands = [
+        grow(14),
+        json!({ "kind": "stroke_begin", "stroke": 1 }),
+        json!({ "kind": "stroke_move", "stroke": 1, "samples": [at(2.0), at(12.0)] }),
+        json!({ "kind": "stroke_end", "stroke": 1 }),
+        json!({ "kind": "prune", "rows": [60] }),
+        json!({ "kind": "ungrow", "steps": 2 }),
+        grow(3),
+    ];
+    for (id, command) in (1..).zip(commands) {
+        world.command(client, id, command);
+        world.settle();
+    }
+    let sum = |world: &mut World, client| {
+        world.pass(3000);
+        check(world, client);
+        world.settle();
+        sums(world.peer(client)).pop().map(|(_, rows, crc32, plant)| (rows, crc32, plant))
+    };
+    let before = sum(&mut world, client);
+    assert!(before.is_some());
+    world.crash();
+    let again = world.join("birch-01");
+    world.settle();
+    assert_eq!(sum(&mut world, again), before);
 }
 
 #[test]
