@@ -294,6 +294,14 @@ pub struct Deed {
     pub rose: u32,
     /// and so many of what was taken back stay, since wood that somebody else drew stands on them.
     pub held: u32,
+    /// Later deeds of one's own of which nothing could go.
+    #[serde(default, skip_serializing_if = "is_none")]
+    #[ts(as = "Option<u32>", optional)]
+    pub passed: u32,
+}
+
+fn is_none(count: &u32) -> bool {
+    *count == 0
 }
 
 /// Why what somebody drew is not there.

@@ -74,5 +74,5 @@ pub use programme::{ParameterName, Programme, Slug, Stage};
 pub use reason::Reason;
 pub use schematic::Schematic;
 pub use timeline::{
-    OperationKind, Timeline, TimelineChange, TimelineFuture, TimelineOperation, WidthConstraint,
+    OperationKind, Timeline, TimelineChange, TimelineFuture, TimelineOperation, TimelinePart, WidthConstraint,
 };

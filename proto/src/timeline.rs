@@ -43,7 +43,7 @@ pub enum OperationKind {
 }
 
 /// One operation on a line of time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct TimelineOperation {
     /// What it was.
@@ -54,7 +54,23 @@ pub struct TimelineOperation {
     pub first: u32,
     /// The step it reached; the same as `first` where it took none.
     pub last: u32,
-    /// Whether its author has taken it back since (`UD1`).
+    /// Whether it has been taken back since, all parts of it (`UD1`).
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[ts(as = "Option<bool>", optional)]
+    pub away: bool,
+    /// Where several drew at once: what each of them did, the author's first (`UD4`). Otherwise empty.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[ts(as = "Option<Vec<TimelinePart>>", optional)]
+    pub parts: Vec<TimelinePart>,
+}
+
+/// What one person did in an operation of several.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct TimelinePart {
+    /// Who: the number of a person, as in `people` (`PS3`).
+    pub author: u32,
+    /// Whether they have taken it back since.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[ts(as = "Option<bool>", optional)]
     pub away: bool,
@@ -163,7 +179,7 @@ mod tests {
     use super::*;
 
     fn operation(author: u32, first: u32, last: u32) -> TimelineOperation {
-        TimelineOperation { kind: OperationKind::Stroke, author, first, last, away: false }
+        TimelineOperation { kind: OperationKind::Stroke, author, first, last, away: false, parts: Vec::new() }
     }
 
     #[test]

@@ -161,6 +161,7 @@ pub fn declarations() -> String {
         design::PlacedBranch::decl(&config),
         timeline::OperationKind::decl(&config),
         timeline::TimelineOperation::decl(&config),
+        timeline::TimelinePart::decl(&config),
         timeline::TimelineFuture::decl(&config),
         timeline::Timeline::decl(&config),
         timeline::TimelineChange::decl(&config),

@@ -2016,7 +2016,21 @@ first: number,
  */
 last: number, 
 /**
- * Whether its author has taken it back since (`UD1`).
+ * Whether it has been taken back since, all parts of it (`UD1`).
+ */
+away?: boolean, 
+/**
+ * Where several drew at once: what each of them did, the author's first (`UD4`). Otherwise empty.
+ */
+parts?: Array<TimelinePart>, };
+
+export type TimelinePart = { 
+/**
+ * Who: the number of a person, as in `people` (`PS3`).
+ */
+author: number, 
+/**
+ * Whether they have taken it back since.
  */
 away?: boolean, };
 
@@ -2403,7 +2417,11 @@ rose: number,
 /**
  * and so many of what was taken back stay, since wood that somebody else drew stands on them.
  */
-held: number, };
+held: number, 
+/**
+ * Later deeds of one's own of which nothing could go.
+ */
+passed?: number, };
 
 export type ServerMessage = { "type": "loading", 
 /**

@@ -85,7 +85,7 @@ impl BrushPiece {
         // One marker where the brush is: however few a narrow brush sows, there is always one to follow.
         let mut sow = |position: Vec3| {
             if position.y > 0.0 {
-                markers.sow(Marker { position, born: tick, source: MarkerSource::Brush });
+                markers.sow(Marker { position, born: tick, source: MarkerSource::Brush(self.stroke) });
             }
         };
         if radius > 0.0 {

@@ -1,9 +1,11 @@
 //! What buds have claimed in one step: the markers nearest to them, added up to a direction.
 
+use std::{cmp::Reverse, collections::BTreeMap};
+
 use espalier_plant::AxisId;
 use glam::Vec3;
 
-use crate::{cells::bits, markers::MarkerSource, parameters::Parameters, vigor};
+use crate::{brush::StrokeId, cells::bits, markers::MarkerSource, parameters::Parameters, vigor};
 
 /// Steps of a unit vector's coordinate: sums of whole numbers are the same in any order.
 const UNIT: f32 = 32_768.0;
@@ -42,6 +44,9 @@ pub(crate) struct Claims {
     /// Where the claim of each of them stands.
     slots: Vec<u32>,
     claims: Vec<Claim>,
+    /// Whether it is counted how many markers of which stroke each bud has claimed: where there is one stroke all are its.
+    pub(crate) count_strokes: bool,
+    strokes: BTreeMap<AxisId, BTreeMap<StrokeId, u32>>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -63,6 +68,7 @@ impl Claims {
     /// Starts anew for a plant with so many axes.
     pub(crate) fn clear(&mut self, axes: usize) {
         self.claims.clear();
+        self.strokes.clear();
         self.slots.resize(axes, 0);
         self.claimants.clear();
         self.claimants.resize(axes.div_ceil(64), 0);
@@ -76,10 +82,21 @@ impl Claims {
     /// A bud claims a marker that something has sown.
     pub(crate) fn add_sown(&mut self, axis: AxisId, offset: Vec3, source: MarkerSource) {
         let region = match source {
-            MarkerSource::Brush => Region::Sweep,
+            MarkerSource::Brush(_) => Region::Sweep,
             MarkerSource::Lasso => Region::Envelope { far: offset.length() },
         };
         self.add_in(region, axis, offset);
+        if let MarkerSource::Brush(stroke) = source
+            && self.count_strokes
+        {
+            *self.strokes.entry(axis).or_default().entry(stroke).or_default() += 1;
+        }
+    }
+
+    /// The stroke of most of the markers that a bud has claimed, of equally many the oldest, if strokes are counted.
+    pub(crate) fn stroke(&self, axis: AxisId) -> Option<StrokeId> {
+        let counts = self.strokes.get(&axis)?;
+        counts.iter().max_by_key(|&(&stroke, &count)| (count, Reverse(stroke))).map(|(&stroke, _)| stroke)
     }
 
     fn add_in(&mut self, region: Region, axis: AxisId, offset: Vec3) {

@@ -1,7 +1,7 @@
 //! What a person does to a scene (TreeSketch §3.3): the plants change in a step of its own, and light, space and
 //! the generator know of it at once, so that growth goes on from there.
 
-use espalier_plant::{AxisId, BrokenPlant, Carried, Claim, Future, MetamerId, Motion, Settled};
+use espalier_plant::{AxisId, BrokenPlant, Carried, Claims, Future, MetamerId, Motion, Settled};
 use glam::Vec3;
 
 use crate::{
@@ -81,7 +81,7 @@ impl<G: Generator> Simulation<G> {
     ///
     /// # Errors
     /// Where wood would stand outside the world; then nothing changes.
-    pub fn settle(&mut self, claims: &[Claim]) -> Result<Settled, EditError> {
+    pub fn settle(&mut self, claims: &Claims) -> Result<Settled, EditError> {
         let settled = self.scene.plant.settle(claims);
         if settled.is_recorded {
             let before = self.plant().step();

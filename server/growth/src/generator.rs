@@ -1,8 +1,8 @@
 //! What grows a scene: growth does, and grammars and design graphs can.
 
-use espalier_plant::TimeShift;
+use espalier_plant::{MetamerId, TimeShift};
 
-use crate::{observer::Observer, scene::Scene};
+use crate::{brush::StrokeId, observer::Observer, scene::Scene};
 
 /// Something that grows the plants of a [`Scene`] step by step.
 ///
@@ -31,10 +31,22 @@ pub enum Change {
 }
 
 /// What a step brought about.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StepOutcome {
     /// Metamers added.
     pub metamers_grown: u32,
     /// Buds that had markers to grow towards.
     pub buds_enabled: u32,
+    /// Whose the metamers are where several strokes guided the step, or some of them grew by themselves beside a stroke;
+    /// otherwise empty.
+    pub shares: Vec<Share>,
+}
+
+/// Metamers born one after the other, from the first to that of the next share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Share {
+    /// The first of them.
+    pub first: MetamerId,
+    /// The stroke that drew them; none for what grew by itself.
+    pub stroke: Option<StrokeId>,
 }

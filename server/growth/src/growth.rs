@@ -139,7 +139,7 @@ impl Growth {
     }
 
     pub(crate) fn drop_envelopes(&mut self) {
-        self.markers.remove(MarkerSource::Lasso);
+        self.markers.remove_lasso();
         self.enclosures.clear();
     }
 

@@ -2,11 +2,13 @@
 
 use glam::Vec3;
 
+use crate::brush::StrokeId;
+
 /// What sowed a marker, which says how long it stays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MarkerSource {
-    /// The brush: gone once it is older than `marker_max_age`.
-    Brush,
+    /// The brush of a stroke: gone once it is older than `marker_max_age`.
+    Brush(StrokeId),
     /// The lasso: stays until it is occupied or guidance is dropped.
     Lasso,
 }
@@ -48,16 +50,24 @@ impl Markers {
     pub(crate) fn clear(&mut self, tick: u32, max_age: u32, is_free: impl Fn(&Marker) -> bool) {
         self.markers.retain(|marker| {
             let lasts = match marker.source {
-                MarkerSource::Brush => tick.wrapping_sub(marker.born) <= max_age,
+                MarkerSource::Brush(_) => tick.wrapping_sub(marker.born) <= max_age,
                 MarkerSource::Lasso => true,
             };
             lasts && is_free(marker)
         });
     }
 
-    /// Removes those that came from this source.
-    pub(crate) fn remove(&mut self, source: MarkerSource) {
-        self.markers.retain(|marker| marker.source != source);
+    /// Removes those of the lasso.
+    pub(crate) fn remove_lasso(&mut self) {
+        self.markers.retain(|marker| marker.source != MarkerSource::Lasso);
+    }
+
+    /// The stroke of each; none for those of the lasso.
+    pub(crate) fn strokes(&self) -> impl Iterator<Item = Option<StrokeId>> + '_ {
+        self.markers.iter().map(|marker| match marker.source {
+            MarkerSource::Brush(stroke) => Some(stroke),
+            MarkerSource::Lasso => None,
+        })
     }
 
     /// Removes all.

@@ -100,7 +100,7 @@ fn claims(plain: &mut Growth, scene: &Scene, input: &StepInput) -> Claims {
     let max_age = if input.pieces.is_empty() { u32::MAX } else { parameters.marker_max_age };
     let zone = parameters.occupancy_radius;
     markers.clear(tick, max_age, |&Marker { position, source, .. }| match source {
-        MarkerSource::Brush => is_free(position, zone),
+        MarkerSource::Brush(_) => is_free(position, zone),
         MarkerSource::Lasso => is_free(position, plain.zone_at(position, zone)),
     });
     plain.markers = markers;

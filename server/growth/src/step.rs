@@ -65,13 +65,14 @@ impl Generator for Growth {
         observer.enter(Phase::Growth);
         let stroke = input.pieces.iter().find_map(BrushPiece::direction);
         let unentered = self.grow(scene, stroke, &selection);
+        let shares = self.shares(&scene.plant, born);
         self.claims = Claims::default();
         observer.enter(Phase::Girth);
         scene.plant.end_step();
         observer.enter(Phase::Space);
         changed.extend(self.settle(scene, born, &unentered));
         self.see_light(scene, &changed, observer);
-        StepOutcome { metamers_grown: (scene.plant.metamer_count() - born) as u32, buds_enabled }
+        StepOutcome { metamers_grown: (scene.plant.metamer_count() - born) as u32, buds_enabled, shares }
     }
 
     fn follow(&mut self, scene: &Scene, change: &Change) {
@@ -146,7 +147,7 @@ impl Growth {
         let mut markers = core::mem::take(&mut self.markers);
         markers.clear(tick, max_age, |&Marker { position, source, .. }| {
             let zone = match source {
-                MarkerSource::Brush => radius,
+                MarkerSource::Brush(_) => radius,
                 MarkerSource::Lasso => self.zone_at(position, radius),
             };
             !obstacles.contains(position) && !space.is_occupied(position, zone, |_| true)
@@ -159,9 +160,11 @@ impl Growth {
         if input.autonomous {
             self.make_field(scene);
         }
+        let is_shared = self.is_shared(input);
         let Self { markers, claims, parameters, field, .. } = self;
         let Scene { plant, space, obstacles, .. } = scene;
         claims.clear(plant.axis_count());
+        claims.count_strokes = is_shared;
         for &Marker { position: marker, source, .. } in markers.as_slice() {
             let sees = |axis| space.bud(axis).is_some_and(|bud| !obstacles.hides(bud.position, marker));
             let counts = |axis| selection.includes(axis) && (obstacles.is_empty() || sees(axis));

@@ -49,7 +49,7 @@ pub use parts::{BrokenPlant, PlantParts};
 pub use place::BadColumns;
 pub use plant::{Internode, Plant};
 pub use resettled::{AxisEnds, Resettled};
-pub use settling::{Claim, Settled};
+pub use settling::{Claim, Claims, Settled};
 pub use time_travel::TimeShift;
 pub use widths::{Width, Widths};
 pub use wood::{DormantBuds, Wood, WoodAxis, WoodNode};

@@ -127,6 +127,11 @@ impl Plant {
         self.timeline.step_of(|end| end.metamers, id.raw())
     }
 
+    /// How many metamers had been born by the end of a step, at most those of the present.
+    pub fn born_by(&self, step: u32) -> u32 {
+        self.timeline.ends[step.min(self.timeline.now) as usize].metamers
+    }
+
     /// The step in which the bud of an axis of the present was born.
     pub fn axis_birth(&self, id: AxisId) -> u32 {
         self.timeline.step_of(|end| end.axes, id.raw())

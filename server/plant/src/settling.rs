@@ -8,6 +8,8 @@ mod fields;
 mod places;
 mod standing;
 
+use std::ops::Range;
+
 use self::standing::{Standing, State};
 use crate::{
     deaths::ALIVE,
@@ -34,6 +36,33 @@ impl Claim {
     pub const HAND: Self = Self { in_force: true, by_hand: true };
 }
 
+/// What counts of each step, and of rows whose step is of several people.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Claims {
+    /// One a step from the first on; steps without a claim count as [`Claim::HAND`].
+    pub steps: Vec<Claim>,
+    /// What counts of the birth of these rows, whatever is said of their step; in order, without overlap.
+    pub rows: Vec<(Range<u32>, Claim)>,
+}
+
+impl From<Vec<Claim>> for Claims {
+    fn from(steps: Vec<Claim>) -> Self {
+        Self { steps, rows: Vec::new() }
+    }
+}
+
+impl Claims {
+    /// What counts of the birth of each row, where these are the steps of births.
+    fn of_rows(&self, births: &[u32]) -> Vec<Claim> {
+        let mut claims: Vec<Claim> = births.iter().map(|&birth| claim(&self.steps, birth)).collect();
+        for (rows, claim) in &self.rows {
+            let end = (rows.end as usize).min(claims.len());
+            claims[(rows.start as usize).min(end)..end].fill(*claim);
+        }
+        claims
+    }
+}
+
 /// What came of settling.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settled {
@@ -51,18 +80,18 @@ pub struct Settled {
 }
 
 impl Plant {
-    /// Records, as an edit ahead of the present, what changes if the steps up to the present count as the claims say,
-    /// one a step; steps without a claim count as [`Claim::HAND`]. The plant [goes](Plant::go_to) there like to any other
+    /// Records, as an edit ahead of the present, what changes if the steps up to the present count as the claims say. The
+    /// plant [goes](Plant::go_to) there like to any other
     /// step. Where nothing changes nothing is recorded.
     ///
     /// # Panics
     /// If something is recorded beyond the present, or a step is being recorded.
-    pub fn settle(&mut self, claims: &[Claim]) -> Settled {
+    pub fn settle(&mut self, claims: &Claims) -> Settled {
         assert!(!self.timeline.recording, "time stands still within a step");
         assert_eq!(self.timeline.now, self.last_step(), "there is a future");
         let standing = Standing::of(self, claims);
-        let places = places::resettled(self, claims, &standing);
-        let edit = self.difference(claims, &standing, places);
+        let places = places::resettled(self, &claims.steps, &standing);
+        let edit = self.difference(&claims.steps, &standing, places);
         let mut settled = Settled::default();
         for &(id, death) in &edit.metamers {
             if death == ALIVE { settled.rises.push(id) } else { settled.falls.push(id) }

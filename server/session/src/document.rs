@@ -14,6 +14,7 @@ mod hints;
 mod history;
 mod notifications;
 mod obstacles;
+mod parts;
 mod pins;
 mod programmes;
 mod pruning;
@@ -45,6 +46,7 @@ use self::{
     history::{History, Kind, Setting},
     obstacles::Obstacles,
     strokes::OpenStrokes,
+    travelling::moves_time,
 };
 pub use self::{
     bytes::{DocumentError, MAX_METAMER_BUDGET, plain},
@@ -175,6 +177,9 @@ impl Document {
         let author = cause.author;
         if keeps_set(action) {
             self.require_sets()?;
+        }
+        if moves_time(action) {
+            self.require_nobody_else_at_work(author)?;
         }
         match action {
             Action::StrokeBegin { stroke, bud } => self.begin_stroke(cause, *stroke, *bud),

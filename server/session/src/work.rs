@@ -393,8 +393,9 @@ impl Work {
         match begun {
             Ok(()) => {
                 self.busy = true;
-                if let Some(Switched { kind, away, fell, rose, held }) = self.document.take_switched() {
-                    let deed = Deed { id: order.id, kind, away, fell, rose, held };
+                if let Some(Switched { kind, away, fell, rose, held, passed }) = self.document.take_switched()
+                {
+                    let deed = Deed { id: order.id, kind, away, fell, rose, held, passed };
                     self.answer(&order.author, order.id, ServerMessage::Deed { deed });
                 }
             }

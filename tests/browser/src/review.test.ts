@@ -176,6 +176,49 @@ const WALKS: readonly [string, Screen, Screen][] = [
 
 // The walk of docs/review.md. Fingers do all of it, but for what is written. It takes minutes where the processor draws: all
 // three are walked when pictures are taken of them.
+test("UD4: two draw at the same time, and each takes back their own", async () => {
+  const { ann, link, at } = await anns(LANDSCAPE);
+  const bo = await workshop.open(link, seen(LANDSCAPE));
+  for (const page of [ann, bo]) {
+    await until("the other one is shown", async () => (await page.page.locator(".people-chip").count()) === 1);
+  }
+  // Both see the same place at the same place of the glass.
+  await amongPeople(bo, "Follow");
+  await bo.page.locator("[data-following]").waitFor();
+  await bo.untilStill();
+  await slender(bo);
+  const before = await wood(ann);
+  const limbs: [Tablet, Point[]][] = [
+    [ann, way(at(0, 300), at(170, 380))],
+    [bo, way(at(0, 200), at(-170, 280))],
+  ];
+  for (const [page, limb] of limbs) await page.touch("touchStart", [limb[0]!]);
+  for (let i = 1; i < limbs[0]![1].length; i++) {
+    for (const [page, limb] of limbs) await page.touch("touchMove", [limb[i]!]);
+  }
+  for (const [page] of limbs) await page.touch("touchEnd", []);
+  for (const page of [ann, bo]) await page.untilQuiet();
+  const drawn = without(await wood(ann), before);
+  const undo = async (page: Tablet) => {
+    await page.tap("Undo");
+    await page.page.locator(".toast", { hasText: "Undone: Stroke" }).waitFor();
+    await page.untilQuiet();
+    return wood(ann);
+  };
+  await ann.show("77-drawn-at-once");
+  const left = await undo(ann);
+  await ann.show("78-own-limb-taken-back");
+  const hers = without(drawn, left);
+  const his = without(drawn, hers);
+  const side = (rows: ReadonlySet<string>) =>
+    [...rows].reduce((sum, row) => sum + Math.sign(Number.parseFloat(row)), 0);
+  expect(hers.size).toBeGreaterThan(3);
+  expect(his.size).toBeGreaterThan(3);
+  expect(Math.sign(side(hers)), "each one's is where they drew").toBe(-Math.sign(side(his)));
+  expect(without(before, left).size, "nothing else has gone").toBe(0);
+  expect(without(await undo(bo), before).size, "all that was drawn has gone").toBe(0);
+});
+
 test.each(KEEPING ? WALKS : WALKS.slice(0, 1))(
   "two review a tree in one room, on %s",
   async (name, annsScreen, bosScreen) => {

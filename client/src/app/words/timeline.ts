@@ -16,6 +16,10 @@ export const OPERATIONS = {
   "operations.kind.prune": ["Pruning", "Schnitt"],
   "operations.kind.turn": ["Turn", "Drehung"],
   "operations.kind.graft": ["Graft", "Pfropfung"],
+  "operations.passed": [
+    "{said}. Of what you did after it ({passed}) nothing is left to undo.",
+    "{said}. Von dem, was du danach getan hast ({passed}), ist nichts mehr rückgängig zu machen.",
+  ],
   "operations.held": [
     "{said}. {held} internodes stay, which bear what others drew.",
     "{said}. {held} Internodien bleiben, die tragen, was andere gezeichnet haben.",

@@ -60,7 +60,7 @@ fn settle(plant: &mut Plant, force: u64, hand: u64) {
     let bit = |bits: u64, step: u32| step == 0 || bits >> (step % 64) & 1 > 0;
     let claim = |step| Claim { in_force: bit(force, step), by_hand: bit(hand, step) };
     let claims: Vec<Claim> = (0..=plant.step()).map(claim).collect();
-    plant.settle(&claims);
+    plant.settle(&claims.into());
     plant.go_to(plant.last_step());
 }
 

@@ -211,7 +211,7 @@ proptest! {
                     let claims: Vec<Claim> = (0..=fast.plant().step()).map(claim).collect();
                     fast.stash_future();
                     plain.stash_future();
-                    prop_assert_eq!(fast.settle(&claims), plain.settle(&claims));
+                    prop_assert_eq!(fast.settle(&claims.clone().into()), plain.settle(&claims.clone().into()));
                 }
                 Event::Sow(place) => {
                     fast.sow(place);

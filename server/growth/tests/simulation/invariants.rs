@@ -53,7 +53,7 @@ fn happen(simulation: &mut Simulation, number: u32, event: &Event) {
             let claim = |step| Claim { in_force: bit(*force, step), by_hand: bit(*hand, step) };
             let claims: Vec<Claim> = (0..=simulation.plant().step()).map(claim).collect();
             simulation.stash_future();
-            simulation.settle(&claims).expect("nothing was moved");
+            simulation.settle(&claims.into()).expect("nothing was moved");
         }
     }
 }
@@ -93,7 +93,7 @@ proptest! {
         past.go_to(step);
         let claims: Vec<Claim> =
             (0..=simulation.plant().step()).map(|at| Claim { in_force: at <= step, by_hand: true }).collect();
-        simulation.settle(&claims).expect("nothing was moved");
+        simulation.settle(&claims.into()).expect("nothing was moved");
         prop_assert_eq!(looks(&mut simulation), looks(&mut past));
     }
 

@@ -113,7 +113,7 @@ pub fn happen(plant: &mut Plant, event: &Event) {
             let claim = |step| Claim { in_force: bit(*force, step), by_hand: bit(*hand, step) };
             let claims: Vec<Claim> = (0..=plant.step()).map(claim).collect();
             plant.stash_future();
-            plant.settle(&claims);
+            plant.settle(&claims.into());
             plant.go_to(plant.last_step());
         }
         Event::Widen(pick, width) => {

@@ -7,7 +7,7 @@
 //! - An axis ends at the last of its metamers that stands. Its bud lives if its bearer stands and nothing in force has cut
 //!   wood of it.
 
-use super::{Claim, claim, edits};
+use super::{Claim, Claims, claim, edits};
 use crate::{
     edits::Edit,
     id::{AxisId, MetamerId},
@@ -91,18 +91,20 @@ impl<T: Default + Clone> Slots<T> {
 }
 
 impl Standing {
-    pub(super) fn of(plant: &Plant, claims: &[Claim]) -> Self {
+    pub(super) fn of(plant: &Plant, claims: &Claims) -> Self {
+        let (of_births, claims) = (claims, claims.steps.as_slice());
         let births = births_of(plant, |end| end.metamers);
         let axis_births = births_of(plant, |end| end.axes);
         let (cuts, axis_cuts) = cuts(plant, claims);
+        let row_claims = of_births.of_rows(&births);
         let rows = || (0..plant.metamer_count()).map(MetamerId::new);
         // What died as it was born never stood.
         let counts = |id: MetamerId| {
             let birth = births[id.index()];
-            claim(claims, birth).in_force && plant.metamers.death.of(id.index()) > birth
+            row_claims[id.index()].in_force && plant.metamers.death.of(id.index()) > birth
         };
         let is_whole = |id: MetamerId| counts(id) && cuts[id.index()].last() <= births[id.index()];
-        let by_hand = |id: MetamerId| claim(claims, births[id.index()]).by_hand;
+        let by_hand = |id: MetamerId| row_claims[id.index()].by_hand;
         let own: Vec<bool> = rows().map(|id| is_whole(id) && by_hand(id)).collect();
         let mut holds = own.clone();
         for id in rows().rev().filter(|&id| plant.metamers().parent(id).is_some()) {

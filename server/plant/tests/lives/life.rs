@@ -198,7 +198,7 @@ pub fn claims(plant: &Plant, force: u64, hand: u64) -> Vec<Claim> {
 
 /// Settles which wood stands, and goes there.
 pub fn settle(plant: &mut Plant, claims: &[Claim]) -> Settled {
-    let settled = plant.settle(claims);
+    let settled = plant.settle(&claims.to_vec().into());
     assert_eq!(settled.is_recorded, plant.last_step() > plant.step());
     plant.go_to(plant.last_step());
     settled

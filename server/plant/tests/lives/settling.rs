@@ -163,7 +163,7 @@ proptest! {
         if step == 0 || !claims[step].in_force {
             return Ok(());
         }
-        let held = plant.clone().settle(&claims).held;
+        let held = plant.clone().settle(&claims.clone().into()).held;
         let drawn = |id: &MetamerId| claims[plant.birth(*id) as usize] == Claim::HAND && !held.contains(id);
         let alive = |id: &MetamerId| plant.is_alive(*id);
         let before: Vec<MetamerId> =

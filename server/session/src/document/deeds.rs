@@ -4,13 +4,14 @@
 //! them back, so it travels in time as they do. What stands then, and what holds of parameters, looks and obstacles,
 //! follows from the deeds in force alone.
 
-use espalier_plant::{Claim, MetamerId};
+use espalier_plant::{Claim, Claims, MetamerId, Plant};
 use espalier_proto::{OperationKind, Problem, Reason};
 
 use super::{
     Document,
     branches::said,
     history::{History, Kind, Operation},
+    parts::PartSet,
     travelling::nothing_to_redo,
 };
 use crate::{cause::Cause, principal::Principal};
@@ -28,12 +29,15 @@ pub struct Switched {
     pub rose: u32,
     /// Metamers of a deed that is away which stay, since wood that others drew stands on them.
     pub held: u32,
+    /// Later deeds of their author of which nothing could go.
+    pub passed: u32,
 }
 
 impl Operation {
-    /// Whether it is what one person did, who may take it back.
-    fn is_deed_of(&self, author: &Principal) -> bool {
-        self.author == *author && !self.is_joint && !self.kind.is_switch()
+    /// What somebody did of it and may take back, the last first.
+    fn deeds_of<'a>(&'a self, author: &'a Principal) -> impl Iterator<Item = u8> + 'a {
+        let is_deed = !self.kind.is_switch() && (!self.is_joint || self.parts.count() > 1);
+        self.parts_of(author).filter(move |_| is_deed)
     }
 
     /// Whether a hand drew the wood that was born in it, rather than that it grew by itself.
@@ -47,33 +51,48 @@ impl Operation {
 }
 
 impl History {
-    /// Which of the operations in force on the line have been taken back.
+    /// Which of the operations in force on the line have been taken back, all parts of them.
     pub(super) fn away(&self) -> Vec<bool> {
-        let mut away = vec![false; self.operations.len()];
+        let away = self.parts_away();
+        self.operations.iter().zip(away).map(|(operation, away)| operation.is_all_in(away)).collect()
+    }
+
+    /// Which parts of each operation have been taken back.
+    pub(super) fn parts_away(&self) -> Vec<PartSet> {
+        let mut away = vec![PartSet::default(); self.operations.len()];
         for operation in &self.operations[..self.done] {
             let Some(deed) = operation.deed.and_then(|deed| away.get_mut(deed as usize)) else { continue };
-            *deed = operation.kind == Kind::TakenBack;
+            deed.put(operation.part, operation.kind == Kind::TakenBack);
         }
         away
     }
 
-    /// What counts of each step up to one.
-    pub(super) fn claims(&self, step: u32) -> Vec<Claim> {
-        let mut claims = vec![Claim::HAND; step as usize + 1];
-        for (operation, away) in self.operations[..self.done].iter().zip(self.away()) {
+    /// What counts of each step up to the present, and of the metamers of parts.
+    pub(super) fn claims(&self, plant: &Plant) -> Claims {
+        let step = plant.step();
+        let mut claims = Claims::from(vec![Claim::HAND; step as usize + 1]);
+        for (operation, away) in self.operations[..self.done].iter().zip(self.parts_away()) {
             let steps = (operation.first + 1).min(step + 1)..(operation.last + 1).min(step + 1);
-            let claim = Claim { in_force: !away, by_hand: operation.is_drawn() };
-            claims[steps.start as usize..steps.end as usize].fill(claim);
+            let claim = Claim { in_force: !operation.is_all_in(away), by_hand: operation.is_drawn() };
+            claims.steps[steps.start as usize..steps.end as usize].fill(claim);
+            let runs = operation
+                .runs_of(operation.born(plant))
+                .into_iter()
+                .map(|(rows, run)| (rows, Claim { in_force: !away.holds(run.part), by_hand: run.by_hand }));
+            claims.rows.extend(runs);
         }
         claims
     }
 
     /// The deed that an author took back last, if they did nothing since.
-    fn taken_back_last(&self, author: &Principal) -> Option<usize> {
-        let away = self.away();
-        for operation in self.operations[..self.done].iter().rev().filter(|one| one.author == *author) {
+    fn taken_back_last(&self, author: &Principal) -> Option<(usize, u8)> {
+        let away = self.parts_away();
+        let is_of = |one: &&Operation| one.parts_of(author).next().is_some();
+        for operation in self.operations[..self.done].iter().rev().filter(is_of) {
             match operation.deed.map(|deed| deed as usize).filter(|_| operation.kind.is_switch()) {
-                Some(deed) if away.get(deed) == Some(&true) => return Some(deed),
+                Some(deed) if away.get(deed).is_some_and(|away| away.holds(operation.part)) => {
+                    return Some((deed, operation.part));
+                }
                 Some(_) => {}
                 None => return None,
             }
@@ -94,11 +113,16 @@ impl Document {
     }
 
     fn take_back_newest(&mut self, cause: Cause<'_>) -> Result<(), Problem> {
-        let away = self.history.away();
+        let away = self.history.parts_away();
+        let mut passed = 0;
         for deed in (0..self.history.done).rev() {
-            let is_own = self.history.operations[deed].is_deed_of(cause.author);
-            if is_own && !away[deed] && self.switch(cause, Kind::TakenBack, deed)? {
-                return Ok(());
+            let parts: Vec<u8> = self.history.operations[deed].deeds_of(cause.author).collect();
+            for part in parts.into_iter().filter(|&part| !away[deed].holds(part)) {
+                if self.switch(cause, Kind::TakenBack, (deed, part))? {
+                    self.switched = self.switched.map(|switched| Switched { passed, ..switched });
+                    return Ok(());
+                }
+                passed += 1;
             }
         }
         let message = "nothing that you did can be taken back; what others did is theirs";
@@ -112,7 +136,8 @@ impl Document {
         self.undo()?;
         // Otherwise parameters are again what the line says.
         let has_travelled = self.history.done < before.0;
-        let set_back = Switched { kind: OperationKind::Parameters, away: true, fell: 0, rose: 0, held: 0 };
+        let set_back =
+            Switched { kind: OperationKind::Parameters, away: true, fell: 0, rose: 0, held: 0, passed: 0 };
         let travelled = self.travelled(self.history.done, before.1);
         self.switched = if has_travelled { travelled } else { Some(set_back) };
         Ok(())
@@ -131,7 +156,7 @@ impl Document {
         let kind = self.history.operations.get(operation)?.kind.into();
         let living = self.figures().metamers;
         let (fell, rose) = (before.saturating_sub(living), living.saturating_sub(before));
-        Some(Switched { kind, away: operation >= self.history.done, fell, rose, held: 0 })
+        Some(Switched { kind, away: operation >= self.history.done, fell, rose, held: 0, passed: 0 })
     }
 
     /// What came of the last deed that was taken back or brought back, if it was not told yet.
@@ -173,10 +198,10 @@ impl Document {
     }
 
     /// Records that a deed is in force no more, or again; whether that changed anything.
-    fn switch(&mut self, cause: Cause<'_>, kind: Kind, deed: usize) -> Result<bool, Problem> {
+    fn switch(&mut self, cause: Cause<'_>, kind: Kind, (deed, part): (usize, u8)) -> Result<bool, Problem> {
         let recorded = self.record(kind, Cause { gesture: None, ..cause });
-        self.history.concern(deed);
-        let claims = self.history.claims(self.plant().step());
+        self.history.concern(deed, part);
+        let claims = self.history.claims(self.plant());
         let settled = self.history.folded(&self.setting()).and_then(|setting| {
             self.require_design_open_for(&setting)?;
             let settled = self.simulation.settle(&claims).map_err(said("kind"))?;
@@ -189,12 +214,14 @@ impl Document {
                 return unchanged.map(|_| false);
             }
         };
-        let Operation { kind: what, first, last, .. } = self.history.operations[deed];
-        let away = kind == Kind::TakenBack;
-        let is_of_it = |row: &&MetamerId| away && (first + 1..=last).contains(&self.plant().birth(**row));
+        let operation = &self.history.operations[deed];
+        let (what, away, born) = (operation.kind, kind == Kind::TakenBack, operation.born(self.plant()));
+        let runs = operation.runs_of(born.clone());
+        let is_of_part = |row: u32| runs.iter().all(|(rows, run)| run.part == part || !rows.contains(&row));
+        let is_of_it = |row: &&MetamerId| away && born.contains(&row.raw()) && is_of_part(row.raw());
         let held = settled.held.iter().filter(is_of_it).count() as u32;
         let (fell, rose) = (settled.falls.len() as u32, settled.rises.len() as u32);
-        self.switched = Some(Switched { kind: what.into(), away, fell, rose, held });
+        self.switched = Some(Switched { kind: what.into(), away, fell, rose, held, passed: 0 });
         self.set(&setting);
         self.history.settle(setting);
         self.keep_grammar_to(deed, away);
@@ -203,8 +230,8 @@ impl Document {
         Ok(true)
     }
 
-    /// Refuses to settle which wood stands under a bend of somebody else, which would end.
-    fn require_no_bend_but_of(&self, author: &Principal) -> Result<(), Problem> {
+    /// Refuses what would end a bend of somebody else.
+    pub(super) fn require_no_bend_but_of(&self, author: &Principal) -> Result<(), Problem> {
         if self.bends.open.iter().all(|bend| bend.author == *author) {
             return Ok(());
         }

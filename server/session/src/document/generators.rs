@@ -94,7 +94,7 @@ impl Generator for Generators {
                 self.state.written = written;
                 self.growth.follow(scene, &Change::Edited);
                 let metamers_grown = scene.plant().metamer_count().saturating_sub(before) as u32;
-                StepOutcome { metamers_grown, buds_enabled: 0 }
+                StepOutcome { metamers_grown, ..StepOutcome::default() }
             }
             #[cfg(test)]
             Step::Fork => {

@@ -46,8 +46,9 @@ impl Document {
                 let open = &self.strokes.open;
                 let author =
                     open.iter().find(|open| strokes.contains(&open.id)).map(|open| open.author.clone());
-                self.resume_stroke(&author.unwrap_or_else(Principal::visitor));
-                self.step(&Step::Growth(input), observer);
+                let guide = strokes.first().copied();
+                self.resume_stroke(&author.unwrap_or_else(Principal::visitor), guide);
+                self.step(&Step::Growth(input), guide, observer);
                 strokes.into_iter().for_each(|stroke| self.hint_out_of_reach(stroke));
             }
             Pending::Steps { left, has_grown, step } => {
@@ -80,7 +81,7 @@ impl Document {
                 let mut grows = false;
                 if left > 0 && !self.is_stopped() {
                     let step = Step::Growth(StepInput { chosen, ..StepInput::default() });
-                    grows = self.step(&step, observer).metamers_grown > 0;
+                    grows = self.step(&step, None, observer).metamers_grown > 0;
                 }
                 if grows && !self.simulation.is_out_of_budget() {
                     self.pending.push_front(Pending::Lasso { left: left - 1, chosen, lasso });
@@ -92,9 +93,9 @@ impl Document {
             Pending::Settle { stroke, left } => {
                 let mut grows = false;
                 if left > 0 && !self.is_stopped() && self.simulation.has_guidance() {
-                    self.resume_stroke(&stroke.author);
+                    self.resume_stroke(&stroke.author, Some(stroke.id));
                     let step = Step::Growth(StepInput { chosen: stroke.chosen, ..StepInput::default() });
-                    grows = self.step(&step, observer).metamers_grown > 0;
+                    grows = self.step(&step, Some(stroke.id), observer).metamers_grown > 0;
                 }
                 if !grows {
                     self.hint_shortfall(&stroke);
@@ -123,11 +124,13 @@ impl Document {
 
     /// A stroke grows on after somebody did something else meanwhile: what it grows from here on is an operation of
     /// its own, or undoing the other one would take it back as well (`CM5`).
-    fn resume_stroke(&mut self, author: &Principal) {
+    fn resume_stroke(&mut self, author: &Principal, stroke: Option<StrokeId>) {
         let operations = &self.history.operations[..self.history.done];
         let belongs = |kind| matches!(kind, Kind::Stroke | Kind::Growth | Kind::Lasso);
         if operations.last().is_none_or(|last| belongs(last.kind)) {
-            self.history.take_part(author);
+            if let Some((last, stroke)) = self.history.current_mut().zip(stroke) {
+                last.resume(author, stroke);
+            }
             return;
         }
         self.record(Kind::Stroke, Cause::from(author));
@@ -167,10 +170,15 @@ impl Document {
     ) -> Result<(), Problem> {
         let chosen = self.chosen(bud)?;
         let joins = !self.strokes.is_empty();
-        self.strokes.open(cause.author, stroke, chosen)?;
-        // Strokes that overlap in time are one operation: their steps cannot be told apart.
+        let overlaps =
+            self.strokes.open.iter().rfind(|open| open.author == *cause.author).map(|open| open.id);
+        let id = self.strokes.open(cause.author, stroke, chosen)?;
+        // Strokes that overlap in time are one operation, of which each has a part: what one of them sows may grow in a step
+        // of another's.
         if !joins {
             self.record(Kind::Stroke, cause);
+        } else if let Some(last) = self.history.current_mut() {
+            last.join(cause.author, id, overlaps);
         }
         Ok(())
     }
@@ -199,7 +207,7 @@ impl Document {
         if self.strokes.is_empty() && !continues {
             self.record(Kind::Growth, cause);
         }
-        self.history.take_part(cause.author);
+        self.ask(cause, false);
         self.pending.push_back(Pending::Steps { left: steps, has_grown: false, step });
         Ok(())
     }
@@ -226,12 +234,19 @@ impl Document {
         if self.strokes.is_empty() && !continues {
             self.record(Kind::Lasso, cause);
         }
-        self.history.take_part(cause.author);
+        self.ask(cause, true);
         self.simulation.enclose(&envelope);
         let places: Vec<Vec3> = outline.iter().map(|at| plane.origin + right * at.x + up * at.y).collect();
         let lasso = self.opened_lasso(envelope, &places);
         self.pending.push_back(Pending::Lasso { left: MAX_OUTLINE_STEPS, chosen, lasso });
         Ok(())
+    }
+
+    /// Somebody asks for growth while others may be drawing.
+    fn ask(&mut self, cause: Cause<'_>, by_hand: bool) {
+        if let Some(last) = self.history.current_mut() {
+            last.ask(cause.author, by_hand);
+        }
     }
 
     /// The metamer with this row, if one is asked for (`SG1`).
@@ -253,11 +268,22 @@ impl Document {
         Err(Problem::new(Reason::TreeFull, message).at("kind", allowed))
     }
 
-    pub(super) fn step(&mut self, step: &Step, observer: &mut impl Observer) -> StepOutcome {
+    /// Runs a step, perhaps one that a stroke guides.
+    pub(super) fn step(
+        &mut self,
+        step: &Step,
+        guide: Option<StrokeId>,
+        observer: &mut impl Observer,
+    ) -> StepOutcome {
+        let born = self.plant().metamer_count() as u32;
         self.steps_begun = self.steps_begun.wrapping_add(1);
         let kept = self.kept();
         self.simulation.generator_mut().keep_what_began_in(kept);
         let outcome = self.simulation.step(step, observer);
+        let born = born..self.plant().metamer_count() as u32;
+        if let Some(last) = self.history.current_mut() {
+            last.note_births(born, guide, &outcome.shares);
+        }
         // Whether something is derived again depends on what is at hand, and the count must not.
         if matches!(step, Step::Write(_)) && self.simulation.generator().grammars().was_again {
             self.steps_begun = self.steps_begun.wrapping_sub(1);
@@ -267,7 +293,7 @@ impl Document {
 
     /// The same; whether the step is not at its end then.
     fn step_in_part(&mut self, step: &Step, observer: &mut impl Observer) -> bool {
-        self.step(step, observer);
+        self.step(step, None, observer);
         self.simulation.generator().grammars().is_writing()
     }
 

@@ -11,6 +11,7 @@ use super::{
     futures::Fork,
     generators::GeneratorState,
     obstacles::{Standings, stand_alike},
+    parts::Parts,
 };
 use crate::{cause::Cause, principal::Principal, schedule::GrowthSchedule};
 
@@ -117,10 +118,14 @@ pub(super) struct Operation {
     pub after: Setting,
     /// Places of wood that it keeps because it moved them (`LM11`).
     pub places: u32,
-    /// The operation of the line that it takes back or brings back.
+    /// The operation of the line of which it takes back or brings back a part.
     pub deed: Option<u32>,
-    /// Whether several people did it at once, so that nobody alone may take it back.
+    /// Which part.
+    pub part: u8,
+    /// Whether several people did it at once.
     pub is_joint: bool,
+    /// What each of them did; of one of an older document nobody knows, and nobody alone may take it back.
+    pub parts: Parts,
     /// Whether it grew from a bud that somebody chose.
     pub is_chosen: bool,
 }
@@ -208,23 +213,21 @@ impl History {
         self.current().map_or(&self.initial, |operation| &operation.after)
     }
 
-    /// The last operation is about this one.
-    pub fn concern(&mut self, deed: usize) {
+    /// The last operation is about a part of this one.
+    pub fn concern(&mut self, deed: usize, part: u8) {
         if let Some(last) = self.operations.last_mut() {
-            last.deed = Some(deed as u32);
+            (last.deed, last.part) = (Some(deed as u32), part);
         }
     }
 
-    /// Somebody has a part in the last operation in force.
-    pub fn take_part(&mut self, author: &Principal) {
-        if let Some(last) = self.done.checked_sub(1).map(|last| &mut self.operations[last]) {
-            last.is_joint |= last.author != *author;
-        }
+    /// The last operation in force, to be changed.
+    pub fn current_mut(&mut self) -> Option<&mut Operation> {
+        self.done.checked_sub(1).map(|last| &mut self.operations[last])
     }
 
     /// What the last operation in force grows, it grows from a bud that was chosen.
     pub fn choose(&mut self) {
-        if let Some(last) = self.done.checked_sub(1).map(|last| &mut self.operations[last]) {
+        if let Some(last) = self.current_mut() {
             last.is_chosen = true;
         }
     }
@@ -248,7 +251,9 @@ impl History {
             after,
             places: 0,
             deed: None,
+            part: 0,
             is_joint: false,
+            parts: Parts::default(),
             is_chosen: false,
         });
         self.done += 1;
@@ -433,10 +438,11 @@ pub(super) fn hash_operations(operations: &[Operation], hash: &mut StableHash) {
         hash.word(u64::from(operation.first) | u64::from(operation.last) << 32);
         hash.word(u64::from(operation.places));
         if let Some(deed) = operation.deed {
-            hash.word(u64::from(deed));
+            hash.word(u64::from(deed) | u64::from(operation.part) << 32);
         }
         if operation.is_joint || operation.is_chosen {
             hash.word(u64::from(operation.is_joint) | u64::from(operation.is_chosen) << 1);
         }
+        operation.parts.hash(hash);
     }
 }

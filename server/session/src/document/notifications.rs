@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 
 use espalier_plant::{Girth, widths};
 use espalier_proto::{
-    OperationKind, RowMotion, Timeline, TimelineFuture, TimelineOperation, WidthConstraint,
+    OperationKind, RowMotion, Timeline, TimelineFuture, TimelineOperation, TimelinePart, WidthConstraint,
 };
 
 use super::{
     Document,
     history::{Kind, Operation},
+    parts::PartSet,
 };
 use crate::principal::Principal;
 
@@ -26,7 +27,7 @@ impl Document {
     /// The present line of time and all others (`TT1`), with the numbers that people have.
     pub(crate) fn timeline_of(&self, number: impl FnMut(&Principal) -> u32) -> Timeline {
         let mut people = People { known: BTreeMap::new(), number };
-        let operations = people.name(&self.history.operations, &self.history.away());
+        let operations = people.name(&self.history.operations, &self.history.parts_away());
         let mut futures: Vec<TimelineFuture> = (self.futures.all.iter())
             .map(|future| TimelineFuture {
                 future: future.line,
@@ -88,13 +89,18 @@ struct People<'a, F> {
 }
 
 impl<'a, F: FnMut(&Principal) -> u32> People<'a, F> {
-    fn name(&mut self, operations: &'a [Operation], away: &[bool]) -> Vec<TimelineOperation> {
-        let away = away.iter().copied().chain(std::iter::repeat(false));
-        let name = |(operation, away): (&'a Operation, bool)| {
+    fn name(&mut self, operations: &'a [Operation], away: &[PartSet]) -> Vec<TimelineOperation> {
+        let away = away.iter().copied().chain(std::iter::repeat(PartSet::default()));
+        let name = |(operation, gone): (&'a Operation, PartSet)| {
             let Operation { first, last, .. } = *operation;
-            let number = || (self.number)(&operation.author);
-            let author = *self.known.entry(&operation.author).or_insert_with(number);
-            TimelineOperation { kind: operation.kind.into(), author, first, last, away }
+            let mut number = |author| *self.known.entry(author).or_insert_with(|| (self.number)(author));
+            let author = number(&operation.author);
+            let part =
+                |part| TimelinePart { author: number(operation.author_of(part)), away: gone.holds(part) };
+            let count = Some(operation.parts.count() as u8).filter(|&count| count > 1).unwrap_or(0);
+            let parts = (0..count).map(part).collect();
+            let away = operation.is_all_in(gone);
+            TimelineOperation { kind: operation.kind.into(), author, first, last, away, parts }
         };
         operations.iter().zip(away).map(name).collect()
     }

@@ -45,7 +45,7 @@ impl OpenStrokes {
         author: &Principal,
         number: u32,
         chosen: Option<MetamerId>,
-    ) -> Result<(), Problem> {
+    ) -> Result<StrokeId, Problem> {
         if self.find(author, number).is_some() {
             let message = format!("stroke {number} has begun already");
             return Err(Problem::new(Reason::NumberTaken, message)
@@ -57,14 +57,9 @@ impl OpenStrokes {
                 .at("stroke", format!("up to {MAX_OPEN} strokes in progress")));
         }
         self.begun = self.begun.wrapping_add(1);
-        self.open.push(OpenStroke {
-            author: author.clone(),
-            number,
-            id: StrokeId(self.begun),
-            chosen,
-            last: None,
-        });
-        Ok(())
+        let id = StrokeId(self.begun);
+        self.open.push(OpenStroke { author: author.clone(), number, id, chosen, last: None });
+        Ok(id)
     }
 
     /// Ends a stroke.

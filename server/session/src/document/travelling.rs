@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use espalier_proto::{Problem, Reason};
+use espalier_proto::{Action, Problem, Reason};
 
 use super::Document;
+use crate::principal::Principal;
 
 impl Document {
     /// So many steps back, with parameters, looks and obstacles as they are (`CM7`).
@@ -52,6 +53,17 @@ impl Document {
         Ok(())
     }
 
+    /// Moving time is everybody's, and ends what is in progress: it waits for the strokes and bends of others (`TT7`).
+    pub(super) fn require_nobody_else_at_work(&self, author: &Principal) -> Result<(), Problem> {
+        if self.strokes.open.iter().any(|open| open.author != *author) {
+            let message = "somebody else is drawing; wait until the brush is lifted";
+            return Err(
+                Problem::new(Reason::BeingDrawn, message).at("kind", "a journey while nobody else draws")
+            );
+        }
+        self.require_no_bend_but_of(author)
+    }
+
     /// Whether parameters, looks or obstacles are not those of the line: ungrowing leaves them as they are.
     pub(super) fn strays(&self) -> bool {
         let line = self.history.setting();
@@ -79,6 +91,18 @@ impl Document {
         self.simulation.go_to(step);
         self.keep_state();
     }
+}
+
+/// Whether an action takes everybody to another time.
+pub(super) fn moves_time(action: &Action) -> bool {
+    matches!(
+        action,
+        Action::Ungrow { .. }
+            | Action::Undo {}
+            | Action::Redo {}
+            | Action::GoTo { .. }
+            | Action::TakeFuture { .. }
+    )
 }
 
 pub(super) fn nothing_to_undo() -> Problem {

@@ -1,3 +1,4 @@
+import type { TimelineOperation, TimelinePart } from "../../../wire/generated";
 import type { Together } from "../../together/together";
 import { say } from "../../words/say";
 
@@ -12,6 +13,11 @@ export function authorColour(author: number, people: number): string {
 /** The colour of a person, by their number from 1. */
 export function personColour(person: number): string {
   return `oklch(62% 0.14 ${HUES[(person - 1) % HUES.length] ?? HUES[0]})`;
+}
+
+/** Who did an operation, and whether they have taken it back: several where they drew at once. */
+export function partsOf({ author, away, parts }: TimelineOperation): readonly TimelinePart[] {
+  return parts?.length ? parts : [{ author, away: away ?? false }];
 }
 
 /** What an author is called: by name if they are here and have one, or if a replay knows it, else by number. */

@@ -43,7 +43,11 @@ describe("everyone's own undo", () => {
   it("UD7: tells how much stays since others' wood stands on it", () => {
     const { undo, said } = setUp({ people: 2 });
     undo.done({ ...STROKE, held: 42 });
-    expect(said).toEqual(["Undone: Stroke. 42 internodes stay, which bear what others drew."]);
+    undo.done({ ...STROKE, passed: 2 });
+    expect(said).toEqual([
+      "Undone: Stroke. 42 internodes stay, which bear what others drew.",
+      "Undone: Stroke. Of what you did after it (2) nothing is left to undo.",
+    ]);
   });
 });
 

@@ -61,12 +61,13 @@ export class OwnUndo {
   }
 
   /** Something was undone or redone that this page asked for. Buttons say so only where not all went, or others are here. */
-  done({ kind, away, held }: Deed): void {
+  done({ kind, away, held, passed = 0 }: Deed): void {
     const isTapped = this.#taps > 0;
     this.#taps = Math.max(0, this.#taps - 1);
-    if (isTapped || held > 0 || this.isShared) {
+    if (isTapped || held > 0 || passed > 0 || this.isShared) {
       const what = say(`operations.kind.${kind}`);
-      const said = say(away ? "operations.undone" : "operations.redone", { what });
+      const done = say(away ? "operations.undone" : "operations.redone", { what });
+      const said = passed > 0 ? say("operations.passed", { said: done, passed }) : done;
       this.#page.toasts.show(held > 0 ? say("operations.held", { said, held }) : said);
     }
   }

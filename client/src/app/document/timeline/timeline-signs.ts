@@ -1,4 +1,5 @@
 import type { Timeline, TimelineFuture } from "../../../wire/generated";
+import { partsOf } from "./authors";
 import type { TimeScale } from "./timeline";
 
 /** Neighbouring operations that share one sign on the strip, because there is no room for each. */
@@ -75,5 +76,5 @@ export function branchings(futures: readonly TimelineFuture[]): Branching[] {
 /** How many people did something on any of these lines. */
 export function peopleOf({ operations, futures }: Pick<Timeline, "operations" | "futures">): number {
   const all = [operations, ...futures.map((future) => future.operations)].flat();
-  return new Set(all.map(({ author }) => author)).size;
+  return new Set(all.flatMap(partsOf).map(({ author }) => author)).size;
 }

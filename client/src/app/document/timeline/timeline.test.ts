@@ -141,6 +141,8 @@ describe("futures", () => {
     expect([peopleOf({ operations: LIFE, futures: [] }), peopleOf({ operations: LIFE, futures: [other] })]).toEqual([
       1, 2,
     ]);
+    const joint = { ...operation("stroke", 2, 3), parts: [{ author: 1 }, { author: 5, away: true }] };
+    expect(peopleOf({ operations: [joint], futures: [] })).toBe(2);
   });
 });
 

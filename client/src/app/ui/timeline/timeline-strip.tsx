@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import type { Timeline } from "../../../wire/generated";
-import { authorColour, authorName } from "../../document/timeline/authors";
+import type { Timeline, TimelineOperation, TimelinePart } from "../../../wire/generated";
+import { authorColour, authorName, partsOf } from "../../document/timeline/authors";
 import { clusters, peopleOf } from "../../document/timeline/timeline-signs";
 import type { Studio } from "../../studio";
 import type { Together } from "../../together/together";
@@ -141,7 +141,8 @@ function Signs({ studio, timeline, width }: { studio: Studio; timeline: Timeline
     <>
       {clusters(scale, width, ROOM).map(({ from, to, x }) => {
         const all = timeline.operations.slice(from, to + 1);
-        const alike = (of: "kind" | "author") => all.every((operation) => operation[of] === all[0]?.[of]);
+        const isOneKind = all.every(({ kind }) => kind === all[0]?.kind);
+        const authors = new Set(all.flatMap(partsOf).map(({ author }) => author));
         const first = timeline.operations[from];
         if (!first) {
           return null;
@@ -156,11 +157,11 @@ function Signs({ studio, timeline, width }: { studio: Studio; timeline: Timeline
             data-away={all.every(({ away }) => away)}
             style={{
               left: `${x}px`,
-              "--author": alike("author") ? authorColour(first.author, people) : "var(--quiet)",
+              "--author": authors.size === 1 ? authorColour(first.author, people) : "var(--quiet)",
             }}
           >
-            {alike("kind") && <Icon />}
-            {count > 1 && <b data-alone={!alike("kind")}>{count}</b>}
+            {isOneKind && <Icon />}
+            {count > 1 && <b data-alone={!isOneKind}>{count}</b>}
           </span>
         );
       })}
@@ -199,10 +200,15 @@ function Bubble({ studio, timeline, operation, place, step }: BubbleProps) {
   return (
     <div class="timeline-bubble" style={{ "--place": place }} aria-hidden="true">
       {done && sort && (
-        <span class="timeline-what" style={{ "--author": authorColour(done.author, people) }}>
+        <span class="timeline-what">
           <sort.Icon />
           {say(sort.name)}
-          {people > 1 && <em>{authorName(done.author, studio.together)}</em>}
+          {people > 1 &&
+            distinctParts(done).map(({ author, away }) => (
+              <em key={author} data-away={away} style={{ "--author": authorColour(author, people) }}>
+                {authorName(author, studio.together)}
+              </em>
+            ))}
         </span>
       )}
       <span class="timeline-when">
@@ -236,8 +242,24 @@ function speech(timeline: Timeline, step: number, together: Together): string {
   }
   const what = say(sortOf(operation.kind).name);
   return peopleOf(timeline) > 1
-    ? say("timeline.step-of.who", { ...where, what, who: authorName(operation.author, together) })
+    ? say("timeline.step-of.who", { ...where, what, who: namesOf(operation, together) })
     : say("timeline.step-of.what", { ...where, what });
+}
+
+/** Who did an operation, each once; away if all of theirs is. */
+function distinctParts(operation: TimelineOperation): TimelinePart[] {
+  const all = partsOf(operation);
+  const authors = [...new Set(all.map(({ author }) => author))];
+  return authors.map((author) => ({
+    author,
+    away: all.every((part) => part.author !== author || part.away === true),
+  }));
+}
+
+function namesOf(operation: TimelineOperation, together: Together): string {
+  return distinctParts(operation)
+    .map(({ author }) => authorName(author, together))
+    .join(", ");
 }
 
 /** The operation that led to a step. */

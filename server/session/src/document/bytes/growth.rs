@@ -25,9 +25,12 @@ pub(super) fn write(out: &mut Writer, state: &SimulationState) {
         out.vector(marker.position);
         out.u32(marker.born);
         out.u8(match marker.source {
-            MarkerSource::Brush => 0,
+            MarkerSource::Brush(_) => 0,
             MarkerSource::Lasso => 1,
         });
+        if let MarkerSource::Brush(stroke) = marker.source {
+            out.u32(stroke.0);
+        }
     });
     let guides: Vec<_> = state.guides.iter().collect();
     out.list(&guides, |out, (stroke, guide)| {
@@ -42,13 +45,14 @@ pub(super) fn write(out: &mut Writer, state: &SimulationState) {
 }
 
 pub(super) fn read(reader: &mut Reader<'_>) -> Result<SimulationState, DocumentError> {
-    reader.up_to(1)?;
+    let version = reader.up_to(2)?;
     let (seed, metamer_budget, tick) = (reader.u32()?, reader.u32()?, reader.u32()?);
     let parameters = settings::read_set(reader)?;
     let markers = reader.list(|r| {
         let (position, born) = (r.vector()?, r.u32()?);
         let source = match r.u8()? {
-            0 => MarkerSource::Brush,
+            // Before version 2 nobody noted whose a marker is: of no stroke that goes on.
+            0 => MarkerSource::Brush(StrokeId(if version < 2 { 0 } else { r.u32()? })),
             1 => MarkerSource::Lasso,
             _ => return Err(damaged("a marker of unknown source")),
         };

@@ -73,7 +73,7 @@ pub(super) const WIDTHS: Kind = first(*b"WIDT", "widths", lengths::WIDTHS);
 /// Radii given in the present; none if it is not there.
 pub(super) const GIVEN_RADII: Kind = first(*b"RADI", "given radii", lengths::GIVEN_RADII);
 /// What the next step of growth depends on beside plant and obstacles.
-pub(super) const GROWTH: Kind = first(*b"GROW", "growth", lengths::GROWTH);
+pub(super) const GROWTH: Kind = Kind { version: 2, ..first(*b"GROW", "growth", lengths::GROWTH) };
 /// What the brushes of strokes in progress have swept, and whether wood has come to their paths; nothing if it is not
 /// there.
 pub(super) const SWEEPS: Kind = Kind { version: 2, ..first(*b"SWEP", "sweeps", lengths::SWEEPS) };
@@ -88,11 +88,11 @@ pub(super) const LOOKS: Kind = first(*b"LOOK", "looks", lengths::LOOKS);
 /// Meshes, every set of obstacles that an operation holds, and the present one.
 pub(super) const OBSTACLES: Kind = first(*b"OBST", "obstacles", lengths::OBSTACLES);
 /// The operations of the present line.
-pub(super) const HISTORY: Kind = Kind { version: 2, ..first(*b"HIST", "history", lengths::HISTORY) };
+pub(super) const HISTORY: Kind = Kind { version: 3, ..first(*b"HIST", "history", lengths::HISTORY) };
 /// Designs, and which operation leaves which in force; none if it is not there.
 pub(super) const DESIGNS: Kind = first(*b"DSGN", "designs", lengths::DESIGNS);
 /// All other lines; none if it is not there.
-pub(super) const FUTURES: Kind = Kind { version: 2, ..first(*b"FUTU", "futures", lengths::FUTURES) };
+pub(super) const FUTURES: Kind = Kind { version: 3, ..first(*b"FUTU", "futures", lengths::FUTURES) };
 /// Strokes and bends in progress; none if it is not there.
 pub(super) const GESTURES: Kind = first(*b"GEST", "gestures", lengths::GESTURES);
 /// The program that wrote the document; none if it is not there.

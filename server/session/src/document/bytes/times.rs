@@ -1,5 +1,6 @@
 //! The present line of time and all others.
 
+use espalier_growth::StrokeId;
 use espalier_plant::Plant;
 use espalier_proto::version::MAX_FUTURES;
 
@@ -13,6 +14,7 @@ use crate::{
     document::{
         futures::{Fork, Future, Futures},
         history::{Before, History, Kind, Latest, Operation},
+        parts::{MAX_PARTS, Parts, Run},
     },
     principal::Principal,
 };
@@ -47,7 +49,7 @@ fn read_latest(reader: &mut Reader<'_>) -> Result<Option<Latest>, DocumentError>
 }
 
 pub(super) fn read_history(reader: &mut Reader<'_>, pool: &Pool) -> Result<History, DocumentError> {
-    let version = reader.up_to(2)?;
+    let version = reader.up_to(3)?;
     let initial = pool.read_setting(reader)?;
     let done = reader.u32()? as usize;
     let operations = read_operations(reader, pool, version)?;
@@ -78,7 +80,7 @@ pub(super) fn write_futures(out: &mut Writer, futures: &Futures, pool: &Pool) {
 }
 
 pub(super) fn read_futures(reader: &mut Reader<'_>, pool: &Pool) -> Result<Futures, DocumentError> {
-    let version = reader.up_to(2)?;
+    let version = reader.up_to(3)?;
     let (present, newest) = (reader.u32()?, reader.u32()?);
     let all = reader.list_up_to(MAX_FUTURES, |r| {
         let (line, on) = (r.u32()?, r.option()?);
@@ -155,11 +157,57 @@ fn write_operations(out: &mut Writer, operations: &[Operation], pool: &Pool) {
         out.u32(operation.places);
         pool.write_setting(out, &operation.after);
         out.option(operation.deed);
-        out.u8(u8::from(operation.is_joint) | u8::from(operation.is_chosen) << 1);
+        let has_parts = operation.parts != Parts::default();
+        let flags = [operation.is_joint, operation.is_chosen, has_parts, operation.part > 0];
+        out.u8(flags.iter().rev().fold(0, |bits, &flag| bits << 1 | u8::from(flag)));
+        if has_parts {
+            write_parts(out, &operation.parts);
+        }
+        if operation.part > 0 {
+            out.u8(operation.part);
+        }
     });
 }
 
-/// Operations; before version 2 nobody took back deeds among others', and joint ones cannot be told apart.
+fn write_parts(out: &mut Writer, parts: &Parts) {
+    out.list(&parts.others, |out, other| out.text(other.name()));
+    out.list(&parts.strokes, |out, &(stroke, part)| {
+        out.u32(stroke.0);
+        out.u8(part);
+    });
+    out.list(&parts.runs, |out, run| {
+        out.u32(run.first);
+        out.u8(run.part);
+        out.u8(u8::from(run.by_hand));
+    });
+    let (part, by_hand) = parts.asked;
+    out.u8(part);
+    out.u8(u8::from(by_hand));
+}
+
+fn read_parts(reader: &mut Reader<'_>) -> Result<Parts, DocumentError> {
+    let others = reader.list(|r| Ok(Principal::named(r.text()?)))?;
+    if others.len() >= MAX_PARTS {
+        return Err(damaged("an operation of too many parts"));
+    }
+    let part = |r: &mut Reader<'_>| match r.u8()? {
+        part if usize::from(part) <= others.len() => Ok(part),
+        _ => Err(damaged("a part that is not there")),
+    };
+    let flag = |r: &mut Reader<'_>| match r.u8()? {
+        flag @ (0 | 1) => Ok(flag == 1),
+        _ => Err(damaged("neither by a hand nor not")),
+    };
+    let strokes = reader.list(|r| Ok((StrokeId(r.u32()?), part(r)?)))?;
+    let runs = reader.list(|r| Ok(Run { first: r.u32()?, part: part(r)?, by_hand: flag(r)? }))?;
+    if runs.windows(2).any(|pair| pair[0].first >= pair[1].first) {
+        return Err(damaged("wood of parts in disorder"));
+    }
+    let asked = (part(reader)?, flag(reader)?);
+    Ok(Parts { others, strokes, runs, asked })
+}
+
+/// Operations; before version 2 nobody took back deeds among others', before version 3 joint ones cannot be told apart.
 fn read_operations(
     reader: &mut Reader<'_>,
     pool: &Pool,
@@ -175,10 +223,28 @@ fn read_operations(
         let places = r.u32()?;
         let after = pool.read_setting(r)?;
         let (deed, flags) = if version < 2 { (None, 0) } else { (r.option()?, r.u8()?) };
-        if deed.is_some() != kind.is_switch() || flags > 3 {
+        if deed.is_some() != kind.is_switch() || flags > if version < 3 { 3 } else { 15 } {
             return Err(damaged("an operation takes back what is no deed"));
         }
         let (is_joint, is_chosen) = (flags & 1 > 0, flags & 2 > 0);
-        Ok(Operation { kind, author, gesture, first, last, places, after, deed, is_joint, is_chosen })
+        let parts = if flags & 4 > 0 { read_parts(r)? } else { Parts::default() };
+        let part = if flags & 8 > 0 { r.u8()? } else { 0 };
+        if usize::from(part) >= MAX_PARTS {
+            return Err(damaged("a part that is not there"));
+        }
+        Ok(Operation {
+            kind,
+            author,
+            gesture,
+            first,
+            last,
+            places,
+            after,
+            deed,
+            part,
+            is_joint,
+            parts,
+            is_chosen,
+        })
     })
 }

@@ -295,7 +295,7 @@ mod tests {
         plant.give_radii(&[(MetamerId::new(2), Some(0.25))]).expect("living wood");
         plant.end_step();
         let claim = |step: u32| Claim { in_force: step < 3, by_hand: true };
-        let settled = plant.settle(&(0..=plant.step()).map(claim).collect::<Vec<_>>());
+        let settled = plant.settle(&(0..=plant.step()).map(claim).collect::<Vec<_>>().into());
         assert_eq!(settled.falls, [MetamerId::new(3)]);
         plant.go_to(plant.last_step());
         plant

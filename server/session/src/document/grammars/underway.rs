@@ -141,7 +141,7 @@ impl Document {
 
     fn write_slice(&mut self, underway: &mut Underway) -> Came {
         let begun = self.steps_begun;
-        self.step(&Step::Write(underway.write.clone()), &mut NoObserver);
+        self.step(&Step::Write(underway.write.clone()), None, &mut NoObserver);
         underway.slices += self.steps_begun.wrapping_sub(begun);
         let generator = self.simulation.generator();
         if generator.grammars().is_writing() {

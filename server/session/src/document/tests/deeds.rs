@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use proptest::prelude::*;
 
 use super::*;
-use crate::document::history::Kind as Deed;
+use crate::document::{history::Kind as Deed, parts::Run};
 
 /// A stroke of somebody, sidewards at a height, so that it begins at wood that is there.
 fn draw(document: &mut Document, name: &str, number: u32, x: f32, y: f32) {
@@ -14,6 +14,31 @@ fn draw(document: &mut Document, name: &str, number: u32, x: f32, y: f32) {
     let samples = list(vec![sample(0.0, y, 0.6), sample(x, y + 3.0, 0.6)]);
     apply(Action::StrokeMove { stroke: number, samples });
     apply(Action::StrokeEnd { stroke: number });
+}
+
+/// Strokes of several people that begin before any of them ends, each a piece at a time.
+fn draw_at_once<const N: usize>(document: &mut Document, strokes: [(&str, u32, f32); N]) {
+    let mut act =
+        |name: &str, action: Action| document.apply(&who(name), &plain(action)).expect("in good form");
+    for (name, stroke, _) in strokes {
+        act(name, Action::StrokeBegin { stroke, bud: None });
+    }
+    for part in 0..4 {
+        for (name, stroke, x) in strokes {
+            let [x, y] = [x * part as f32 / 3.0, 5.0 + 2.0 * part as f32 / 3.0];
+            act(name, Action::StrokeMove { stroke, samples: list(vec![sample(x, y, 0.6)]) });
+        }
+    }
+    for (name, stroke, _) in strokes {
+        act(name, Action::StrokeEnd { stroke });
+    }
+}
+
+/// Whether wood of a deed that is away stands since others' stands on it.
+fn is_held(document: &Document, row: u32) -> bool {
+    let mut plant = document.plant().clone();
+    plant.stash_future();
+    plant.settle(&document.history.claims(document.plant())).held.contains(&MetamerId::new(row as usize))
 }
 
 fn take_back(document: &mut Document, name: &str) -> Result<(), Problem> {
@@ -36,15 +61,17 @@ fn drawn(document: &Document, by: impl Fn(&Principal) -> bool) -> Vec<u32> {
     let history = &document.history;
     let mut plant = document.plant().clone();
     plant.stash_future();
-    let held = plant.settle(&history.claims(document.plant().step())).held;
+    let held = plant.settle(&history.claims(document.plant())).held;
     let mut drawn = Vec::new();
-    let operations = history.operations[..history.done].iter().zip(history.away());
-    for (operation, _) in operations.filter(|(one, away)| one.is_drawn() && !away && by(&one.author)) {
-        let is_of = |&row: &u32| {
-            let birth = document.plant().birth(MetamerId::new(row as usize));
-            birth > operation.first && birth <= operation.last
-        };
-        drawn.extend(wood(document).into_keys().filter(is_of));
+    for (operation, away) in history.operations[..history.done].iter().zip(history.parts_away()) {
+        let born = operation.born(document.plant());
+        let mut runs = operation.runs_of(born.clone());
+        if runs.is_empty() {
+            runs.push((born, Run { first: 0, part: 0, by_hand: operation.is_drawn() }));
+        }
+        runs.retain(|(_, run)| run.by_hand && !away.holds(run.part) && by(operation.author_of(run.part)));
+        drawn
+            .extend(wood(document).into_keys().filter(|row| runs.iter().any(|(rows, _)| rows.contains(row))));
     }
     drawn.retain(|&row| !held.contains(&MetamerId::new(row as usize)));
     drawn
@@ -89,6 +116,24 @@ fn ud6_the_line_says_what_is_away() {
 }
 
 #[test]
+fn ud7_what_is_passed_over_is_told() {
+    let mut document = tree();
+    draw(&mut document, "bo", 1, 9.0, 4.0);
+    let before = wood(&document);
+    draw(&mut document, "bo", 2, -9.0, 5.0);
+    let second: Vec<u32> = wood(&document).into_keys().filter(|row| !before.contains_key(row)).collect();
+    let roots = second.iter().copied().filter(|&row| {
+        let parent = document.plant().metamers().parent(MetamerId::new(row as usize));
+        parent.is_some_and(|parent| !second.contains(&parent.raw()))
+    });
+    let rows = list(roots.collect());
+    document.apply(&who("cy"), &plain(Action::Prune { rows })).expect("living wood");
+    assert_eq!(take_back(&mut document, "bo"), Ok(()));
+    let switched = document.take_switched().expect("the first stroke went");
+    assert!(switched.passed == 1 && switched.fell > 0, "{switched:?}");
+}
+
+#[test]
 fn ud2_a_stroke_of_somebody_else_goes_on() {
     let mut document = tree();
     draw(&mut document, "bo", 1, 9.0, 4.0);
@@ -121,6 +166,41 @@ fn ud2_a_bend_of_somebody_else_is_not_ended() {
 }
 
 #[test]
+fn tt7_time_waits_for_the_strokes_and_bends_of_others() {
+    let mut document = tree();
+    draw(&mut document, "bo", 1, 9.0, 4.0);
+    apply(&mut document, &plain(Action::Undo {}));
+    apply(&mut document, &plain(Action::Redo {}));
+    let journeys = [
+        Action::Ungrow { steps: Steps::nearest(1) },
+        Action::Undo {},
+        Action::Redo {},
+        Action::GoTo { step: 1 },
+        Action::TakeFuture { future: 1 },
+    ];
+    let refused = |document: &mut Document, reason: Reason| {
+        for journey in journeys.clone() {
+            let before = document.hash();
+            let problem = document.apply(&who("bo"), &plain(journey)).expect_err("somebody else is at work");
+            assert_eq!((problem.reason, document.hash()), (reason, before));
+        }
+    };
+    let cy = |document: &mut Document, action: Action| {
+        document.apply(&who("cy"), &plain(action)).expect("in good form");
+    };
+    cy(&mut document, Action::StrokeBegin { stroke: 7, bud: None });
+    refused(&mut document, Reason::BeingDrawn);
+    cy(&mut document, Action::StrokeEnd { stroke: 7 });
+    let path = long_path(&document, 6);
+    let (base, touches) = (path[5].raw(), held(vec![path[0].raw()]));
+    cy(&mut document, Action::BendBegin { bend: 1, base, touches, stretch: Share::nearest(0.2) });
+    refused(&mut document, Reason::BeingBent);
+    // One's own gestures end by one's own journey.
+    cy(&mut document, Action::GoTo { step: 1 });
+    assert_eq!((document.plant().step(), document.open_bends(&who("cy"))), (1, Vec::new()));
+}
+
+#[test]
 fn ud3_only_what_was_taken_back_last_comes_back() {
     let mut document = tree();
     draw(&mut document, "bo", 1, 9.0, 4.0);
@@ -147,23 +227,73 @@ fn ud4_alone_they_are_undo_and_redo() {
 }
 
 #[test]
-fn ud4_what_several_drew_at_once_is_passed_over() {
+fn ud4_of_what_several_drew_at_once_each_takes_back_their_own() {
+    let (mut document, before) = (tree(), wood(&tree()));
+    draw_at_once(&mut document, [("bo", 1, 14.0), ("cy", 1, -14.0)]);
+    assert_eq!(kinds(&document)[1..], [espalier_proto::OperationKind::Stroke], "one operation");
+    let of = |document: &Document, name: &str| drawn(document, |author| *author == who(name));
+    let whole = wood(&document);
+    let (bos, cys) = (of(&document, "bo"), of(&document, "cy"));
+    assert!(bos.len() > 5 && cys.len() > 5, "{} and {}", bos.len(), cys.len());
+    assert_eq!(bos.len() + cys.len(), whole.len() - before.len(), "all of it is of one of them");
+    let sides = |rows: &[u32], sign: f32| {
+        let place =
+            |&&row: &&u32| document.plant().metamers().end(MetamerId::new(row as usize)).x * sign > 0.0;
+        rows.iter().filter(place).count() as f32 / rows.len() as f32
+    };
+    assert!(sides(&bos, 1.0) > 0.9 && sides(&cys, -1.0) > 0.9, "each one's is where they drew");
+
+    assert_eq!(take_back(&mut document, "bo"), Ok(()));
+    let after = wood(&document);
+    assert!(cys.iter().all(|row| after.get(row) == whole.get(row)), "cy's stays to the bit");
+    let left = bos.iter().filter(|row| after.contains_key(row)).count();
+    assert!(left < bos.len() / 4, "{left} of {} stay", bos.len());
+    assert!(bos.iter().all(|row| !after.contains_key(row) || is_held(&document, *row)), "only under cy's");
+    let parts = |document: &Document| {
+        let parts = &document.timeline().operations[1].parts;
+        (document.timeline().operations[1].away, parts.iter().map(|part| part.away).collect::<Vec<_>>())
+    };
+    assert_eq!(parts(&document), (false, vec![true, false]));
+    let refused = take_back(&mut document, "bo").map_err(|problem| problem.reason);
+    assert_eq!(refused, Err(Reason::NothingOfYours));
+    assert_eq!(bring_back(&mut document, "bo"), Ok(()));
+    assert_eq!(wood(&document), whole);
+    for name in ["cy", "bo"] {
+        assert_eq!(take_back(&mut document, name), Ok(()));
+    }
+    assert_eq!((wood(&document), parts(&document)), (before, (true, vec![true, true])));
+    let again = Document::from_bytes(&document.to_bytes()).expect("it was just written");
+    assert_eq!(again.hash(), document.hash());
+}
+
+#[test]
+fn ud4_what_one_sowed_and_grew_while_another_drew_is_the_sowers() {
+    // Whoever moves later makes steps in which the other's markers still draw shoots.
     let mut document = tree();
     let mut act =
         |name: &str, action: Action| document.apply(&who(name), &plain(action)).expect("in good form");
-    for (name, x) in [("bo", 6.0), ("cy", -6.0)] {
+    for name in ["bo", "cy"] {
         act(name, Action::StrokeBegin { stroke: 1, bud: None });
-        let samples = list(vec![sample(0.0, 5.0, 0.6), sample(x, 7.0, 0.6)]);
-        act(name, Action::StrokeMove { stroke: 1, samples });
+    }
+    act(
+        "bo",
+        Action::StrokeMove { stroke: 1, samples: list(vec![sample(4.0, 6.0, 3.0), sample(9.0, 8.0, 3.0)]) },
+    );
+    for part in 0..12 {
+        let samples = list(vec![sample(-4.0 - part as f32, 6.0, 0.6)]);
+        act("cy", Action::StrokeMove { stroke: 1, samples });
     }
     for name in ["bo", "cy"] {
         act(name, Action::StrokeEnd { stroke: 1 });
     }
-    let before = document.hash();
-    for name in ["bo", "cy"] {
-        let refused = take_back(&mut document, name).map_err(|problem| problem.reason);
-        assert_eq!((refused, document.hash()), (Err(Reason::NothingOfYours), before));
-    }
+    let bos = drawn(&document, |author| *author == who("bo"));
+    let born = |&row: &u32| document.plant().birth(MetamerId::new(row as usize));
+    let steps: std::collections::BTreeSet<u32> = bos.iter().map(born).collect();
+    assert!(steps.len() > 1, "it grew in cy's steps as well");
+    assert_eq!(take_back(&mut document, "bo"), Ok(()));
+    let left = wood(&document);
+    let is_gone_or_held = |row: &u32| !left.contains_key(row) || is_held(&document, *row);
+    assert!(bos.iter().all(is_gone_or_held));
 }
 
 #[test]
@@ -192,6 +322,7 @@ fn ud5_a_field_shows_what_the_last_deed_in_force_says() {
 #[derive(Clone, Debug)]
 pub(super) enum Event {
     Draw(i8, u8),
+    DrawAtOnce(u8, i8),
     Grow(u8),
     Prune(u16),
     Turn(u16),
@@ -208,6 +339,7 @@ pub(super) enum Event {
 pub(super) fn events() -> impl Strategy<Value = Vec<(u8, Event)>> {
     let event = prop_oneof![
         6 => (-12i8..12, 1u8..12).prop_map(|(x, y)| Event::Draw(x, y)),
+        3 => (0u8..5, 4i8..14).prop_map(|(other, x)| Event::DrawAtOnce(other, x)),
         1 => (1u8..3).prop_map(Event::Grow),
         1 => any::<u16>().prop_map(Event::Prune),
         1 => any::<u16>().prop_map(Event::Turn),
@@ -230,6 +362,12 @@ pub(super) fn happen(document: &mut Document, number: u32, name: &str, event: &E
     let action = match *event {
         Event::Draw(x, y) => {
             draw(document, name, number, f32::from(x), f32::from(y));
+            return Ok(());
+        }
+        Event::DrawAtOnce(other, x) => {
+            let other = format!("person {other}");
+            let x = f32::from(x);
+            draw_at_once(document, [(name, number, x), (&other, number + 1000, -x)]);
             return Ok(());
         }
         Event::Grow(steps) => Action::Grow { steps: Steps::nearest(steps.into()), until: None, bud: None },

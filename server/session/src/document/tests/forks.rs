@@ -63,7 +63,7 @@ impl Generator for Forks {
             born.len() as u32
         });
         *self = Self { steps: self.steps + 1, tips, seen: scene.plant().step(), ..*self };
-        StepOutcome { metamers_grown, buds_enabled: buds.len() as u32 }
+        StepOutcome { metamers_grown, buds_enabled: buds.len() as u32, shares: Vec::new() }
     }
 
     /// Where time has gone, the document puts the state of that time in place of this one.
