@@ -317,6 +317,7 @@ fn add_tables(out: &mut String) {
         ("BARK_SQUARES", json(&settings::BARK_SQUARES)),
         ("BARK_BEGINS", json(&settings::BARK_BEGINS)),
         ("LIMB_ENDS", json(&settings::LIMB_ENDS)),
+        ("GUST_SEED", json(&settings::looks::GUST_SEED)),
     ] {
         let _ = writeln!(out, "export const {name} = {value} as const;");
     }

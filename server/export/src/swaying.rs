@@ -11,7 +11,7 @@ use espalier_motion::{
     shelter::{Form, Solid, Triangles},
 };
 use espalier_plant::{MetamerId, Plant};
-use espalier_settings::looks::WindLook;
+use espalier_settings::looks::{GUST_SEED, WindLook};
 use glam::{DQuat, DVec3, DVec4, Quat, Vec3};
 
 use crate::{ExportError, Sink};
@@ -21,8 +21,6 @@ const BREEZE: f32 = 4.0;
 /// The most bones of a scene through whose gust bodies are stepped; they take some two seconds. In larger scenes each joint
 /// goes on answering by itself.
 const MOST_BODIES: usize = 2048;
-/// Which gusts come: those that clients draw.
-const SEED: u32 = 7;
 
 /// The row that a vertex goes along with, and where between the node below and its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -198,5 +196,5 @@ fn weather(look: &WindLook) -> Weather {
     let is_calm = look.speed == 0.0 && look.rise == 0.0;
     let speed = f64::from(if is_calm { BREEZE } else { look.speed });
     let blows = [speed, f64::from(look.direction), f64::from(look.rise)];
-    Weather::blowing(blows, f64::from(look.turbulence), SEED)
+    Weather::blowing(blows, f64::from(look.turbulence), GUST_SEED)
 }

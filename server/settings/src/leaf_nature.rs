@@ -14,6 +14,9 @@ pub struct LeafNature {
     pub lean: f32,
     /// How much it bows, folds or sags: long and heavy ones hang.
     pub bend: f32,
+    /// How much it flutters in the wind beside leaves of most kinds: needles and scales are stiff, round blades hang on
+    /// long stalks.
+    pub flutter: f32,
     /// The sRGB colours that it turns into: at first, at last, and dead.
     pub autumn: [Tint; 3],
     /// How large it is, 0 to 1.
@@ -81,6 +84,11 @@ impl LeafKind {
             Self::Needle => 0.3,
             _ => 1.0,
         };
+        let flutter = match self {
+            Self::Needle | Self::Scale => 0.2,
+            Self::Round => 1.5,
+            _ => 1.0,
+        };
         let is_spray = self.is_evergreen();
         let autumn = self.autumn();
         if is_spray {
@@ -89,6 +97,7 @@ impl LeafKind {
                 is_spray,
                 lean,
                 bend,
+                flutter,
                 autumn,
                 unfolded: course(0.94, &[[0.0, 0.95, 0.06]]),
                 present: course(kept, &[]),
@@ -101,6 +110,7 @@ impl LeafKind {
             is_spray,
             lean,
             bend,
+            flutter,
             autumn,
             unfolded: course(0.24, &[[0.0, 0.85, 0.76]]),
             present: course(0.4, &[[0.0, 0.6, 0.6], [1.5, 2.0, -0.2], [2.0, 2.85, kept - 0.8]]),

@@ -7,6 +7,9 @@ use crate::{
     value::Tint,
 };
 
+/// Which gusts come, of all that a wind could come in: the same for clients and for files.
+pub const GUST_SEED: u32 = 7;
+
 choices! {
     /// Forms of leaves.
     LeafKind {

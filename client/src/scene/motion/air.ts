@@ -1,4 +1,5 @@
 import type { WebGLRenderer } from "three";
+import { GUST_SEED } from "../../wire/generated";
 import { type DrawnElsewhere, type Pick, type Projection, pickBranch } from "../camera/picking";
 import type { DrawnObstacle } from "../obstacle-meshes";
 import type { QualityControl } from "../rendering/quality";
@@ -37,8 +38,6 @@ const MIXED = 500;
 /** Milliseconds between two looks at how far the tree reaches, and rows that are looked at. */
 const MEASURED = 1000;
 const SAMPLES = 600;
-/** Which gusts come; everybody has the same. */
-const SEED = 7;
 
 /** What the wind blows in. */
 export interface AirStage {
@@ -339,7 +338,7 @@ export class Air {
   private readonly windIn = (settings: AirSettings): Wind => {
     const { turbulence } = settings;
     const wind =
-      this.known.get(settings) ?? windOf({ velocity: velocityOf(settings), turbulence, seed: SEED }, LIVE_PERIOD);
+      this.known.get(settings) ?? windOf({ velocity: velocityOf(settings), turbulence, seed: GUST_SEED }, LIVE_PERIOD);
     this.known.set(settings, wind);
     return wind;
   };

@@ -3,7 +3,7 @@ import type { Air, AirStage } from "../../../scene/motion/air";
 import { type AirSettings, blows, sameAir, stilled, stirs } from "../../../scene/motion/air-settings";
 import type { Hand } from "../../../scene/motion/hand";
 import type { Scale } from "../../../scene/motion/wood";
-import { DEFAULT_PARAMETERS, type LeafKind, type Parameters } from "../../../wire/generated";
+import { DEFAULT_PARAMETERS, LEAF_NATURES, type LeafKind, type Parameters } from "../../../wire/generated";
 
 /** A wind as the server tells it. */
 export interface WindTold {
@@ -35,9 +35,6 @@ export interface WindPage {
 /** Whether trees follow the wind, are held where they are, or stand still because the device is asked for less motion. */
 export type WindMode = "moving" | "held" | "still";
 
-/** How much leaves flutter beside those of most forms: needles and scales are stiff, round blades hang on long stalks. */
-const FLUTTER: { readonly [Kind in LeafKind]?: number } = { needle: 0.2, scale: 0.2, round: 1.5 };
-
 /** The wind on this page. What is set is shared by all in the session; to hold it concerns this page alone. */
 export class WindControl {
   readonly mode: Signal<WindMode>;
@@ -55,7 +52,7 @@ export class WindControl {
       const mode = this.mode.value;
       const { internode_length: internodeLength, leaf_size: leafSize } = page.parameters.value ?? DEFAULT_PARAMETERS;
       const touched = page.touched();
-      const leaves = FLUTTER[page.leaves()] ?? 1;
+      const leaves = LEAF_NATURES[page.leaves()].flutter;
       // Nothing is loaded or made for a page on which no wind has blown.
       if (this.#air === null && blows(settings)) this.#air = page.enliven(page.air);
       const scale: Scale = { internodeLength, leafSize };
