@@ -1,7 +1,8 @@
-import { brokenBy, type StrainOrder } from "./strain";
+import { type StrainTask, StrainWork } from "./strain";
 
 // Finds what would break beside the page, so that no frame waits for it.
-self.addEventListener("message", ({ data }: MessageEvent<StrainOrder>) => {
-  const rows = brokenBy(data);
+const work = new StrainWork();
+self.addEventListener("message", ({ data }: MessageEvent<StrainTask>) => {
+  const rows = work.broken(data);
   self.postMessage(rows, { transfer: [rows.buffer] });
 });

@@ -1,9 +1,11 @@
 import type { Vec3 } from "../vector";
 import { type AirSettings, velocityOf } from "./air-settings";
 import { pressureOf } from "./answers";
-import { behindCrowns } from "./exposure";
 import { limbsOf, type MotionRows } from "./limbs";
 import { GRAVITY, type Loads, massesOn } from "./loads";
+import { ObstaclesReceived, type PostedObstacles } from "./obstacle-post";
+import { sharesOf } from "./shelter";
+import type { Solid } from "./solids";
 import { borneBy } from "./statics";
 import { INTENSITY, profile } from "./wind";
 import { type Scale, STIFFNESS, type Wood, woodOf } from "./wood";
@@ -14,15 +16,23 @@ export const STRENGTH = 40e6;
 const PEAK = 3.5;
 
 /** What is asked of whoever finds what would break. */
-export interface StrainOrder {
+export interface StrainTask {
   readonly rows: MotionRows;
   readonly scale: Scale;
   readonly air: AirSettings;
+  /** What stands in the wind. */
+  readonly obstacles: PostedObstacles;
 }
 
-/** The rows that would break. */
-export function brokenBy({ rows, scale, air }: StrainOrder): Int32Array {
-  return Int32Array.from(breaking(stressesOf(rows, scale, air)));
+/** Finds what would break, and remembers the obstacles for the next question. */
+export class StrainWork {
+  private readonly obstacles = new ObstaclesReceived();
+
+  /** The rows that would break. */
+  broken({ rows, scale, air, obstacles }: StrainTask): Int32Array {
+    const solids = this.obstacles.receive(obstacles, scale.internodeLength);
+    return Int32Array.from(breaking(stressesOf(rows, scale, air, solids)));
+  }
 }
 
 /**
@@ -30,14 +40,19 @@ export function brokenBy({ rows, scale, air }: StrainOrder): Int32Array {
  * in Pa: moment over section modulus, 4 M / π r³. What the tree weighs by itself counts only as far as it sags, for it grew under
  * that. A tree is statically determinate, so that how stiff the wood is does not matter.
  */
-export function stressesOf(rows: MotionRows, scale: Scale, air: AirSettings): Float64Array {
+export function stressesOf(
+  rows: MotionRows,
+  scale: Scale,
+  air: AirSettings,
+  solids: readonly Solid[] = [],
+): Float64Array {
   const wood = woodOf(rows, limbsOf(rows), scale);
   const moments = new Float64Array(wood.place.length);
   const velocity = velocityOf(air);
   const speed = Math.hypot(...velocity);
   if (speed > 0) {
     const along: Vec3 = [velocity[0] / speed, velocity[1] / speed, velocity[2] / speed];
-    const shares = behindCrowns(wood, along);
+    const shares = sharesOf(wood, along, solids);
     const peak = speed * (1 + PEAK * INTENSITY * air.turbulence);
     const [pressure] = pressureOf(peak);
     const sails = wood.dragArea.map((area, row) => area * (profile(wood.middle[3 * row + 1]!) * shares[row]!) ** 2);

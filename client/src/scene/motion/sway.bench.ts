@@ -10,7 +10,7 @@ import { motionRows } from "./motion-rows";
 import { ObstaclePost } from "./obstacle-post";
 import { pose, STAND } from "./pose";
 import { Riding } from "./riding";
-import { brokenBy } from "./strain";
+import { StrainWork } from "./strain";
 import { Sway } from "./sway";
 import { windOf } from "./wind";
 
@@ -61,6 +61,8 @@ for (const options of TREES) {
   });
   const work = new JointWork();
   const post = new ObstaclePost();
+  const strain = new StrainWork();
+  const strainPost = new ObstaclePost();
   const { moving, exposure } = work.make(order());
   const { joints, hinges } = moving!;
   const answers = () => new Answers(joints, windOf(WEATHER, 600), exposure);
@@ -70,7 +72,7 @@ for (const options of TREES) {
   const { parent, quantised } = motionRows(table);
   const riding = new Riding(moving!, parent, quantised);
   const rows = motionRows(table);
-  const broken = brokenBy({ rows, scale: SCALE, air: HARSH });
+  const broken = strain.broken({ rows, scale: SCALE, air: HARSH, obstacles: NOTHING });
   let time = 0;
 
   describe(`${table.rows} rows, ${joints.count} joints`, () => {
@@ -102,7 +104,10 @@ for (const options of TREES) {
       riding.follow(table);
     });
     bench("what would break in a storm and snow, in its worker", () => {
-      brokenBy({ rows, scale: SCALE, air: HARSH });
+      strain.broken({ rows, scale: SCALE, air: HARSH, obstacles: NOTHING });
+    });
+    bench("the same behind that model", () => {
+      strain.broken({ rows, scale: SCALE, air: HARSH, obstacles: strainPost.post([MODEL]) });
     });
     bench("what would break: rows copied for the worker", () => {
       motionRows(table);

@@ -28,6 +28,7 @@ export function BreakOffer({ studio }: { studio: Studio }) {
   const air = studio.appearance.value.wind;
   const { internode_length: internodeLength, leaf_size: leafSize } = studio.parameters.value ?? DEFAULT_PARAMETERS;
   const revision = studio.revision.value;
+  const obstacles = studio.obstacles.drawn.value;
   const weather = JSON.stringify(air);
   /** The rows that it was asked of last. */
   const of = useRef(revision);
@@ -45,10 +46,10 @@ export function BreakOffer({ studio }: { studio: Studio }) {
     if (!asked) return;
     const timer = setTimeout(() => {
       of.current = revision;
-      asker.ask({ rows: motionRows(studio.table), scale: { internodeLength, leafSize }, air });
+      asker.ask({ rows: motionRows(studio.table), scale: { internodeLength, leafSize }, air, obstacles });
     }, SETTLED);
     return () => clearTimeout(timer);
-  }, [asked, round, revision, weather, internodeLength, leafSize, studio, asker]);
+  }, [asked, round, revision, weather, obstacles, internodeLength, leafSize, studio, asker]);
   useEffect(() => (asked ? () => asker.forget() : undefined), [asked, asker]);
   useEffect(() => {
     const unmark = () => void studio.tools.toolFor("cut")?.mark?.([]);
