@@ -137,21 +137,20 @@ export class Conversation {
     this.lines.value = [];
   }
 
-  /** A new thread is pinned where the picture was touched; false where there is no wood. */
-  placeAt(x: number, y: number): boolean {
+  /** Where a thread would be pinned at a place of the canvas; null where there is no wood. */
+  pinAt(x: number, y: number): PinPlace | null {
     const { stage, table } = this.#studio;
     const wood = this.#wood();
     const pointer = stage.view ? pointerAt(x, y, stage.view, table, wood) : null;
     if (pointer?.kind !== "wood") {
-      return false;
+      return null;
     }
     const [end, begin] = [wood.placeOf(pointer.row), wood.placeOf(wood.parentOf(pointer.row))];
     if (!end || !begin) {
-      return false;
+      return null;
     }
     const { row, along, offset } = pointer;
-    this.write({ thread: null, pin: { row, along, offset, place: place(onWood({ along, offset }, begin, end)) } });
-    return true;
+    return { row, along, offset, place: place(onWood({ along, offset }, begin, end)) };
   }
 
   /** Says it; true once the server has it. */

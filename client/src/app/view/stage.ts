@@ -40,6 +40,8 @@ export class Stage {
   readonly opened = signal(false);
   /** Whether the picture is drawn by the processor. */
   readonly cardless = signal(false);
+  /** Whether the tree stands still in the wind, for somebody works at it where it grew. */
+  readonly stilled = signal(false);
   #options: StageOptions;
   #table: TreeTable;
   #follower: GrowthFollower;
@@ -57,6 +59,9 @@ export class Stage {
   #holds = new Holds((held) => {
     this.#view?.hold(held);
     this.follow();
+  });
+  #stills = new Holds((stilled) => {
+    this.stilled.value = stilled;
   });
 
   constructor(options: StageOptions) {
@@ -114,6 +119,11 @@ export class Stage {
   /** A finger is down or a lever held: the picture is not at rest until what this returns was called. */
   hold(): () => void {
     return this.#holds.take();
+  }
+
+  /** The tree stands where it grew, however the wind blows, until what this returns was called. */
+  still(): () => void {
+    return this.#stills.take();
   }
 
   /** Rows have changed; draw. */

@@ -30,7 +30,15 @@ export function shapingOf(studio: Studio): Shaping {
     mayChange: studio.rights.mayChange,
     connected: computed(() => studio.link.phase.value === "connected"),
     look: (of) => studio.link.tell({ type: "look_at_branch", ...(of === null ? {} : { of }) }),
-    hold: () => studio.stage.hold(),
+    // Handles and shells stand where the tree grew.
+    hold: () => {
+      const letGo = [studio.stage.hold(), studio.stage.still()];
+      return () => {
+        for (const end of letGo) {
+          end();
+        }
+      };
+    },
     now: () => performance.now(),
     unfitted: (why) => studio.toasts.show(say(`structure.unfitted.${why}`)),
   });

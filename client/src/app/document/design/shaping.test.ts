@@ -275,6 +275,32 @@ describe("shaping by hand", () => {
     expect(shaping.trace.value).toEqual([]);
   });
 
+  it("while a finger draws the tree is held, until that ends however it does", () => {
+    const { design, shaping, world } = setUp();
+    const begin = () => design.hands?.({ kind: "stroke-begin", point: { x: 0, y: -400, pressure: null } });
+    const end = () => design.hands?.({ kind: "stroke-end" });
+    begin();
+    expect(world.holds, "what turns the view").toBe(0);
+    end();
+    shaping.sketching.value = true;
+    begin();
+    expect(world.holds).toBe(1);
+    end();
+    expect(world.holds, "it ended").toBe(0);
+    begin();
+    shaping.cancel();
+    expect(world.holds, "it was called off").toBe(0);
+    end();
+    begin();
+    shaping.sketching.value = false;
+    end();
+    expect(world.holds, "it is no drawing any more").toBe(0);
+    shaping.sketching.value = true;
+    begin();
+    shaping.wanted.value = false;
+    expect(world.holds, "nothing is shaped any more").toBe(0);
+  });
+
   it("an axis that is drawn goes from the base to where the stroke ends, as one deed", () => {
     const { editing, shaping, sent, world, stroke } = setUp({ roll: { own: 90 } });
     editing.choose("/0");

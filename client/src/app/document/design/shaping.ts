@@ -45,7 +45,7 @@ export interface ShapingOptions {
   readonly connected: ReadonlySignal<boolean>;
   /** Tells the server which branch is looked at. */
   readonly look: (of: string | null) => void;
-  /** The picture is not at rest until what this returns was called. */
+  /** A finger shapes until what this returns was called: the picture is not at rest, and the tree stands as it grew. */
   readonly hold: () => () => void;
   readonly now: () => number;
   /** Says why nothing comes of a drawn outline. */
@@ -112,6 +112,8 @@ export class Shaping {
 
   #options: ShapingOptions;
   #grip: Grip | null = null;
+  /** Ends what a finger that draws holds. */
+  #letGo: (() => void) | null = null;
   #stroke: { readonly x: number; readonly y: number; last: readonly [number, number]; moved: boolean } | null = null;
   #tapped: { readonly x: number; readonly y: number; readonly at: number } | null = null;
   #stop: () => void;
@@ -194,7 +196,8 @@ export class Shaping {
 
   /** What a gesture on the canvas still means to the view. */
   gesture(gesture: Gesture): Gesture | null {
-    if (this.sketching.peek() && gesture.kind.startsWith("stroke")) {
+    const isDrawing = this.sketching.peek() || this.trace.peek().length > 0;
+    if (isDrawing && gesture.kind.startsWith("stroke")) {
       this.#sketch(gesture);
       return null;
     }
@@ -257,13 +260,15 @@ export class Shaping {
   /** A finger draws the outline: the shell shows at once what it comes to, and its end is one deed. */
   #sketch(gesture: Gesture): void {
     if (gesture.kind === "stroke-begin") {
+      this.#letGo?.();
+      this.#letGo = this.#options.hold();
       this.trace.value = [[gesture.point.x, gesture.point.y]];
     } else if (gesture.kind === "stroke-move" && this.trace.peek().length > 0) {
       this.trace.value = [...this.trace.peek(), ...gesture.points.map(({ x, y }) => [x, y] as const)];
       this.#fit();
     } else if (gesture.kind === "stroke-end" && this.trace.peek().length > 0) {
       const fit = this.#fit();
-      this.trace.value = [];
+      this.#drawn();
       this.held.value = null;
       if (typeof fit === "string") {
         this.#options.unfitted(fit);
@@ -273,6 +278,13 @@ export class Shaping {
         this.#options.editing.shaped(fit);
       }
     }
+  }
+
+  /** Nothing is drawn any more. */
+  #drawn(): void {
+    this.trace.value = [];
+    this.#letGo?.();
+    this.#letGo = null;
   }
 
   /** What comes of what was drawn so far, which is shown at once. */
@@ -358,7 +370,7 @@ export class Shaping {
     const wasDrawing = this.trace.peek().length > 0;
     this.#grip = null;
     this.held.value = null;
-    this.trace.value = [];
+    this.#drawn();
     grip?.letGo();
     if (grip?.dragged) {
       this.#options.editing.unshape(grip.dragged.change);

@@ -42,8 +42,11 @@ export function windOf(studio: Studio): WindControl {
   return wind;
 }
 
-/** What this page's user is at: what fingers are on, and the branch that is held for turning. */
-function handOn({ tools, branches }: Studio): Hand | null {
+/** What this page's user is at: what fingers are on, and the branch that is held for turning; all of it where the tree is to stand still. */
+function handOn({ tools, branches, stage }: Studio): Hand | null {
+  if (stage.stilled.value) {
+    return { rows: [], elsewhere: 0 };
+  }
   const [touched, held] = [tools.touched.value, branches.held.row.value];
   return held === null ? touched : { elsewhere: ELSEWHERE, ...touched, rows: [...(touched?.rows ?? []), held] };
 }

@@ -1,4 +1,5 @@
 import { useEffect, useRef } from "preact/hooks";
+import type { PinPlace } from "../../../wire/generated";
 import { Conversation } from "../../comments/conversation";
 import { callsForMe, isUnread } from "../../comments/filters";
 import type { Studio } from "../../studio";
@@ -90,30 +91,53 @@ export function CommentPins({ studio }: { studio: Studio }) {
       </div>
       {conversation.placing.value && <PlacingGlass studio={studio} conversation={conversation} />}
       {(conversation.sketching.value || conversation.lines.value.length > 0) && (
-        <SketchGlass conversation={conversation} />
+        <SketchGlass studio={studio} conversation={conversation} />
       )}
     </>
   );
 }
 
-/** Lies over the picture until a place on the tree was touched. */
+/** How far a finger may wander and still mean the place that it came down on, in pixels. */
+const TAP = 9;
+
+/** Lies over the picture until a place on the tree was touched, which in wind is another one once the finger is gone. */
 function PlacingGlass({ studio, conversation }: { readonly studio: Studio; readonly conversation: Conversation }) {
+  const touch = useRef<{ readonly x: number; readonly y: number; readonly pin: PinPlace | null } | null>(null);
+  const letGo = useRef(() => {});
+  useEffect(() => () => letGo.current(), []);
+  const pinAt = ({ currentTarget, clientX, clientY }: PointerEvent) => {
+    const { left, top } = (currentTarget as HTMLElement).getBoundingClientRect();
+    return conversation.pinAt(clientX - left, clientY - top);
+  };
   return (
     <div
       class="comment-glass"
       data-placing
-      onPointerUp={({ currentTarget, clientX, clientY }) => {
-        const { left, top } = currentTarget.getBoundingClientRect();
-        if (!conversation.placeAt(clientX - left, clientY - top)) {
+      onPointerDown={(event) => {
+        touch.current = { x: event.clientX, y: event.clientY, pin: pinAt(event) };
+        letGo.current();
+        letGo.current = studio.stage.still();
+      }}
+      onPointerUp={(event) => {
+        const began = touch.current;
+        const isTap = began !== null && Math.hypot(event.clientX - began.x, event.clientY - began.y) <= TAP;
+        const pin = isTap ? began.pin : pinAt(event);
+        touch.current = null;
+        letGo.current();
+        if (pin) {
+          conversation.write({ thread: null, pin });
+        } else {
           studio.toasts.show(say("comments.place.none"));
         }
       }}
+      onPointerCancel={() => letGo.current()}
     >
       <p class="chip">
         {say("comments.place")}
         <button
           type="button"
           class="chip-stop"
+          onPointerDown={(event) => event.stopPropagation()}
           onPointerUp={(event) => event.stopPropagation()}
           onClick={() => conversation.giveUp()}
         >

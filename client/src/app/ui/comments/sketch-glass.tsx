@@ -1,10 +1,18 @@
-import { useRef } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import { MAX_COMMENT_LINES, MAX_LINE_PLACES } from "../../../wire/generated";
 import type { Conversation } from "../../comments/conversation";
 import type { Line } from "../../comments/view-picture";
+import type { Studio } from "../../studio";
 
-/** Lies over the picture while somebody draws on it, so that the view stands still below what is drawn. */
-export function SketchGlass({ conversation }: { readonly conversation: Conversation }) {
+/** Lies over the picture while somebody draws on it, so that view and tree stand still below what is drawn. */
+export function SketchGlass({
+  studio,
+  conversation,
+}: {
+  readonly studio: Studio;
+  readonly conversation: Conversation;
+}) {
+  useEffect(() => studio.stage.still(), [studio]);
   const glass = useRef<SVGSVGElement>(null);
   const pointer = useRef<number | null>(null);
   const lines = conversation.lines.value;
