@@ -67,6 +67,11 @@ function setUp() {
     },
     white: () => (uniforms.uWeather!.value as number[])[0]!,
     lee: () => (uniforms.uLee!.value as { x: number; z: number }).x,
+    /** Where some rows are seen. */
+    places: () =>
+      Array.from({ length: Math.ceil(table.rows / 7) }, (_, i) =>
+        air.seenAt(7 * i, { placeOf: () => [0, 0, 0], hides: () => false } as never),
+      ),
     /** How far the picture is from the tree as it grew, at its furthest row. */
     lean: () => {
       let far = 0;
@@ -140,6 +145,38 @@ describe("the wind in the picture", () => {
     page.set(CALM);
     expect(jump([1, ...frames(page, 1500, page.white)])).toBeLessThan(SMALL);
     expect(page.air.blowing).toBe(false);
+  });
+
+  it("is the same on a page that is opened while one wind takes over from another, as soon as it has risen there", async () => {
+    const [first, late] = [setUp(), setUp()];
+    first.set(BREEZE, first.time() - 60);
+    first.frame();
+    await first.link();
+    frames(first, 3000, () => {});
+    const told = first.time();
+    first.set(STORM, told);
+    frames(first, 600, () => {});
+    late.wait(1000 * (first.time() - late.time()) - FRAME);
+    late.set(STORM, told);
+    late.frame();
+    await late.link();
+    expect(late.time()).toBeCloseTo(first.time(), 9);
+    const apart = () => {
+      const [a, b] = [first.places(), late.places()];
+      return Math.max(...a.flatMap((place, row) => place.map((each, axis) => Math.abs(each - b[row]![axis]!))));
+    };
+    const gaps: number[] = [];
+    for (let gone = 0; gone < 1500; gone += FRAME) {
+      first.frame();
+      late.frame();
+      gaps.push(apart());
+    }
+    expect(gaps[0], "there it rises from none").toBeGreaterThan(0.1);
+    expect(jump(gaps), "and nothing jumps").toBeLessThan(0.2);
+    expect(gaps.at(-1)).toBe(0);
+    frames(first, 1000, () => {});
+    frames(late, 1000, () => {});
+    expect(apart()).toBe(0);
   });
 
   it("goes on while finer shaders are made ready", async () => {
