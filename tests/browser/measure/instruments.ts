@@ -26,6 +26,8 @@ declare global {
     blind: boolean;
     /** When rows that sway were drawn, in milliseconds since the navigation. */
     swayed: number[];
+    /** How long joints took to be made beside the page, from the question to the answer, in milliseconds. */
+    joints: number[];
     /** When the first rows came, in milliseconds since the navigation. */
     rowsAt: number;
   }
@@ -56,6 +58,21 @@ export function instrument({ aTree, waits }: Watching): void {
   window.blind = false;
   window.rowsAt = Number.NaN;
   window.swayed = [];
+  window.joints = [];
+  window.Worker = class extends Worker {
+    private asked = 0;
+
+    constructor(address: URL | string, options?: WorkerOptions) {
+      super(address, options);
+      if (!String(address).includes("joint-worker")) return;
+      this.addEventListener("message", () => window.joints.push(performance.now() - this.asked));
+    }
+
+    override postMessage(...task: [message: unknown]): void {
+      this.asked = performance.now();
+      super.postMessage(...task);
+    }
+  };
   window.WebSocket = class extends WebSocket {
     constructor(...address: ConstructorParameters<typeof WebSocket>) {
       super(...address);

@@ -18,10 +18,27 @@ const WARMING = 60;
 const COUNTED = 10_000;
 /** How often the wind is switched on. */
 const ROUNDS = 5;
+/** Softer and harder wood, for each of which joints are made anew. */
+const SUPPLENESSES = [1.1, 1.2, 1.3, 1.4, 1];
+/** What is drawn by the processor is counted for so long, after it has had so long to choose how finely, in milliseconds. */
+const DRAWN = 20_000;
+const SETTLING = 10_000;
 /** A tree of few branches has few triangles. */
 const A_SMALL_TREE = 500;
 /** What a page may do for it, so that it is seen to be idle, in milliseconds. */
 const IDLE = 5000;
+
+const COLUMNS = [
+  "tree",
+  "script a frame, median, ms",
+  "99 %",
+  "first sway, ms",
+  "joints made anew, ms",
+  "bytes received and sent in 10 s, but for pings",
+  "what would break, ms",
+  "longest task of the page meanwhile",
+  "frames a second, drawn by the processor",
+];
 
 interface Wood {
   readonly name: string;
@@ -40,10 +57,9 @@ export async function measureWind(): Promise<void> {
     console.log(
       `${cpus()[0]?.model ?? "an unknown processor"}, ${cpus().length} cores, load ${loadavg()[0]!.toFixed(1)}\n`,
     );
-    console.log(
-      "| tree | script a frame, median, ms | 99 % | first sway, ms | bytes received and sent in 10 s, but for pings | what would break, ms | longest task of the page meanwhile |",
-    );
-    console.log("|---|---|---|---|---|---|---|");
+    if (process.env.ESPALIER_CLIENT) console.log("Files that pass through this process come seconds late.\n");
+    console.log(`| ${COLUMNS.join(" | ")} |`);
+    console.log(`${"|---".repeat(COLUMNS.length)}|`);
     for (const depth of DEPTHS) await print(browser, blank, await binary(server, blank, depth));
     for (const metamers of SIZES) await print(browser, blank, await grown(server, browser, blank, metamers));
   } finally {
@@ -103,14 +119,18 @@ async function print(browser: Browser, blank: Page, { name, address, session }: 
   await page.waitForTimeout(COUNTED);
   const { bytes } = wire;
   const strain = await whatBreaks(page);
+  const joints = await jointsAnew(page, blank, session);
+  const drawn = await framesASecond(page);
   const figures = [
     name,
     quantile(script, 0.5).toFixed(2),
     quantile(script, 0.99).toFixed(2),
     quantile(firsts, 0.5).toFixed(0),
+    quantile(joints, 0.5).toFixed(0),
     bytes,
     strain.took.toFixed(0),
     strain.longest === 0 ? "under 50" : strain.longest.toFixed(0),
+    drawn.toFixed(1),
   ];
   console.log(`| ${figures.join(" | ")} |`);
   await page.context().close();
@@ -187,6 +207,35 @@ async function whatBreaks(page: Page): Promise<{ took: number; longest: number }
         };
         look();
       }),
+  );
+}
+
+/** Makes the wood softer or harder for all: how long it takes each time until joints are there. */
+async function jointsAnew(page: Page, blank: Page, session: string): Promise<number[]> {
+  await page.evaluate(() => {
+    window.joints.length = 0;
+  });
+  for (const [times, suppleness] of SUPPLENESSES.entries()) {
+    await perform(blank, session, [JSON.stringify({ kind: "set_appearance", appearance: { wind: { suppleness } } })]);
+    await until("joints are made anew", () => page.evaluate((times) => window.joints.length > times, times));
+  }
+  return page.evaluate(() => window.joints);
+}
+
+/** How many frames of rows that sway are drawn in a second where nothing is left out. */
+async function framesASecond(page: Page): Promise<number> {
+  await page.evaluate(() => {
+    window.blind = false;
+  });
+  await page.waitForTimeout(SETTLING);
+  return page.evaluate(
+    (lasts) =>
+      new Promise<number>((resolve) => {
+        window.swayed.length = 0;
+        const began = performance.now();
+        setTimeout(() => resolve((1000 * window.swayed.length) / (performance.now() - began)), lasts);
+      }),
+    DRAWN,
   );
 }
 
