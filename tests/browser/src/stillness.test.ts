@@ -88,6 +88,30 @@ test("a design stands still under a finger that shapes it, and sways on", async 
   await blow(address, CALM);
 });
 
+test("what a finger is on stands still with every tool, and sways on", async () => {
+  const { tablet, address, metamers } = await workshop.stem(SCREEN);
+  await pinned(tablet, metamers - 2);
+  // The pin lies on the wood, and would take the finger that is meant for that.
+  await tablet.page.addStyleTag({ content: ".comment-pin button { pointer-events: none !important; }" });
+  await blow(address, STORM);
+  for (const tool of [null, "Lasso", "Plant a seed", "Bend", "Width", "Branch", "Prune"] as const) {
+    await sways(tablet);
+    if (tool !== null) await tablet.take(tool);
+    await tablet.inNoTime(async () => {
+      const [seen] = await followed(tablet, 1);
+      await tablet.touch("touchStart", [seen!]);
+      await tablet.touch("touchMove", [{ x: seen!.x + 12, y: seen!.y }]);
+      await tablet.touch("touchMove", [{ x: seen!.x + 16, y: seen!.y }]);
+    });
+    const still = async () => reach(await followed(tablet, 10)) === 0;
+    await until(`it stands still under “${tool ?? "Draw"}”`, still);
+    await tablet.touch("touchEnd", []);
+    await tablet.untilQuiet();
+  }
+  await sways(tablet);
+  await blow(address, CALM);
+});
+
 test("a comment is pinned where a finger comes down on a tree that sways, which stands still below what is drawn", async () => {
   const { tablet, address, metamers } = await workshop.stem(SCREEN);
   await pinned(tablet, metamers - 2);
