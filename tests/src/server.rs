@@ -1,7 +1,7 @@
 //! A real server process with a database file of its own.
 
 use std::{
-    fs,
+    env, fs,
     io::{BufRead, BufReader, Read},
     path::{Path, PathBuf},
     process::{Child, ChildStderr, Command, ExitStatus, Stdio},
@@ -16,6 +16,15 @@ use crate::{http, program};
 
 /// Longer than anything takes on a busy machine; it only keeps a test from hanging.
 pub const GUARD: Duration = Duration::from_secs(60);
+
+/// How often a test kills its server: as often as `ESPALIER_KILLS` says, else so often.
+///
+/// # Panics
+/// If the variable is no number.
+pub fn kills(else_so_often: usize) -> usize {
+    env::var("ESPALIER_KILLS")
+        .map_or(else_so_often, |kills| kills.parse().expect("ESPALIER_KILLS is a number"))
+}
 
 /// A running server; dropping it kills it.
 #[derive(Debug)]

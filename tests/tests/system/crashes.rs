@@ -5,12 +5,11 @@ use espalier_tests::{
     client::Client,
     dice::Dice,
     scratch::Scratch,
-    server::Server,
+    server::{Server, kills},
     strokes::{line, stroke},
 };
 use serde_json::{Value, json};
 
-const KILLS: usize = 20;
 const SEED: u32 = 11;
 
 /// Where the strokes go, seen from above.
@@ -19,7 +18,7 @@ const AROUND: [[f32; 2]; 7] =
 
 /// One stroke for each kill, with parameters and undo between them.
 fn script(dice: &mut Dice) -> Vec<Vec<Value>> {
-    (0..KILLS as u32)
+    (0..kills(20) as u32)
         .map(|number| {
             let [x, z] = AROUND[number as usize % AROUND.len()];
             let height = 4.0 + number as f32 * 0.5;
@@ -49,7 +48,7 @@ async fn reference(server: &Server, commands: impl Iterator<Item = Value>) -> Cl
 }
 
 #[tokio::test]
-async fn twenty_kills_lose_and_double_nothing_acknowledged() {
+async fn kills_lose_and_double_nothing_acknowledged() {
     let mut dice = Dice::new(2026);
     let strokes = script(&mut dice);
     let commands: Vec<Value> = strokes.iter().flatten().cloned().collect();

@@ -15,6 +15,7 @@ mod guiding;
 mod handshake;
 mod imports;
 mod jobs;
+mod killed_library;
 mod later_programs;
 mod library;
 mod library_commands;
