@@ -91,6 +91,55 @@ fn what_is_blended_between_bones_is_near_what_bends() {
     }
 }
 
+/// How far what is blended between bones misses the pose all through a clip, root mean square and at most, as shares of how
+/// far the tip moves that moves furthest: of places at and around the nodes of all rows.
+fn missed(tree: &Tree, clip: &Clip, rig: &Rig) -> [f64; 2] {
+    let [mut squares, mut count, mut furthest, mut moved] = [0.0f64; 4];
+    for key in (0..clip.keys.len()).step_by(16) {
+        let pose = Pose::of(&tree.joints, &tree.wood, &clip.keys[key]);
+        let stands = rig.stand(&tree.joints, &tree.wood, &clip.keys[key]);
+        for row in 0..tree.rows.len() as u32 {
+            let node = pose.node(&tree.joints, &tree.wood, row);
+            let bound = rig.bound(&tree.joints, row, 1.0);
+            for aside in [DVec3::ZERO, DVec3::new(0.02, 0.0, 0.01), DVec3::new(-0.01, 0.01, -0.02)] {
+                let rest = tree.wood.place(row) + aside;
+                let at = |bone: u32| {
+                    let (stand, bone) = (stands[bone as usize], rig.bones()[bone as usize]);
+                    stand.place + stand.turn * (rest - bone.rest)
+                };
+                let [one, other] = bound.bones.map(at);
+                let wanted = node.place + node.turn * aside;
+                let missed = one.lerp(other, bound.share).distance(wanted);
+                squares += missed * missed;
+                count += 1.0;
+                furthest = furthest.max(missed);
+                moved = moved.max(wanted.distance(rest));
+            }
+        }
+    }
+    [(squares / count).sqrt() / moved, furthest / moved]
+}
+
+/// `cargo test -p espalier-motion --test motion wt11 -- --nocapture` prints what fewer bones miss.
+#[test]
+fn wt11_with_256_bones_the_surface_is_near_the_pose_beside_how_far_tips_move() {
+    for tree in unlike() {
+        let clips = clips(&tree.joints, &tree.wood, &Conditions::open(&tree.wood, STRONG));
+        let shares = [1024, 256, 64].map(|most| {
+            let rig = rig_of(&tree, &clips, most);
+            (rig.bones().len(), missed(&tree, &clips[0], &rig))
+        });
+        for (bones, [mean, most]) in shares {
+            let [mean, most] = [100.0 * mean, 100.0 * most];
+            println!("{}: {bones} bones miss {mean:.1} %, {most:.1} % at most", tree.name);
+        }
+        let [all, enough, few] = shares.map(|(_, [mean, _])| mean);
+        // A willow has more shoots that hang and swing than bones.
+        let near = if tree.name == "weeping-willow" { 0.1 } else { 0.05 };
+        assert!(all < 0.01 && enough < near && enough <= few, "{}: {shares:?}", tree.name);
+    }
+}
+
 /// Vertices of one metamer do not part where one limb ends and another begins.
 #[test]
 fn a_limb_begins_where_its_bearer_carries_it() {
