@@ -60,10 +60,32 @@ export interface SwayingTree {
   stands: { time: number; bends: Vec3[]; nodes: [row: number, place: Vec3, turn: number[]][] }[];
 }
 
+/** What moves besides joints, as the server computes it. */
+interface Flutters {
+  noise: [along: number, seed: number, value: number][];
+  quivers: [number: number, least: number, time: number, value: number][];
+  leaves: {
+    base: Vec3;
+    direction: Vec3;
+    side: Vec3;
+    own: Vec3;
+    lee: Vec3;
+    much: number;
+    snow: number;
+    wet: number;
+    air: number;
+    time: number;
+    turn: number[];
+  }[];
+}
+
 const file = new URL("../../server/motion/golden/sway.json", import.meta.url);
-const golden: { trees: SwayingTree[]; sampledJoints: number } = JSON.parse(readFileSync(file, "utf8"));
+const golden: { trees: SwayingTree[]; sampledJoints: number; flutters: Flutters } = JSON.parse(
+  readFileSync(file, "utf8"),
+);
 
 export const SWAYING_TREES = golden.trees;
+export const FLUTTERS = golden.flutters;
 /** Of joints every so many are written down. */
 export const SAMPLED_JOINTS = golden.sampledJoints;
 

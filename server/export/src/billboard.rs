@@ -141,7 +141,7 @@ impl Side {
 
     fn add_card(&self, cards: &mut Cards, foot: Vec3, half: f32) {
         let first = cards.mesh.positions.len() as u32;
-        cards.grids.push(Grid { first, columns: 1, rows: 1 });
+        cards.grids.push(Grid { first, columns: 1, rows: 1, stalk: None });
         let depth = self.eye * foot.dot(self.eye);
         for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
             let at = self.low + (self.high - self.low) * Vec2::new(x, y);

@@ -7,6 +7,7 @@ use espalier_mesh::{Body, RingTable, Style};
 use espalier_motion::{
     Bone, Joints, Limbs, Rig, Rows, Scale, Weather, Wood,
     clips::{Clip, Conditions, blow, clips, reaches},
+    flutter::Air,
     loads::{self, Loading},
     shelter::{Form, Solid, Triangles},
 };
@@ -47,8 +48,6 @@ pub(crate) struct Swaying {
     pub joints: Joints,
     pub clips: [Clip; 2],
     conditions: Conditions,
-    /// How much leaves flutter, 0 to 1: in a breeze of 6 m/s and more all of it.
-    pub stir: f32,
     reach: Vec<f64>,
 }
 
@@ -67,8 +66,7 @@ impl Swaying {
         let Grown { limbs, wood, joints, .. } = grown;
         let clips = clips(&joints, &wood, &conditions);
         let reach = reaches(&clips, joints.all().len());
-        let stir = (weather(look).velocity.length() / 6.0).min(1.0) as f32 * look.flutter;
-        Self { limbs, wood, joints, clips, conditions, stir, reach }
+        Self { limbs, wood, joints, clips, conditions, reach }
     }
 
     /// The same with the gust of jointed bodies, one for each piece between the bones that the plants' files will have.
@@ -91,6 +89,11 @@ impl Swaying {
     pub(crate) fn rest(&self) -> &[DVec3] {
         let [_, gust] = &self.clips;
         gust.keys.first().map_or(&[], Vec::as_slice)
+    }
+
+    /// The air in its loop.
+    pub(crate) fn air(&self) -> Air {
+        self.conditions.air((&self.joints, &self.limbs, &self.wood))
     }
 
     /// At most so many bones for the plant of a seed.

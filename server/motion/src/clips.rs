@@ -8,6 +8,7 @@ use crate::{
     Limbs, Rig,
     answers::Answers,
     exposure::Exposure,
+    flutter::Air,
     joints::Joints,
     shelter::{Solid, shares},
     sway::limited,
@@ -47,6 +48,12 @@ impl Conditions {
     /// How much of the wind reaches what each joint bears.
     pub fn exposure(&self, joints: &Joints, wood: &Wood) -> Exposure {
         Exposure::of(joints, wood, &self.shares)
+    }
+
+    /// The air around rows in the loop.
+    pub fn air(&self, plants: (&Joints, &Limbs, &Wood)) -> Air {
+        let (joints, _, wood) = plants;
+        Air::new(Wind::new(&self.weather, LOOP), self.exposure(joints, wood), plants)
     }
 
     /// How each joint turns under what lies on it, radians; beyond the end not at all.

@@ -12,6 +12,7 @@ pub mod answers;
 pub mod bodies;
 pub mod clips;
 mod exposure;
+pub mod flutter;
 mod frequency;
 mod joints;
 pub mod loads;

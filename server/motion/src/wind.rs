@@ -161,6 +161,16 @@ impl Wind {
         self.axes[direction as usize]
     }
 
+    /// Speed along the mean wind at a place in metres and a time in seconds, as it were 10 m above open ground; never
+    /// below 0.
+    pub fn speed_along(&self, place: DVec3, time: f64) -> f64 {
+        let gusts = self.lines.iter().filter(|line| line.direction == Direction::Along).map(|line| {
+            let angle = angle(line.harmonic, self.period, time) + line.phase - line.wave.dot(place);
+            line.amplitude * libm::cos(angle)
+        });
+        (self.speed * (1.0 + gusts.sum::<f64>())).max(0.0)
+    }
+
     /// Velocity at a place in metres and a time in seconds, in the open.
     pub fn velocity(&self, place: DVec3, time: f64) -> DVec3 {
         let gusts = self.lines.iter().map(|line| {

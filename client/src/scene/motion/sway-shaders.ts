@@ -129,7 +129,7 @@ Node nodeAt(int row) {
 `;
 
 /** How blades move about their bases: downwind, up and down, and about their midribs. */
-const FLUTTER = /* glsl */ `
+export const FLUTTER = /* glsl */ `
 uniform sampler2D uFlatNoise;
 uniform vec3 uLee;
 uniform vec2 uFlutter; // how much of it, and cells of noise that have gone by
@@ -140,7 +140,7 @@ float flutterNoise(float along, float seed) {
   vec2 at = vec2(cell + f * f * (3.0 - 2.0 * f), floor(seed * ${FLAT_NOISE_SIDE - 1}.0)) + 0.5;
   return 2.0 * textureLod(uFlatNoise, at / ${FLAT_NOISE_SIDE}.0, 0.0).r - 1.0;
 }
-void flutter(float air, vec3 base, vec4 more, inout vec3 d, inout vec3 side, inout vec3 n) {
+vec4 fluttered(float air, vec3 base, vec4 more, vec3 d, vec3 side) {
   float gone = uFlutter.y - 0.45 * dot(base, uLee) + 13.0 * more.z;
   float much = uFlutter.x;
   vec3 by = cross(d, uLee) * min(0.06 * air, 0.9) * min(much, 1.0);
@@ -151,7 +151,10 @@ void flutter(float air, vec3 base, vec4 more, inout vec3 d, inout vec3 side, ino
 #ifdef SPRIG
   by *= 0.5;
 #endif
-  vec4 turn = normalize(vec4(0.5 * by, 1.0));
+  return normalize(vec4(0.5 * by, 1.0));
+}
+void flutter(float air, vec3 base, vec4 more, inout vec3 d, inout vec3 side, inout vec3 n) {
+  vec4 turn = fluttered(air, base, more, d, side);
   d = turned(turn, d);
   side = turned(turn, side);
   n = turned(turn, n);

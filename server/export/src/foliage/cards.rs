@@ -1,7 +1,10 @@
 //! Cards that show pictures: leaves, sprays, flowers and fruits as triangles, formed as clients form them when they are
 //! near.
 
-use std::f32::consts::{PI, TAU};
+use std::{
+    f32::consts::{PI, TAU},
+    ops::Range,
+};
 
 use espalier_mesh::{TriangleMesh, leaves::Leaf};
 use espalier_plant::MetamerId;
@@ -41,9 +44,28 @@ pub(crate) struct Grid {
     pub first: u32,
     pub columns: u32,
     pub rows: u32,
+    /// How it hangs, where it is a leaf's.
+    pub stalk: Option<Stalk>,
+}
+
+/// How a leaf hangs at rest.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stalk {
+    pub base: Vec3,
+    /// Unit vectors along it and across it.
+    pub direction: Vec3,
+    /// The same.
+    pub side: Vec3,
+    /// Its own numbers.
+    pub own: Vec4,
 }
 
 impl Grid {
+    /// The indices of all its vertices.
+    pub(crate) fn vertices(&self) -> Range<usize> {
+        self.first as usize..(self.first + (self.columns + 1) * (self.rows + 1)) as usize
+    }
+
     /// The index of a vertex.
     pub(crate) fn vertex(&self, column: u32, row: u32) -> usize {
         (self.first + row * (self.columns + 1) + column) as usize
@@ -92,7 +114,11 @@ impl LeafForm {
     /// Adds a leaf as it hangs.
     pub(crate) fn add(&self, cards: &mut Cards, leaf: &Leaf, hue: Vec3) {
         let own = own_numbers(leaf.random);
+        let first = cards.grids.len();
         self.add_form(cards, &self.stand(leaf), own.x, bending(leaf.random, own.w), hue);
+        let Leaf { base, direction, normal, .. } = *leaf;
+        let stalk = Stalk { base, direction, side: direction.cross(normal), own };
+        cards.grids[first..].iter_mut().for_each(|grid| grid.stalk = Some(stalk));
     }
 
     /// How many forms stand for all leaves where these are places: the pictures of an atlas, each mirrored as well.
@@ -286,7 +312,7 @@ impl Cards {
         corner: impl Fn(f32, f32) -> Corner,
     ) {
         let first = self.mesh.positions.len() as u32;
-        self.grids.push(Grid { first, columns, rows });
+        self.grids.push(Grid { first, columns, rows, stalk: None });
         for row in 0..=rows {
             for column in 0..=columns {
                 let (across, along) = (2.0 * column as f32 / columns as f32 - 1.0, row as f32 / rows as f32);

@@ -2,6 +2,8 @@
 
 mod camera;
 mod canvas;
+#[cfg(test)]
+mod given_up;
 mod lettering;
 mod palette;
 pub(crate) mod raster;

@@ -52,35 +52,10 @@ pub fn strip(plant: &Plant, style: &Style, look: &Look, side: usize, frames: u16
 
 #[cfg(test)]
 mod tests {
-    use std::io::{Cursor, Seek, SeekFrom, Write};
-
     use espalier_plant::{AxisId, Internode};
 
     use super::*;
-
-    /// A file that is given up when it is asked for the second time.
-    #[derive(Default)]
-    struct GivenUp {
-        file: Cursor<Vec<u8>>,
-        asked: usize,
-    }
-
-    impl Write for GivenUp {
-        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-            self.file.write(bytes)
-        }
-
-        fn flush(&mut self) -> io::Result<()> {
-            self.asked += 1;
-            if self.asked > 1 { Err(io::ErrorKind::ConnectionAborted.into()) } else { Ok(()) }
-        }
-    }
-
-    impl Seek for GivenUp {
-        fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-            self.file.seek(to)
-        }
-    }
+    use crate::picture::given_up::GivenUp;
 
     #[test]
     fn a_picture_that_is_given_up_is_drawn_no_further() {

@@ -6,6 +6,7 @@ use std::{fs, path::PathBuf};
 
 use espalier_motion::{
     Answers, Direction, Exposure, Joint, LIVE_PERIOD, NONE, Pluck, Pose, Row, Sway, Weather, Wind,
+    flutter::{self, Blade, Stirring},
     loads::{self, Loading},
     shelter::{Form, Solid, Triangles, behind_crowns, shares},
 };
@@ -256,6 +257,45 @@ fn grove(tree: &Tree) -> Tree {
     Tree::of("grove", espalier_motion::Rows::new(both).expect("parents stand below"), tree.scale)
 }
 
+/// What moves besides joints: noise, shivering twigs and fluttering leaves.
+fn flutters() -> Value {
+    let part = |at: u32, of: f64| (f64::from(at) * of).fract();
+    let noise = (0..24).map(|at| {
+        let (along, seed) = (11.3 * f64::from(at) - 60.0, part(at, 0.377));
+        json!([along, seed, flutter::noise(along, seed, 256)])
+    });
+    let quivers = (0..24).map(|at| {
+        let (number, least, time) = (part(at, 0.619), 3.0 + 0.5 * f64::from(at % 3), 27.1 * f64::from(at));
+        json!([number, least, time, flutter::quiver(number, least, time, LIVE_PERIOD)])
+    });
+    let leaves = (0..24).map(|at| {
+        let [a, b, c, d] = [0.617, 0.211, 0.433, 0.871].map(|of| part(at + 1, of));
+        let direction = DVec3::new(a - 0.5, b - 0.6, c - 0.3).normalize();
+        let blade = Blade {
+            base: DVec3::new(40.0 * b - 20.0, 90.0 * c, 40.0 * a - 20.0),
+            direction,
+            side: direction.any_orthonormal_vector(),
+            own: [c, d, a],
+        };
+        let lee = DVec3::new(libm::cos(6.0 * d), 0.0, libm::sin(6.0 * d)) * (1.0 - 0.2 * c);
+        let snow = [0.0, 0.03, 0.2][at as usize % 3];
+        let stirring =
+            Stirring { lee, much: 2.2 * b, covered: flutter::covered(snow), wet: [0.0, 0.8][at as usize % 2] };
+        let (air, time) = (24.0 * d, 25.3 * f64::from(at));
+        let turn = flutter::turn(&stirring, &blade, air, time, LIVE_PERIOD);
+        json!({
+            "base": vector(blade.base), "direction": vector(direction), "side": vector(blade.side), "own": blade.own,
+            "lee": vector(lee), "much": stirring.much, "snow": snow, "wet": stirring.wet,
+            "air": air, "time": time, "turn": turn.to_array(),
+        })
+    });
+    json!({
+        "noise": noise.collect::<Vec<_>>(),
+        "quivers": quivers.collect::<Vec<_>>(),
+        "leaves": leaves.collect::<Vec<_>>(),
+    })
+}
+
 fn samples() -> Value {
     let supple = |tree: Tree| {
         let joints = espalier_motion::Joints::of(&tree.rows, &tree.limbs, &tree.wood, 2.5);
@@ -264,6 +304,7 @@ fn samples() -> Value {
     json!({
         "sampledRows": ROWS,
         "sampledJoints": JOINTS,
+        "flutters": flutters(),
         "trees": [
             sample(&grown("default", 350), 1.0, LIVE_PERIOD, [5.8, 31.0, 0.0]),
             sample(&supple(grown("weeping-willow", 350)), 2.5, LIVE_PERIOD, [12.5, 151.5, 1.5]),

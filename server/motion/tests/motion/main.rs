@@ -2,6 +2,7 @@
 
 mod answers;
 mod bodies;
+mod flutter;
 mod golden;
 mod gusts;
 mod hostile;

@@ -63,5 +63,8 @@ pub(super) fn ground(meshes: &mut Vec<(Skin, Painted)>, base: f32, reach: f32) {
     mesh.triangle(0, 1, 2);
     mesh.triangle(0, 2, 3);
     let colours = vec![Vec3::ONE; mesh.positions.len()];
-    meshes.push((Skin::Ground, Painted { mesh, colours, texture: None, riders: Vec::new() }));
+    meshes.push((
+        Skin::Ground,
+        Painted { mesh, colours, texture: None, riders: Vec::new(), grids: Vec::new() },
+    ));
 }

@@ -8,7 +8,12 @@ use espalier_settings::Appearance;
 use glam::{Vec2, Vec3};
 
 use crate::{
-    foliage::{Foliage, cards::Cards, leaf_look::Shoot, living},
+    foliage::{
+        Foliage,
+        cards::{Cards, Grid},
+        leaf_look::Shoot,
+        living,
+    },
     picture::swaying::Posed,
     surface::{
         Texture,
@@ -26,6 +31,8 @@ pub(super) struct Painted {
     pub(super) texture: Option<Texture>,
     /// What its corners go along with in the wind; none where nothing sways.
     pub(super) riders: Vec<Rider>,
+    /// The cards of which it is made; none of wood.
+    pub(super) grids: Vec<Grid>,
 }
 
 impl Painted {
@@ -70,11 +77,21 @@ impl Meshes {
     pub(in crate::picture) fn moved(&self, posed: &Posed<'_>) -> Self {
         let moved = |(skin, painted): &(Skin, Painted)| {
             let mut painted = painted.clone();
-            let is_leaf = *skin == Skin::Leaf;
-            for (at, &rider) in painted.riders.iter().enumerate() {
-                let (place, turn) = posed.moved(rider, painted.mesh.positions[at], is_leaf);
-                painted.mesh.positions[at] = place;
-                painted.mesh.normals[at] = turn * painted.mesh.normals[at];
+            let Painted { mesh, riders, grids, .. } = &mut painted;
+            for (at, &rider) in riders.iter().enumerate() {
+                let (place, turn) = posed.moved(rider, mesh.positions[at]);
+                mesh.positions[at] = place;
+                mesh.normals[at] = turn * mesh.normals[at];
+            }
+            for grid in grids {
+                let (Some(stalk), Some(&rider)) = (grid.stalk, riders.get(grid.first as usize)) else {
+                    continue;
+                };
+                let (base, turn) = posed.fluttered(rider, &stalk);
+                for at in grid.vertices() {
+                    mesh.positions[at] = base + turn * (mesh.positions[at] - base);
+                    mesh.normals[at] = turn * mesh.normals[at];
+                }
             }
             (*skin, painted)
         };
@@ -105,7 +122,8 @@ fn wooden(bodies: &Bodies, look: &Appearance, motion: Option<&Swaying>) -> Vec<(
         let colours = wood.radii.iter().map(|&radius| bark.tint(radius)).collect();
         meshes.push((Skin::Bark, cuts(&wood, &riders)));
         let texture = Some(bark.texture.clone());
-        meshes.push((Skin::Bark, Painted { mesh: wood.surface, colours, texture, riders }));
+        meshes
+            .push((Skin::Bark, Painted { mesh: wood.surface, colours, texture, riders, grids: Vec::new() }));
     }
     meshes
 }
@@ -143,8 +161,8 @@ fn borne(plant: &Plant, style: &Style, look: &Appearance, bodies: &Bodies) -> Ve
                 *hue *= thin.strength * sky;
             }
         }
-        let Cards { mesh, hues: colours, riders, .. } = cards;
-        (Skin::Leaf, Painted { mesh, colours, texture: Some(thin.texture), riders })
+        let Cards { mesh, hues: colours, riders, grids, .. } = cards;
+        (Skin::Leaf, Painted { mesh, colours, texture: Some(thin.texture), riders, grids })
     };
     let mut meshes = vec![painted(thin::leaves(&look.leaves), &|cards, id| foliage.add_leaves(cards, id))];
     let flowers = thin::flowers(&look.flowers);
