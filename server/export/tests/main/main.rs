@@ -1,5 +1,6 @@
 //! Files are what their formats say, for any plant.
 
+mod frequencies;
 mod lightmap;
 mod models;
 mod pivots;

@@ -343,6 +343,31 @@ fn list(text: &str, name: &str) -> Vec<f32> {
     words.map(|word| word.parse().unwrap_or_else(|_| panic!("{name}: {word} is no number"))).collect()
 }
 
+/// The bone that bears each bone of a skeleton of USD, by the paths that are their names.
+fn parents_in(skeleton: &str) -> Vec<Option<usize>> {
+    let names = skeleton.split("joints = [").nth(1).and_then(|rest| rest.split(']').next()).expect("names");
+    let names: Vec<&str> = names.split(", ").map(|name| name.trim_matches('"')).collect();
+    let parent = |name: &&str| {
+        let (above, _) = name.rsplit_once('/')?;
+        names.iter().position(|other| *other == above)
+    };
+    names.iter().map(parent).collect()
+}
+
+/// Where bones are whose places beside those that bear them are these.
+fn composed(parents: &[Option<usize>], local: &dyn Fn(usize) -> Mat4) -> Vec<Mat4> {
+    let mut all: Vec<Mat4> = Vec::new();
+    for (bone, parent) in parents.iter().enumerate() {
+        all.push(parent.map_or(Mat4::IDENTITY, |parent| all[parent]) * local(bone));
+    }
+    all
+}
+
+/// The matrices that follow a name in text.
+fn matrices(text: &str, name: &str) -> Vec<Mat4> {
+    list(text, name).as_chunks::<16>().0.iter().map(Mat4::from_cols_array).collect()
+}
+
 #[test]
 fn a_skeleton_of_usd_stands_where_motion_has_it_and_its_loop_closes() {
     let mut document = raised(species::find("oak").expect("there are oaks"), 4);
@@ -351,41 +376,22 @@ fn a_skeleton_of_usd_stands_where_motion_has_it_and_its_loop_closes() {
     let (clips, places, bones) = motion(plant, &windy(), &[]);
     assert!(text.contains("def SkelRoot \"Tree\"") && text.contains("    endTimeCode = 240\n"));
     let skeleton = text.split("def Skeleton \"Bones\"").nth(1).expect("it has bones");
-    let names = skeleton.split("joints = [").nth(1).and_then(|rest| rest.split(']').next()).expect("names");
-    let names: Vec<&str> = names.split(", ").map(|name| name.trim_matches('"')).collect();
-    assert_eq!(names.len(), bones);
-    let parent = |name: &str| {
-        let (above, _) = name.rsplit_once('/')?;
-        names.iter().position(|other| *other == above)
-    };
-    let parents: Vec<Option<usize>> = names.iter().map(|name| parent(name)).collect();
+    let parents = parents_in(skeleton);
+    assert_eq!(parents.len(), bones);
     assert_eq!(parents.iter().filter(|parent| parent.is_none()).count(), 1);
-    let composed = |local: &dyn Fn(usize) -> Mat4| {
-        let mut all: Vec<Mat4> = Vec::new();
-        for (bone, parent) in parents.iter().enumerate() {
-            all.push(parent.map_or(Mat4::IDENTITY, |parent| all[parent]) * local(bone));
-        }
-        all
-    };
-    let matrices = |name: &str| -> Vec<Mat4> {
-        let values = list(skeleton, name);
-        values.as_chunks::<16>().0.iter().map(Mat4::from_cols_array).collect()
-    };
-    let (bind, rest) = (matrices("bindTransforms = "), matrices("restTransforms = "));
+    let composed = |local: &dyn Fn(usize) -> Mat4| composed(&parents, local);
+    let (bind, rest) = (matrices(skeleton, "bindTransforms = "), matrices(skeleton, "restTransforms = "));
     for (composed, bind) in composed(&|bone| rest[bone]).iter().zip(&bind) {
         assert!(composed.abs_diff_eq(*bind, 1e-4), "at rest a bone stands where its vertices are bound");
     }
     let heavy = usda(plant, &laden(), &sways(BONES));
     let heavy = heavy.split("def Skeleton \"Bones\"").nth(1).expect("it has bones");
     let (_, stands, count) = motion(plant, &laden(), &[]);
-    let values = list(heavy, "restTransforms = ");
-    let rest: Vec<Mat4> = values.as_chunks::<16>().0.iter().map(Mat4::from_cols_array).collect();
-    assert_eq!(rest.len(), count);
-    if count == bones {
-        for (composed, &wanted) in composed(&|bone| rest[bone]).iter().zip(&stands[1][0]) {
-            let found = composed.transform_point3(Vec3::ZERO);
-            assert!(found.distance(wanted) < 1e-3, "under snow at rest: {found} is not {wanted}");
-        }
+    let (under, rest) = (parents_in(heavy), matrices(heavy, "restTransforms = "));
+    assert_eq!([under.len(), rest.len()], [count; 2]);
+    for (composed, &wanted) in self::composed(&under, &|bone| rest[bone]).iter().zip(&stands[1][0]) {
+        let found = composed.transform_point3(Vec3::ZERO);
+        assert!(found.distance(wanted) < 1e-3, "under snow at rest: {found} is not {wanted}");
     }
     let keys = |name: &str| -> Vec<Vec<f32>> {
         let samples = skeleton.split(name).nth(1).and_then(|rest| rest.split('}').next()).expect("samples");
