@@ -204,6 +204,40 @@ mod tests {
         assert!(phases.len() > 5, "limbs are out of phase");
     }
 
+    /// The shaders in `docs/shaders` move a vertex along the wind by its weights times the angles of trunk and limb. What
+    /// they miss of the pose of the same joints is that wide limbs go down and up as well.
+    #[test]
+    fn the_shift_of_shaders_is_near_that_of_motion() {
+        let swaying = swaying(&mut oak());
+        let weights = WindWeights::of(&swaying);
+        let Measures { trunk, limb, .. } = weights.measures();
+        let Swaying { joints, wood, .. } = &swaying;
+        for blow in [DVec3::X, DVec3::new(-0.6, 0.0, 0.8)] {
+            for angles in [[0.05, 0.0], [0.0, 0.05], [0.03, 0.04]] {
+                let about = DVec3::Y.cross(blow);
+                let bend =
+                    |level: u32| angles.get(level as usize).map_or(DVec3::ZERO, |&angle| angle * about);
+                let bends: Vec<DVec3> = joints.all().iter().map(|joint| bend(joint.level)).collect();
+                let pose = Pose::of(joints, wood, &bends);
+                let [mut missed, mut level, mut moved] = [0.0; 3];
+                for row in 0..wood.len() as u32 {
+                    let own =
+                        weights.of_vertex(Rider { row, share: 1.0, flutter: 0.0 }, wood.place(row).as_vec3());
+                    let far =
+                        f64::from(own.trunk) * trunk * angles[0] + f64::from(own.limb) * limb * angles[1];
+                    let shift = pose.node(joints, wood, row).place - wood.place(row);
+                    missed += (far * blow - shift).length_squared();
+                    let along = far - shift.dot(blow);
+                    level += along * along;
+                    moved += shift.length_squared();
+                }
+                let [missed, level] = [missed, level].map(|square: f64| (square / moved).sqrt());
+                println!("{angles:?}: misses {missed:.3}, along the wind {level:.3}");
+                assert!(missed < 0.5 && level < 0.25, "{missed} and {level}");
+            }
+        }
+    }
+
     #[test]
     fn what_is_no_tree_stands_still() {
         let swaying = swaying(&mut Document::new(1));
