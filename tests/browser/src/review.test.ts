@@ -197,6 +197,7 @@ test("UD4: two draw at the same time, and each takes back their own", async () =
     for (const [page, limb] of limbs) await page.touch("touchMove", [limb[i]!]);
   }
   for (const [page] of limbs) await page.touch("touchEnd", []);
+  await ann.until("both limbs have grown", ({ metamers }) => metamers >= before.size + 16);
   for (const page of [ann, bo]) await page.untilQuiet();
   const drawn = without(await wood(ann), before);
   const undo = async (page: Tablet) => {

@@ -94,9 +94,12 @@ test("what a finger is on stands still with every tool, and sways on", async () 
   // The pin lies on the wood, and would take the finger that is meant for that.
   await tablet.page.addStyleTag({ content: ".comment-pin button { pointer-events: none !important; }" });
   await blow(address, STORM);
+  let standing = metamers;
   for (const tool of [null, "Lasso", "Plant a seed", "Bend", "Width", "Branch", "Prune"] as const) {
-    await sways(tablet);
+    // A branch that was chosen stands still until another tool is taken.
     if (tool !== null) await tablet.take(tool);
+    await sways(tablet);
+    standing = (await tablet.facts()).metamers;
     await tablet.inNoTime(async () => {
       const [seen] = await followed(tablet, 1);
       await tablet.touch("touchStart", [seen!]);
@@ -108,6 +111,9 @@ test("what a finger is on stands still with every tool, and sways on", async () 
     await tablet.touch("touchEnd", []);
     await tablet.untilQuiet();
   }
+  // The finger has cut off what the pin is on.
+  await tablet.until("it is cut", (facts) => facts.metamers < standing);
+  await workshop.act(address, [{ kind: "undo" }]);
   await sways(tablet);
   await blow(address, CALM);
 });
