@@ -56,7 +56,7 @@ fn best(tree: &Tree, joint: &Joint, turns: &[DVec3], borne: &[f64]) -> DVec3 {
 }
 
 #[test]
-fn wt2_the_mean_answer_to_an_even_wind_is_that_of_statics_for_every_joint() {
+fn the_mean_answer_to_an_even_wind_is_that_of_statics_for_every_joint() {
     for tree in unlike() {
         let speed = 0.001;
         let (wind, pressure) = (wind(speed, 0.5), 0.6125 * speed * speed);

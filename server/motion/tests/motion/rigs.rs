@@ -120,9 +120,9 @@ fn missed(tree: &Tree, clip: &Clip, rig: &Rig) -> [f64; 2] {
     [(squares / count).sqrt() / moved, furthest / moved]
 }
 
-/// `cargo test -p espalier-motion --test motion wt11 -- --nocapture` prints what fewer bones miss.
+/// `cargo test -p espalier-motion --test motion with_256_bones -- --nocapture` prints what fewer bones miss.
 #[test]
-fn wt11_with_256_bones_the_surface_is_near_the_pose_beside_how_far_tips_move() {
+fn with_256_bones_the_surface_is_near_the_pose_beside_how_far_tips_move() {
     for tree in unlike() {
         let clips = clips(&tree.joints, &tree.wood, &Conditions::open(&tree.wood, STRONG));
         let shares = [1024, 256, 64].map(|most| {
