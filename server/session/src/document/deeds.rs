@@ -1,8 +1,8 @@
 //! Deeds: what one person did, taken back and brought back wherever it lies on the line of time (`UD`).
 //!
 //! A deed is an operation, or one person's part of an operation of several. Whether it is in force follows from the
-//! operations after it that took deeds back and brought them back, so it travels in time as they do. What stands then, and what holds of parameters, looks and obstacles,
-//! follows from the deeds in force alone.
+//! operations after it that took deeds back and brought them back, so it travels in time as they do. What stands then, and
+//! what holds of parameters, looks and obstacles, follows from the deeds in force alone.
 
 use espalier_plant::{Claim, Claims, MetamerId, Plant};
 use espalier_proto::{OperationKind, Problem, Reason};
