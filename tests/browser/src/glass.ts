@@ -76,7 +76,7 @@ export class Glass {
   }
 
   /** One real touch event with all fingers that are down, or what the mouse does in their place. */
-  async touch(type: "touchStart" | "touchMove" | "touchEnd" | "touchCancel", fingers: readonly Point[]): Promise<void> {
+  async touch(type: "touchStart" | "touchMove" | "touchEnd", fingers: readonly Point[]): Promise<void> {
     if (!this.touches) {
       const { mouse } = this.page;
       for (const { x, y } of fingers.slice(0, 1)) await mouse.move(x, y);

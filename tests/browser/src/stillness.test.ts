@@ -99,6 +99,7 @@ test("what a finger is on stands still with every tool, and sways on", async () 
   await blow(address, STORM);
   for (const tool of [null, "Lasso", "Plant a seed", "Bend", "Width", "Branch", "Prune"] as const) {
     if (tool !== null) await tablet.take(tool);
+    const { done } = await tablet.untilQuiet();
     await sways(tablet, ` before “${tool ?? "Draw"}”`);
     await tablet.inNoTime(async () => {
       const seen = await halted(tablet);
@@ -108,8 +109,11 @@ test("what a finger is on stands still with every tool, and sways on", async () 
     });
     const still = async () => reach(await followed(tablet, 10)) === 0;
     await until(`it stands still under “${tool ?? "Draw"}”`, still);
-    // Nothing is done with it: each tool finds the same tree.
-    await tablet.touch("touchCancel", []);
+    await tablet.touch("touchEnd", []);
+    // Each tool finds the same tree: one that has become wide would hardly sway.
+    const after = await tablet.untilQuiet();
+    for (let deeds = after.done; deeds > done; deeds -= 1) await workshop.act(address, [{ kind: "undo" }]);
+    await tablet.until("it is as it was", (facts) => facts.done === done);
   }
   await sways(tablet);
   await blow(address, CALM);
