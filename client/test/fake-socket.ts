@@ -7,7 +7,7 @@ export class FakeSocket implements Socket {
   onopen: ((event: Event) => void) | null = null;
   onmessage: ((event: MessageEvent) => void) | null = null;
   onclose: ((event: CloseEvent) => void) | null = null;
-  sent: { type: string; id?: number; sequence?: number; kind?: number; rows?: number[] }[] = [];
+  sent: { type: string; client?: string; id?: number; sequence?: number; kind?: number; rows?: number[] }[] = [];
   closed = false;
   send(text: string) {
     this.sent.push(JSON.parse(text));

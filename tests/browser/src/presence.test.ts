@@ -1,5 +1,6 @@
 import type { Page } from "playwright-core";
 import { afterEach, expect, test } from "vitest";
+import { perform } from "../gallery/performance";
 import { factsOf } from "./facts";
 import { guestsLink, ownersLink } from "./invitations";
 import type { Screen } from "./screens";
@@ -95,6 +96,35 @@ test("PS3: a person with two pages is one in the list, and has left when both ar
   // A page that is being closed may still say that nobody looks at it.
   expect(seen.filter((state) => !state.includes("away"))).toEqual(["here", "here,here", "here", ""]);
   expect(notes).toEqual(["Bo has left"]);
+});
+
+test("PS3: who plays the design stays in the list, as one who does that", async () => {
+  const { ann, bo, noted } = await two();
+  const session = new URL(ann.page.url()).pathname.split("/").at(-1)!;
+  await perform(ann.page, session, ['{"kind":"grow","steps":4}']);
+  await bo.until("it has grown", ({ present }) => present === 4);
+  const person = await row(ann, "Bo").getAttribute("data-person");
+  const shown = bo.page.getByRole("button", { name: "Replay", exact: true });
+  const folded = bo.page.getByRole("button", { name: "Show the timeline" });
+  await shown.or(folded).first().waitFor();
+  if ((await folded.count()) > 0) await bo.press(folded);
+  await bo.press(shown);
+  await bo.page.locator(".replay").waitFor();
+  await row(ann, "Bo").getByText("Plays the design").waitFor();
+  expect(await row(ann, "Bo").getByRole("button", { name: "Follow" }).count(), "there is nothing to follow").toBe(0);
+  await ann.showNow("79-who-plays-the-design");
+  // What he sees there is nobody's: others go on.
+  await perform(ann.page, session, ['{"kind":"grow","steps":1}']);
+  await ann.until("it grows on", ({ present }) => present === 5);
+  await bo.press(bo.page.getByRole("button", { name: "Back to the tree" }));
+  await untilStates(ann, "Bo", "he is at it again", "here");
+  await row(ann, "Bo").getByRole("button", { name: "Follow" }).waitFor();
+  expect(await row(ann, "Bo").getAttribute("data-person"), "he is who he was").toBe(person);
+  await bo.until("he has what was done meanwhile", ({ present }) => present === 5);
+  const { states: seen, notes } = await noted();
+  // Between two sockets he may be nowhere for a moment.
+  expect(seen.filter((state) => state !== "")).toEqual(["here", "away", "here"]);
+  expect(notes, "he had not left").toEqual([]);
 });
 
 test("PS3: a tablet that sleeps is shown as one that does not answer, and is here again when it wakes", async () => {

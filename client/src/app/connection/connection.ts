@@ -107,6 +107,11 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
     return this.#core.settled;
   }
 
+  /** Whether the server has answered for all that was submitted. */
+  get isSettled(): boolean {
+    return this.#core.settled >= this.#core.next - 1;
+  }
+
   unsettled(kind: Command["kind"]): number {
     return this.#core.unsettled(kind);
   }
@@ -213,8 +218,11 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
     const socket = this.#socket;
     this.#frames = this.#frames.then(() => {
       if (this.#socket === socket && !this.#closed) {
-        this.#core.compared(this.#now(), sum, this.#options.rows.sum());
-        this.#settle();
+        const own = this.#options.rows.sum();
+        if (own !== null) {
+          this.#core.compared(this.#now(), sum, own);
+          this.#settle();
+        }
       }
     });
   }

@@ -11,8 +11,8 @@ export interface RowStore<Frame> {
   apply(frame: Frame): void;
   /** Forgets every row. */
   clear(): void;
-  /** How many rows are held, and what they add up to (`CK1`). */
-  sum(): RowSum;
+  /** How many rows are held, and what they add up to (`CK1`); null where nobody looks at them. */
+  sum(): RowSum | null;
 }
 
 export interface RowSum {

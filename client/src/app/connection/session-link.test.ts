@@ -49,6 +49,7 @@ function setUp(
   const hindrance = signal<Hindrance | null>(null);
   const lastSession = signal<string | null>(last);
   const calls: string[] = [];
+  const messages: string[] = [];
   const tells = (name: string) => () => void calls.push(name);
   const nothing = () => {};
   const events: SessionEvents = {
@@ -60,7 +61,7 @@ function setUp(
     choosing: tells("choosing"),
     rows: nothing,
     settled: nothing,
-    message: nothing,
+    message: ({ type }) => void messages.push(type),
     aside: nothing,
     refused: nothing,
     rekeyed: nothing,
@@ -87,7 +88,7 @@ function setUp(
   });
   const newest = () => sockets.at(-1)!.socket;
   const addresses = () => sockets.map(({ address }) => address.split("/").at(-2));
-  return { link, clock, location, hindrance, lastSession, calls, store, sockets, newest, addresses };
+  return { link, clock, location, hindrance, lastSession, calls, messages, store, sockets, newest, addresses };
 }
 
 afterEach(() => vi.unstubAllGlobals());
@@ -276,6 +277,53 @@ describe("a replay", () => {
     newest().welcome();
     expect([link.replaying.value, newest().commands]).toEqual([false, []]);
     expect(calls).not.toContain("parted");
+  });
+
+  it("PS3: leaves the page in the session, as the device that it is, to say so and to be told who else is there", async () => {
+    serveSessions([], []);
+    const { link, newest, sockets, messages } = setUp("/s/oak");
+    await link.start();
+    newest().welcome();
+    const keys = () => sockets.map(({ socket }) => socket.sent.flatMap(({ client }) => client ?? [])[0]);
+    link.replay(true);
+    expect(sockets.slice(1).map(({ address }) => address.split("/").at(-1))).toEqual(["socket", "replay"]);
+    const [, seat, replay] = sockets.map(({ socket }) => socket);
+    replay!.welcome();
+    expect(link.present.value, "the copy is not the session").toBe(false);
+    seat!.welcome();
+    expect(link.present.value).toBe(true);
+    expect(keys()[1]).toBe(keys()[0]);
+    expect(keys()[2]).not.toBe(keys()[0]);
+    link.tell({ type: "here", away: true });
+    link.tell({ type: "ping", nonce: 7 });
+    expect(seat!.sent.map(({ type }) => type)).toEqual(["hello", "here"]);
+    expect(replay!.sent.map(({ type }) => type)).toEqual(["hello", "ping"]);
+    messages.splice(0);
+    seat!.say({ type: "people", people: [], more: 0, you: 1 });
+    seat!.say({ type: "widths", widths: [] });
+    expect(messages, "of what is done there the copy shows nothing").toEqual(["people"]);
+    seat!.end(1006);
+    expect(link.present.value).toBe(false);
+    link.replay(false);
+    newest().welcome();
+    expect(keys().at(-1)).toBe(keys()[0]);
+    expect([link.present.value, replay!.closed]).toEqual([true, true]);
+  });
+
+  it("CM1: what was unsent before goes out meanwhile, and once", async () => {
+    serveSessions([], []);
+    const { link, sockets, newest } = setUp("/s/oak");
+    await link.start();
+    newest().welcome();
+    link.submit({ kind: "undo" });
+    link.replay(true);
+    const seat = sockets.at(-2)!.socket;
+    seat.welcome();
+    expect(seat.commands).toEqual([1]);
+    seat.say({ type: "acknowledged", id: 1 });
+    link.replay(false);
+    newest().welcome(1);
+    expect(newest().commands).toEqual([]);
   });
 
   it("CM1: what was unsent before it goes out after it", async () => {

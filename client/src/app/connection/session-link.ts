@@ -1,6 +1,6 @@
 import { batch, type Signal, signal } from "@preact/signals";
 import type { Frame } from "../../wire/frame";
-import type { Command, NewSession, SessionCreated } from "../../wire/generated";
+import type { Command, NewSession, Resume, SessionCreated } from "../../wire/generated";
 import type { AsideServerFrame } from "../../wire/server-frame";
 import { decodeServerFrame } from "../../wire/server-frame";
 import { askToEnter } from "../entry/ask-to-enter";
@@ -11,10 +11,11 @@ import { explained } from "../problems/explained";
 import { RequestFailed, turnedAway } from "../requests/request";
 import { leaveRecord, newClientKey, takeRecord } from "./client-record";
 import { Connection, type ConnectionEvents, type Socket } from "./connection";
-import type { Phase, StopReason, Told } from "./connection-core";
+import type { ClientRecord, Phase, StopReason, Told } from "./connection-core";
 import { PartedSessions } from "./parted-sessions";
 import { mayReload } from "./reload-guard";
 import type { RowStore } from "./row-store";
+import { Seat } from "./seat";
 import { pathOf, sessionInPath } from "./session-address";
 import { createSession, findSession, socketAddress } from "./session-api";
 
@@ -90,8 +91,12 @@ export class SessionLink implements PageEvents {
   readonly settled = signal(0);
   /** Whether the page is in a copy of the session, to play it from its beginning. */
   readonly replaying = signal(false);
+  /** Whether the session is told what this page says of itself; while it is replayed, that goes there by a way of its own. */
+  readonly present = signal(false);
   #options: SessionLinkOptions;
   #connection: Connection<Frame, AsideServerFrame> | null = null;
+  /** The page's place in the session while it plays a copy of it. */
+  #seat: Seat | null = null;
   #parted = new PartedSessions();
   /** Whether another session is on its way. */
   #changing = false;
@@ -239,13 +244,16 @@ export class SessionLink implements PageEvents {
 
   /** Says something that is no command; false while no session is connected. */
   tell(message: Told): boolean {
-    return this.#connection?.tell(message) ?? false;
+    // A replay is nobody else's: who is there, is there in the session.
+    const place = message.type === "here" ? (this.#seat ?? this.#connection) : this.#connection;
+    return place?.tell(message) ?? false;
   }
 
   /** Whether others are shown (`PS3`). */
   set watchful(watchful: boolean) {
-    if (this.#connection) {
-      this.#connection.watchful = watchful;
+    const place = this.#seat ?? this.#connection;
+    if (place) {
+      place.watchful = watchful;
     }
   }
 
@@ -253,17 +261,16 @@ export class SessionLink implements PageEvents {
   leave(): void {
     this.#options.events.leaving();
     this.#part();
-    this.#connection?.close();
-    this.#connection = null;
+    this.#close();
   }
 
   /** The page may never come back: the next page of this tab continues with what is unsent. */
   leaving(): void {
     const { events, page } = this.#options;
     events.leaving();
-    const session = this.session.peek();
-    if (session !== null && this.#connection && !this.replaying.peek()) {
-      leaveRecord(page.store, session, this.#connection.record());
+    const [session, own] = [this.session.peek(), this.#seat ?? this.#connection];
+    if (session !== null && own) {
+      leaveRecord(page.store, session, own.record());
     }
     this.#parted.leave(page.store);
   }
@@ -278,6 +285,7 @@ export class SessionLink implements PageEvents {
 
   online(): void {
     this.#connection?.wake();
+    this.#seat?.wake();
   }
 
   navigated(): void {
@@ -289,10 +297,19 @@ export class SessionLink implements PageEvents {
 
   #open(session: string, isReplay = false): void {
     const { page, rows, hindrance, dark, lastSession, events } = this.#options;
-    this.leave();
+    const isSame = this.session.peek() === session;
+    const held = isReplay ? rows.held() : undefined;
+    events.leaving();
+    // Who plays the session they are in stays the device that they are.
+    const stays = isSame && (isReplay || this.#seat !== null);
+    const kept = stays ? (this.#seat ?? this.#connection)?.record() : undefined;
+    if (kept === undefined) {
+      this.#part();
+    }
+    this.#close();
     batch(() => {
-      const isSame = this.session.peek() === session;
       this.replaying.value = isReplay;
+      this.present.value = false;
       this.session.value = session;
       lastSession.value = session;
       // Another session does not make a browser draw that cannot.
@@ -301,7 +318,10 @@ export class SessionLink implements PageEvents {
     });
     this.#parted.come(page.store);
     // What was done in the session itself goes there, and nowhere else.
-    const record = isReplay ? null : (takeRecord(page.store, session) ?? this.#parted.take(session));
+    const record = isReplay ? null : (takeRecord(page.store, session) ?? kept ?? this.#parted.take(session));
+    if (isReplay && kept) {
+      this.#seat = this.#seatIn(session, kept, held);
+    }
     const address = socketAddress(session, page.location, isReplay ? "replay" : "socket");
     this.#connection = new Connection<Frame, AsideServerFrame>({
       openSocket: () => page.openSocket(address),
@@ -340,6 +360,34 @@ export class SessionLink implements PageEvents {
     });
   }
 
+  /** Keeps the page's place in a session that it plays. */
+  #seatIn(session: string, record: ClientRecord, held: Resume | undefined): Seat {
+    const { page, events } = this.#options;
+    const address = socketAddress(session, page.location);
+    return new Seat({
+      openSocket: () => page.openSocket(address),
+      clock: page.clock,
+      record,
+      held,
+      events: {
+        message: events.message,
+        refused: events.refused,
+        phase: (phase) => {
+          if (phase !== "connected" && this.present.peek()) {
+            events.lost();
+          }
+          this.present.value = phase === "connected";
+        },
+      },
+    });
+  }
+
+  #close(): void {
+    this.#connection?.close();
+    this.#seat?.close();
+    [this.#connection, this.#seat] = [null, null];
+  }
+
   #onPhase(phase: Phase, attempts: number, stopped: StopReason | null, garbled: number): void {
     const { hindrance, lastSession, begun, events } = this.#options;
     if (phase !== "connected" && this.connected) {
@@ -347,6 +395,9 @@ export class SessionLink implements PageEvents {
     }
     batch(() => {
       this.phase.value = phase;
+      if (!this.replaying.peek()) {
+        this.present.value = phase === "connected";
+      }
       this.attempts.value = attempts;
       this.garbled.value = garbled;
       if (stopped !== null) {
@@ -366,19 +417,13 @@ export class SessionLink implements PageEvents {
 
   /** Keeps what the server may not have got of the session that is left. */
   #part(): void {
-    const [session, connection] = [this.session.peek(), this.#connection];
+    const [session, own] = [this.session.peek(), this.#seat ?? this.#connection];
     const gone = this.#options.hindrance.peek() === "unknown-session";
-    if (
-      session === null ||
-      connection === null ||
-      gone ||
-      this.replaying.peek() ||
-      connection.settled >= connection.next - 1
-    ) {
+    if (session === null || own === null || gone || own.isSettled) {
       return;
     }
-    this.#parted.keep(session, connection.record());
-    if (!this.connected) {
+    this.#parted.keep(session, own.record());
+    if (!this.present.peek()) {
       this.#options.events.parted();
     }
   }

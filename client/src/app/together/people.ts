@@ -29,6 +29,14 @@ export function companions(here: PeopleHere | null): Companion[] {
   return all.filter(({ device }) => device.device !== here?.you).sort((a, b) => a.device.device - b.device.device);
 }
 
+/** What a page that plays a copy of the session says it holds there. */
+export const REPLAY = "replay";
+
+/** Whether a device plays the design instead of being at it. */
+export function isReplaying({ state, tool }: Device): boolean {
+  return state !== "gone" && tool === REPLAY;
+}
+
 /** Whether this page's camera is followed. */
 export function isFollowed(here: PeopleHere | null): boolean {
   return companions(here).some(({ device }) => device.follows === here?.you);

@@ -8,9 +8,9 @@ import { place, seen, seenIn, told, within } from "./cameras";
 import { Others } from "./others";
 import { pointerAt, thinned } from "./own-pointer";
 import { type Here, OwnWords } from "./own-words";
-import { companions, isFollowed } from "./people";
+import { companions, isFollowed, REPLAY } from "./people";
 import { Pointing } from "./pointing";
-import type { Gathered, Listener } from "./together";
+import type { Gathered, Listener, PeopleHere } from "./together";
 
 /** How often a page says what is new of itself, in milliseconds. */
 const PAUSE = 50;
@@ -57,8 +57,8 @@ export class Room implements Listener {
     canvas.addEventListener("wheel", () => this.follow(null), options);
     document.addEventListener("visibilitychange", () => this.#speak(), options);
     const timer = setInterval(() => this.#speak(), PAUSE);
-    const stopConnecting = link.phase.subscribe((phase) => {
-      if (phase === "connected") {
+    const stopConnecting = link.present.subscribe((present) => {
+      if (present) {
         this.#words.again();
         this.#speak();
       }
@@ -134,11 +134,13 @@ export class Room implements Listener {
   #speak(): void {
     const { together, link, stage, document: figures, settings } = this.#studio;
     const here = together.people.peek();
-    const isAlone = here === null ? (figures.peek()?.people ?? 1) < 2 : companions(here).length === 0;
-    if (!link.connected || isAlone) {
+    const isReplaying = link.replaying.peek();
+    // How many are in the session a copy does not say.
+    const isAlone = here === null ? !isReplaying && (figures.peek()?.people ?? 1) < 2 : companions(here).length === 0;
+    if (!link.present.peek() || isAlone) {
       return;
     }
-    const view = stage.view;
+    const view = isReplaying ? null : stage.view;
     if (together.followed.peek() !== null && view && view.camera.moves !== this.#moves) {
       this.follow(null);
     }
@@ -152,9 +154,13 @@ export class Room implements Listener {
 
   /** What others may see of this page; who may only look shows that they are there. */
   #here(): Omit<Here, "camera" | "name"> {
-    const { stage, tools, outline, rights, grammar } = this.#studio;
+    const { stage, tools, outline, rights, grammar, link, together } = this.#studio;
     if (document.hidden) {
       return { type: "here", away: true };
+    }
+    if (link.replaying.peek()) {
+      // Of those who may only look nothing is told but whether they are there (`PS6`).
+      return { type: "here", away: true, ...(mayDraw(together.people.peek()) ? { tool: REPLAY } : {}) };
     }
     const view = stage.view;
     if (!rights.mayChange.peek() || !view) {
@@ -209,4 +215,10 @@ export class Room implements Listener {
       return at ? [place(at)] : [];
     });
   }
+}
+
+/** Whether whoever is at this page may draw, by what everybody is told. */
+function mayDraw(here: PeopleHere | null): boolean {
+  const own = here?.people.find(({ devices }) => devices.some(({ device }) => device === here.you));
+  return own !== undefined && own.role !== "viewer" && own.role !== "commenter";
 }

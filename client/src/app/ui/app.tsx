@@ -101,7 +101,7 @@ function Workspace({ studio }: { studio: Studio }) {
     return attachWorkspace(studio, canvas.current);
   }, [studio]);
   const tool = useToolViews(studio);
-  const company = usePart(studio, TOGETHER, (studio.document.value?.people ?? 1) > 1);
+  const company = usePart(studio, TOGETHER, (studio.document.value?.people ?? 1) > 1 || studio.link.replaying.value);
   const CommentPins = usePart(studio, COMMENTS, hasComments(studio));
   const prediction = usePart(studio, PREDICTION, studio.branches.prediction.rows.value !== null);
   const repeats = descriptorOf(studio.tools.chosen.value).isSymmetric === true && isRepeating(studio);

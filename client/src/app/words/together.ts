@@ -9,6 +9,7 @@ export const TOGETHER = {
   "together.here.writes": ["writes a grammar", "schreibt eine Grammatik"],
   "together.here.tool": ["Holds: {tool}", "Hält: {tool}"],
   "together.away": ["Looks at something else", "Sieht etwas anderes an"],
+  "together.replays": ["Plays the design", "Spielt den Entwurf ab"],
   "together.gone": ["Does not answer", "Antwortet nicht"],
   "together.follows": ["Follows {name}", "Folgt {name}"],
   "together.role.viewer": ["May look", "Darf zusehen"],

@@ -1,7 +1,7 @@
 import type { Device, Person } from "../../../wire/generated";
 import { personColour } from "../../document/timeline/authors";
 import type { Studio } from "../../studio";
-import { companions, nameOf } from "../../together/people";
+import { companions, isReplaying, nameOf } from "../../together/people";
 import { descriptorOf, TOOL_NAMES } from "../../tools/tools";
 import { say } from "../../words/say";
 import { Governing, PersonActs, useGoverning } from "./governing";
@@ -93,7 +93,7 @@ function PersonRow({ studio, person, you, close, onHandedOver }: PersonRowProps)
               </span>
             )}
             <span class="quiet">{doing(studio, device)}</span>
-            {device.device !== you && (
+            {device.device !== you && !isReplaying(device) && (
               <button
                 type="button"
                 class="small"
@@ -120,7 +120,11 @@ function PersonRow({ studio, person, you, close, onHandedOver }: PersonRowProps)
 }
 
 /** Where somebody is, and what they do there. */
-function doing(studio: Studio, { state, tool, follows }: Device): string {
+function doing(studio: Studio, device: Device): string {
+  const { state, tool, follows } = device;
+  if (isReplaying(device)) {
+    return say("together.replays");
+  }
   if (state !== "here") {
     return say(`together.${state}`);
   }

@@ -22,7 +22,10 @@ export function Company({ studio }: { studio: Studio }) {
   useEffect(() => tellOfChanges(studio), [studio]);
   return (
     <div class="company" aria-hidden="true" ref={place}>
-      <Pointers studio={studio} room={room} all={companions(studio.together.people.value)} />
+      {/* What others point to is not in the copy that is played. */}
+      {!studio.link.replaying.value && (
+        <Pointers studio={studio} room={room} all={companions(studio.together.people.value)} />
+      )}
     </div>
   );
 }
