@@ -3,7 +3,7 @@ import { misses } from "./hits";
 import { LANDSCAPE, PHONE, type Screen } from "./screens";
 import { until } from "./server";
 import type { Tablet } from "./tablet";
-import { type Point, way } from "./ways";
+import { loop, type Point, way } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();
@@ -117,6 +117,51 @@ test("PS1: a pointer is seen at its place in the tree, with its brush, and rides
   await tablet.untilQuiet();
   const kept = await untilPointer(tablet, "it stays on the wood", ({ x }) => x > before.x + 25);
   expect(Math.hypot(kept.x - bent.x, kept.y - bent.y)).toBeLessThan(40);
+});
+
+test("PS1: an outline is seen on another page where it is, while it is drawn and no longer", async () => {
+  const { tablet, address, at } = await workshop.stem(SEEN);
+  const other = await workshop.open(address, WITH_MOUSE);
+  await together(tablet, other);
+  // Both see the same place at the same place of the glass.
+  await openPeople(other);
+  await other.press(other.page.locator(".people").getByRole("button", { name: "Follow" }));
+  await other.page.locator("[data-following]").waitFor();
+  await other.untilStill();
+  await tablet.take("Lasso");
+  const [middle, radii] = [at(0, 230), { x: 90, y: 60 }];
+  const outline = loop(middle, radii);
+  /** The box around the line of somebody else that a page shows; null where it shows none. */
+  const lineOn = ({ page }: Tablet) =>
+    page.evaluate(() => {
+      const line = document.querySelector('.companion[data-shown="true"] .companion-line');
+      const places = [...(line?.getAttribute("d") ?? "").matchAll(/(-?[\d.]+) (-?[\d.]+)/g)];
+      const [xs, ys] = [places.map(([, x]) => Number(x)), places.map(([, , y]) => Number(y))];
+      return places.length < 3
+        ? null
+        : { left: Math.min(...xs), right: Math.max(...xs), top: Math.min(...ys), bottom: Math.max(...ys) };
+    });
+  const wanted = {
+    left: middle.x - radii.x,
+    right: middle.x + radii.x,
+    top: middle.y - radii.y,
+    bottom: middle.y + radii.y,
+  };
+  await tablet.lead([outline]);
+  let seen: typeof wanted | null = null;
+  await until("all of it is seen there", async () => {
+    seen = await lineOn(other);
+    return (
+      seen !== null &&
+      (Object.keys(wanted) as (keyof typeof wanted)[]).every((side) => Math.abs(seen![side] - wanted[side]) <= NEAR)
+    );
+  }).catch((error) => {
+    throw new Error(`${error}; it is ${JSON.stringify(seen)}, and not ${JSON.stringify(wanted)}`);
+  });
+  await other.showNow("78-outline-of-another");
+  await tablet.touch("touchEnd", []);
+  await until("it is seen no longer", async () => (await lineOn(other)) === null);
+  expect((await tablet.facts()).tool).toBe("lasso");
 });
 
 test("PS4: following a camera ends with the first touch of one's own", async () => {
