@@ -81,14 +81,25 @@ test.each([
   );
 });
 
-test("a replay is saved as pictures, and as a video where the browser encodes one", async () => {
+/** Asks for a recording of a replay of a small tree, and gives the form; on a page without an encoder if there is to be none. */
+async function recording({ encodes }: { encodes: boolean }) {
   const { tablet } = await grown({ width: 640, height: 480, detail: 0.2 });
   const { page } = tablet;
+  if (!encodes) {
+    // As on a page that came by http from another machine.
+    await page.addInitScript(() => Reflect.deleteProperty(globalThis, "VideoEncoder"));
+    await page.reload();
+    await tablet.untilReady();
+  }
   await replay(tablet);
-  await tablet.press(button(tablet, "Save as a video or pictures"));
   const form = page.getByRole("form", { name: "Save as a video or pictures" });
-  await form.getByText("Pictures (PNG in a ZIP file)").waitFor();
-  await tablet.show("replay-record");
+  const asked = async () => {
+    await tablet.press(button(tablet, "Save as a video or pictures"));
+    await until(
+      "it is known what can be encoded",
+      async () => !(await form.getByRole("button", { name: "Record" }).isDisabled()),
+    );
+  };
   const record = async (kind: string) => {
     await form.getByRole("radio", { name: kind }).check();
     await form.getByRole("radio", { name: "5 s", exact: true }).check();
@@ -98,22 +109,53 @@ test("a replay is saved as pictures, and as a video where the browser encodes on
     await (await saved).saveAs(file);
     return await readFile(file);
   };
-  const archive = await record("Pictures (PNG in a ZIP file)");
+  await asked();
+  return { tablet, form, asked, record };
+}
+
+const PICTURES = "Pictures (PNG in a ZIP file)";
+const NO_VIDEO = "This browser encodes no video here";
+
+function expectPictures(archive: Buffer): void {
   expect(archive.subarray(0, 4)).toEqual(Buffer.from("PK\u0003\u0004"));
   // The end of a ZIP file says how many files it holds: five seconds, and one and a half of the last picture.
   expect(archive.readUInt16LE(archive.length - 12)).toBe(24 * 6.5);
-  await tablet.press(button(tablet, "Save as a video or pictures"));
-  await until(
-    "it is known what can be encoded",
-    async () => !(await form.getByRole("button", { name: "Record" }).isDisabled()),
-  );
-  if ((await form.getByText("Video", { exact: true }).count()) === 0) {
-    await form.getByText("This browser encodes no video here", { exact: false }).waitFor();
-    return;
-  }
+}
+
+test("a replay is saved as pictures, and as a video where the browser says that it encodes one", async () => {
+  const { tablet, form, asked, record } = await recording({ encodes: true });
+  await tablet.show("replay-record");
+  // What the browser itself says, of the size that the form offers first.
+  const encodes = await tablet.page.evaluate(async () => {
+    if (!("VideoEncoder" in globalThis)) return false;
+    const size = { width: 1280, height: 960, bitrate: 4e6, framerate: 24 };
+    const answers = ["avc1.640028", "vp09.00.40.08", "vp8"].map((codec) =>
+      VideoEncoder.isConfigSupported({ codec, ...size }).then(
+        ({ supported }) => supported === true,
+        () => false,
+      ),
+    );
+    return (await Promise.all(answers)).includes(true);
+  });
+  expectPictures(await record(PICTURES));
+  await asked();
+  const offers = {
+    video: await form.getByRole("radio", { name: "Video" }).count(),
+    none: await form.getByText(NO_VIDEO).count(),
+  };
+  expect(offers).toEqual(encodes ? { video: 1, none: 0 } : { video: 0, none: 1 });
+  if (!encodes) return;
   const video = await record("Video");
   const isMp4 = video.subarray(4, 8).toString() === "ftyp";
   const isWebM = video.readUInt32BE(0) === 0x1a45dfa3;
   expect(isMp4 || isWebM).toBe(true);
   expect(video.length).toBeGreaterThan(2000);
+});
+
+test("where no video can be encoded, the page says why, and pictures are saved", async () => {
+  const { tablet, form, record } = await recording({ encodes: false });
+  await form.getByText(NO_VIDEO).waitFor();
+  await tablet.show("replay-record-no-video");
+  expect(await form.getByRole("radio", { name: "Video" }).count()).toBe(0);
+  expectPictures(await record(PICTURES));
 });
