@@ -2,6 +2,7 @@ import type { Page } from "playwright-core";
 import { afterEach, expect, test } from "vitest";
 import { perform } from "../gallery/performance";
 import { factsOf } from "./facts";
+import { misses } from "./hits";
 import { guestsLink, ownersLink } from "./invitations";
 import type { Screen } from "./screens";
 import { until } from "./server";
@@ -125,6 +126,26 @@ test("PS3: who plays the design stays in the list, as one who does that", async 
   // Between two sockets he may be nowhere for a moment.
   expect(seen.filter((state) => state !== "")).toEqual(["here", "away", "here"]);
   expect(notes, "he had not left").toEqual([]);
+});
+
+test.each([
+  ["a tablet", GLASS],
+  ["a phone", { width: 390, height: 844, detail: 0.2 }],
+] as const)("RP1: who may only look finds the way to play the design, on %s", async (name, glass) => {
+  const ann = await workshop.open(ownersLink(workshop.server, "Ann"), GLASS);
+  const session = new URL(ann.page.url()).pathname.split("/").at(-1)!;
+  await perform(ann.page, session, ['{"kind":"grow","steps":4}']);
+  const viewer = await workshop.open(await guestsLink(ann, "Elm", "Vi", "viewer"), glass);
+  await ann.press(ann.page.locator(".people-chip"));
+  await untilStates(ann, "Vi", "she is here", "here");
+  expect(await viewer.page.getByRole("slider", { name: "Time" }).count(), "she does not travel").toBe(0);
+  await viewer.showNow(`79-viewer-${name}`);
+  expect(await misses(viewer, name, ".foot"), "each control is hit where it is drawn").toEqual([]);
+  await viewer.press(viewer.page.getByRole("button", { name: "Replay", exact: true }));
+  await viewer.page.locator(".replay").waitFor();
+  await untilStates(ann, "Vi", "she plays it", "away");
+  await viewer.press(viewer.page.getByRole("button", { name: "Back to the tree" }));
+  await untilStates(ann, "Vi", "she is at it again", "here");
 });
 
 test("PS3: a tablet that sleeps is shown as one that does not answer, and is here again when it wakes", async () => {

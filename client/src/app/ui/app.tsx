@@ -208,7 +208,7 @@ function Bars({ studio }: { studio: Studio }) {
       <Hint studio={studio} />
       <div class="foot">
         <RotationStrip studio={studio} />
-        {mayChange && TimelineStrip && <TimelineStrip studio={studio} />}
+        {TimelineStrip && <TimelineStrip studio={studio} />}
       </div>
       {TourCard && <TourCard studio={studio} />}
       {RecentTrees && isFirst && mayChange && <RecentTrees studio={studio} />}

@@ -22,6 +22,10 @@ export function TimelineStrip({ studio }: { studio: Studio }) {
   if (!isWorthShowing(timeline)) {
     return null;
   }
+  if (!studio.rights.mayChange.value) {
+    // Who only looks does not travel, and may see how it came about.
+    return <ReplayButton studio={studio} isAlone />;
+  }
   if (!timelineOpen.value) {
     return (
       <button
@@ -75,16 +79,22 @@ export function TimelineStrip({ studio }: { studio: Studio }) {
         <ForthIcon />
       </button>
       {studio.grammar.inForce.value !== null && <DepthStepper studio={studio} />}
-      <button
-        type="button"
-        class="tool"
-        aria-label={say("replay.open")}
-        title={say("replay.open.title")}
-        onClick={() => studio.link.replay(true)}
-      >
-        <PlayIcon />
-      </button>
+      <ReplayButton studio={studio} />
     </section>
+  );
+}
+
+function ReplayButton({ studio, isAlone = false }: { studio: Studio; isAlone?: boolean }) {
+  return (
+    <button
+      type="button"
+      class={isAlone ? "panel tool timeline-tab" : "tool"}
+      aria-label={say("replay.open")}
+      title={say("replay.open.title")}
+      onClick={() => studio.link.replay(true)}
+    >
+      <PlayIcon />
+    </button>
   );
 }
 
