@@ -19,7 +19,7 @@ use crate::{
 /// What turns without parameter turn by, in degrees, where the file says nothing.
 pub(crate) const ANGLE: f64 = 45.0;
 /// Steps that a file may ask for.
-const MOST_STEPS: f64 = 10_000.0;
+const MOST_STEPS: f64 = 1000.0;
 
 /// Values that a grammar cannot be set to.
 #[derive(Clone, Debug, PartialEq)]

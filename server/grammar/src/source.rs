@@ -38,6 +38,9 @@ impl Source {
 
     /// Line and column of a place, counted from 1 in characters, and the characters of it on its first line.
     pub fn place(&self, span: Span) -> (u32, u32, u32) {
+        // What is wrong with a text as a whole may be told of a byte within a character.
+        let floor = |at: u32| self.text.floor_char_boundary(at as usize) as u32;
+        let span = Span { start: floor(span.start), end: floor(span.end) };
         let line = self.lines.partition_point(|&start| start <= span.start) - 1;
         let chars = |from: u32, to: u32| self.text[from as usize..to as usize].chars().count() as u32;
         let line_end = self.lines.get(line + 1).map_or(self.text.len() as u32, |next| next - 1);
@@ -105,6 +108,11 @@ pub(crate) fn is_definition(line: &str) -> bool {
 fn without_comments(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text;
+    // Some editors write a mark before the first line.
+    if let Some(after) = text.strip_prefix('\u{feff}') {
+        out.extend(std::iter::repeat_n(' ', text.len() - after.len()));
+        rest = after;
+    }
     let mut is_line_start = true;
     let mut before = '\n';
     while let Some(c) = rest.chars().next() {

@@ -224,7 +224,7 @@ wordings! {
     ANGLE_RANGE: "out-of-range.angle", "angle is {value}, and must be a finite number of degrees";
     TIME_STEP_RANGE: "out-of-range.dt", "dt is {value}, and must be from 0.001 to 1000";
     SEED_RANGE: "out-of-range.seed", "seed is {value}, and must be a whole number from 0 to 4294967295";
-    DEPTH_RANGE: "out-of-range.depth", "derivation length is {value}, and must be a whole number up to 10000";
+    DEPTH_RANGE: "out-of-range.depth", "derivation length is {value}, and must be a whole number up to 1000";
     LIFESPAN_RANGE: "out-of-range.lifespan", "the lifespan of `{name}` is {value}, and must be from 0.001 to 1000000";
     UNSTEADY: "out-of-range.unsteady", "`{name}` must be the same everywhere, and `{function}` is not";
     NO_PROBABILITY: "no-probability", "the probabilities of this rule and its alternatives are all 0";

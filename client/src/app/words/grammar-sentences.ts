@@ -203,7 +203,7 @@ export const SENTENCES = {
   "out-of-range.angle": ["angle is {value}, and must be a finite number of degrees", null],
   "out-of-range.dt": ["dt is {value}, and must be from 0.001 to 1000", null],
   "out-of-range.seed": ["seed is {value}, and must be a whole number from 0 to 4294967295", null],
-  "out-of-range.depth": ["derivation length is {value}, and must be a whole number up to 10000", null],
+  "out-of-range.depth": ["derivation length is {value}, and must be a whole number up to 1000", null],
   "out-of-range.lifespan": ["the lifespan of `{name}` is {value}, and must be from 0.001 to 1000000", null],
   "out-of-range.unsteady": ["`{name}` must be the same everywhere, and `{function}` is not", null],
   "no-probability": ["the probabilities of this rule and its alternatives are all 0", null],

@@ -65,6 +65,21 @@ fn a_million_bytes_of_nonsense() {
 }
 
 #[test]
+fn a_text_that_is_too_long_ends_within_a_character() {
+    for before in MAX_TEXT - 3..=MAX_TEXT {
+        let text = format!("axiom: F\n# {}{}", "x".repeat(before - 11), "\u{10330}\u{e4}".repeat(4));
+        try_all(text.as_bytes());
+        assert_eq!(Grammar::check(&text).diagnostics.len(), 1, "{before}");
+    }
+}
+
+#[test]
+fn a_mark_before_the_first_line_is_no_part_of_it() {
+    let checked = Grammar::check("\u{feff}axiom: F(1)\n");
+    assert!(checked.grammar.is_some(), "{:?}", checked.diagnostics);
+}
+
+#[test]
 fn damaged_grammars() {
     let mut dice = Dice::new(2);
     for shipped in SHIPPED {
