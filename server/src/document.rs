@@ -62,14 +62,14 @@ impl Stored {
         Ok(Self(Document::from_bytes(bytes)?))
     }
 
-    /// Pictures of its plants from all around, side by side, as a PNG file.
-    pub fn strip(&mut self, side: usize, frames: u16) -> Vec<u8> {
+    /// Pictures of its plants from all around, side by side, as a PNG file; `between` is called before each.
+    pub fn strip(&mut self, side: usize, frames: u16, between: impl FnMut()) -> Vec<u8> {
         let Self(document) = self;
         let (parameters, appearance) = (document.parameters(), *document.appearance());
         let species = species_of(&parameters, &appearance);
         let look = Look { appearance, stand: species.map(|species| species.stand).unwrap_or_default() };
         let style = Style::new(style_options(&parameters));
-        picture::strip(document.portrait(), &style, &look, side, frames).png()
+        picture::strip(document.portrait(), &style, &look, (side, frames), between).png()
     }
 
     /// A picture of it as pages make them.
@@ -101,6 +101,12 @@ impl Stored {
 /// How many leaves a node of a document has at most.
 pub fn leaves_per_node(document: &Document) -> u32 {
     style_options(&document.parameters()).leaves_per_node.into()
+}
+
+/// The short name of the species that a document grows by, or which it looks and grows like.
+pub fn species_in(document: &Document) -> Option<String> {
+    let like = || species_of(&document.parameters(), document.appearance());
+    document.species().or_else(|| like().map(|species| species.slug.to_owned()))
 }
 
 /// The species that grows by these parameters at some stage of its life and looks like this; none where somebody has

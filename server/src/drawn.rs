@@ -1,17 +1,21 @@
 //! Pictures of saved versions that nobody saved with them: drawn when they are first asked for, and kept while there is
 //! room, for a version never changes.
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Duration};
 
 use espalier_session::DocumentError;
 use quick_cache::{Weighter, sync::Cache};
+use tokio::sync::Semaphore;
 
 use crate::{
     document::Stored,
     memory::{self, Full, Memory, Use},
-    pool::{Class, Panicked, Person, SimulationPool},
+    pool::{Panicked, SimulationPool},
     store::TreeDocument,
 };
+
+/// Pictures that are drawn at the same time because somebody waits for them.
+const AT_ONCE: usize = 2;
 
 /// Bytes of pictures that are kept, and about how many pictures these are.
 const ROOM: u64 = 32 << 20;
@@ -31,6 +35,25 @@ pub enum Kind {
     },
 }
 
+/// Why a picture is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// Somebody waits for it.
+    Asked,
+    /// Somebody may ask for it later.
+    Ahead,
+}
+
+impl Why {
+    /// How long what is drawn gives way, before each picture, to those who draw, grow and open trees.
+    fn patience(self) -> Duration {
+        match self {
+            Self::Asked => Duration::from_millis(20),
+            Self::Ahead => Duration::from_secs(2),
+        }
+    }
+}
+
 /// Of which tree, which version, and how.
 type Key = (String, u32, Kind);
 /// A PNG file.
@@ -47,7 +70,10 @@ impl Weighter<Key, Png> for Bytes {
 
 /// The pictures that were drawn last.
 #[derive(Clone, Debug)]
-pub struct DrawnPictures(Arc<Cache<Key, Png, Bytes>>);
+pub struct DrawnPictures {
+    kept: Arc<Cache<Key, Png, Bytes>>,
+    asked: Arc<Semaphore>,
+}
 
 /// Why there is no picture.
 #[derive(Debug, thiserror::Error)]
@@ -65,14 +91,15 @@ pub enum DrawError {
 
 impl Default for DrawnPictures {
     fn default() -> Self {
-        Self(Arc::new(Cache::with_weighter(ABOUT, ROOM, Bytes)))
+        let kept = Arc::new(Cache::with_weighter(ABOUT, ROOM, Bytes));
+        Self { kept, asked: Arc::new(Semaphore::new(AT_ONCE)) }
     }
 }
 
 impl DrawnPictures {
     /// The picture, if it is kept.
     pub fn kept(&self, tree: &str, version: u32, kind: Kind) -> Option<Png> {
-        self.0.get(&(tree.to_owned(), version, kind))
+        self.kept.get(&(tree.to_owned(), version, kind))
     }
 
     /// The picture of a document, which is drawn once for all who ask at the same time.
@@ -81,16 +108,24 @@ impl DrawnPictures {
         (tree, version, kind): (String, u32, Kind),
         document: TreeDocument,
         (memory, pool): (&Memory, &SimulationPool),
-        (class, person): (Class, Person),
+        why: Why,
     ) -> Result<Png, DrawError> {
         let key = (tree, version, kind);
-        let drawn = self.0.get_or_insert_async(&key, async {
+        let drawn = self.kept.get_or_insert_async(&key, async {
+            // What is drawn ahead is drawn one after the other anyway, and nobody waits behind it.
+            let _place = match why {
+                Why::Asked => self.asked.acquire().await.ok(),
+                Why::Ahead => None,
+            };
             let claim = memory.take_soon(Use::Export, memory::picture(document.bytes.len(), 0)).await?;
-            let drawn = pool.run(class, person, move |_| {
+            // Pictures take seconds: on the pool others would wait behind them.
+            let drawn = pool.beside("picture", move |pool| {
+                let between = || pool.give_way(why.patience());
+                between();
                 let mut stored = Stored::read(&document.bytes)?;
                 let png = match kind {
                     Kind::Thumbnail => stored.thumbnail(),
-                    Kind::Turntable { side, count } => stored.strip(side, count),
+                    Kind::Turntable { side, count } => stored.strip(side, count, between),
                 };
                 drop(claim);
                 Ok::<_, DocumentError>(png.into())

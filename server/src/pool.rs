@@ -47,8 +47,8 @@ struct Shared {
     state: Mutex<State>,
     /// There may be something to do.
     more: Condvar,
-    /// Nothing is left to do.
-    idle: Condvar,
+    /// Nothing is left that somebody waits for.
+    quiet: Condvar,
 }
 
 #[derive(Debug)]
@@ -110,7 +110,7 @@ impl SimulationPool {
             began: Instant::now(),
             state: Mutex::new(state),
             more: Condvar::new(),
-            idle: Condvar::new(),
+            quiet: Condvar::new(),
         });
         Ok(Self(Arc::new(Handle { shared, workers: OnceLock::new() })))
     }
@@ -155,11 +155,32 @@ impl SimulationPool {
         shared.more.notify_one();
     }
 
-    /// Holds the calling thread, which does what nobody waits for, while there is work on the pool, but not for ever.
+    /// Holds the calling thread, which is none of the pool's, while there is work on the pool that somebody waits for, but
+    /// not for ever.
     pub fn give_way(&self, at_most: Duration) {
         let shared = &self.0.shared;
-        let is_busy = |state: &mut State| !state.turns.is_idle();
-        let _ = shared.idle.wait_timeout_while(shared.lock(), at_most, is_busy);
+        let is_busy = |state: &mut State| !state.turns.keeps_nobody();
+        let _ = shared.quiet.wait_timeout_while(shared.lock(), at_most, is_busy);
+    }
+
+    /// Runs this beside the pool, on a thread of its own, which a server that stops does not wait for. It may take long if
+    /// it gives way time and again.
+    pub async fn beside<T: Send + 'static>(
+        &self,
+        name: &str,
+        work: impl FnOnce(&Self) -> T + Send + 'static,
+    ) -> Result<T, Panicked> {
+        let (answer, answered) = oneshot::channel();
+        let pool = self.clone();
+        let begun = thread::Builder::new().name(name.to_owned()).spawn(move || {
+            if !answer.is_closed() {
+                let _ = answer.send(catch_unwind(AssertUnwindSafe(|| work(&pool))).map_err(|_| Panicked));
+            }
+        });
+        if let Err(error) = begun {
+            tracing::error!(%error, name, "a thread could not be started");
+        }
+        answered.await.unwrap_or(Err(Panicked))
     }
 
     /// Slices that wait, by their class, and what was done of each.
@@ -214,8 +235,8 @@ impl Shared {
             done.slices += 1;
             done.waited += turn.begun.saturating_duration_since(pushed);
             done.worked += took;
-            if state.turns.is_idle() {
-                self.idle.notify_all();
+            if state.turns.keeps_nobody() {
+                self.quiet.notify_all();
             }
             drop(state);
             // What was kept from another worker may be done there now.
@@ -295,7 +316,7 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn what_nobody_waits_for_gives_way() {
+    async fn what_is_done_beside_gives_way_to_what_somebody_waits_for() {
         let pool = pool(1);
         let (open, drawing) = hold(&pool);
         while pool.0.shared.lock().turns.is_idle() {
@@ -312,6 +333,29 @@ mod tests {
         assert_eq!(drawing.await.unwrap(), Ok(true));
         beneath.join().unwrap();
         assert!(pool.0.shared.lock().turns.is_idle());
+    }
+
+    #[tokio::test]
+    async fn what_is_done_beside_waits_for_no_upkeep_and_takes_no_worker() {
+        let pool = pool(1);
+        let (open, gate) = mpsc::channel::<()>();
+        let jobs = pool.clone();
+        let job = thread::spawn(move || jobs.hold(Class::Upkeep, somebody(), move || gate.recv()));
+        while pool.0.shared.lock().turns.is_idle() || pool.0.shared.lock().turns.waiting() > 0 {
+            tokio::task::yield_now().await;
+        }
+        // It would never come back from this if it waited for the job.
+        let beside = pool.beside("beside", |pool| {
+            pool.give_way(Duration::MAX);
+            6 * 7
+        });
+        assert_eq!(beside.await, Ok(42));
+        assert_eq!(pool.beside("beside", |_| panic!("on purpose, for a test")).await, Err::<(), _>(Panicked));
+        let held = [hold(&pool), hold(&pool)];
+        assert_eq!(pool.beside("beside", |_| 1).await, Ok(1), "no worker is free");
+        drop(held);
+        open.send(()).unwrap();
+        assert_eq!(job.join().unwrap(), Ok(()));
     }
 
     #[tokio::test]

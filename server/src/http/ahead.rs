@@ -12,10 +12,7 @@ use super::{
     Shared,
     versions::{THUMBNAIL, TURNTABLE, picture_of},
 };
-use crate::{
-    pool::{Class, Person},
-    store::Library,
-};
+use crate::{drawn::Why, store::Library};
 
 /// Trees that wait at most; of those that waited longest pictures are drawn when they are asked for.
 const MOST: usize = 1000;
@@ -77,8 +74,7 @@ pub async fn draw_ahead(shared: Shared, stop: CancellationToken) {
                 let has_one = kind == THUMBNAIL
                     && shared.store.thumbnail(&tree, version).await.is_ok_and(|picture| picture.is_some());
                 if is_newest && !has_one {
-                    let beneath = (Class::Upkeep, Person::default());
-                    if let Err(failure) = picture_of(&shared, beneath, &tree, version, kind).await {
+                    if let Err(failure) = picture_of(&shared, Why::Ahead, &tree, version, kind).await {
                         tracing::debug!(tree, version, ?failure, "no picture was drawn ahead");
                     }
                 }

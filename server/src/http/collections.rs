@@ -1,14 +1,14 @@
 //! The library: collections, tags, favourites, and who saved trees.
 
-use axum::{Extension, Json, extract::State, http::StatusCode, response::IntoResponse};
+use axum::{Json, extract::State, http::StatusCode, response::IntoResponse};
 use espalier_proto::library::{ChangeCollection, NewCollection, TreeAuthor, TreeCollection, TreeTag};
-use espalier_session::Principal;
 
 use super::{
     Shared,
     failure::{Body, Failure, Path},
 };
 use crate::{
+    access::Caller,
     name,
     store::{Collection, CollectionChange, Finding, Missing},
 };
@@ -62,19 +62,19 @@ pub(super) async fn authors(State(shared): State<Shared>) -> Result<Json<Vec<Tre
 
 pub(super) async fn like(
     State(shared): State<Shared>,
-    Extension(principal): Extension<Principal>,
+    caller: Caller,
     Path(tree): Path<String>,
 ) -> Result<StatusCode, Failure> {
-    shared.store.set_favourite(&principal.to_string(), &tree, true).await?;
+    shared.store.set_favourite(&caller.person(), &tree, true).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
 pub(super) async fn unlike(
     State(shared): State<Shared>,
-    Extension(principal): Extension<Principal>,
+    caller: Caller,
     Path(tree): Path<String>,
 ) -> Result<StatusCode, Failure> {
-    shared.store.set_favourite(&principal.to_string(), &tree, false).await?;
+    shared.store.set_favourite(&caller.person(), &tree, false).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 

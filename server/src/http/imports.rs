@@ -1,12 +1,11 @@
 //! Files that become trees of the library, or versions of one.
 
-use axum::{Extension, extract::State, http::StatusCode, response::IntoResponse};
+use axum::{extract::State, http::StatusCode, response::IntoResponse};
 use espalier_proto::{
     Problem,
     library::ImportNote,
     text::{Name, Note},
 };
-use espalier_session::Principal;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -82,24 +81,19 @@ of_a_file! {
 /// A file as a new tree (`IM1`).
 pub(super) async fn upload(
     State(shared): State<Shared>,
-    Extension(principal): Extension<Principal>,
     caller: Caller,
     Query(upload): Query<Upload>,
     file: File,
 ) -> Result<impl IntoResponse, Failure> {
     let import = upload.import(shared.metamer_budget);
     let said = Said::by(&caller, None, None);
-    let (version, notes) = made(&shared, &principal, import, file, said).await?;
-    Ok((
-        StatusCode::CREATED,
-        trees::add_noted(&shared, &principal, upload.name.into(), version, notes).await?,
-    ))
+    let (version, notes) = made(&shared, &caller, import, file, said).await?;
+    Ok((StatusCode::CREATED, trees::add_noted(&shared, &caller, upload.name.into(), version, notes).await?))
 }
 
 /// A file as the newest version of a tree (`IM2`).
 pub(super) async fn upload_version(
     State(shared): State<Shared>,
-    Extension(principal): Extension<Principal>,
     caller: Caller,
     Path(tree): Path<String>,
     Expected(expected): Expected,
@@ -109,24 +103,24 @@ pub(super) async fn upload_version(
     trees::stored(&shared, &tree).await?;
     let import = upload.import(shared.metamer_budget);
     let said = Said::by(&caller, upload.author, upload.note);
-    let (version, notes) = made(&shared, &principal, import, file, said).await?;
+    let (version, notes) = made(&shared, &caller, import, file, said).await?;
     versions::add_noted(&shared, &tree, expected, version, notes).await
 }
 
 /// What a file holds, as a version to be saved, and what is to be known of it (`IM3`).
 async fn made(
     shared: &Shared,
-    principal: &Principal,
+    caller: &Caller,
     import: Import,
     File(file, _turn): File,
     said: Said,
 ) -> Result<(NewVersion, Vec<ImportNote>), Failure> {
-    let made = shared.pool.run(Class::Whole, principal.name().into(), move |_| {
+    let made = shared.pool.run(Class::Whole, caller.person().into(), move |_| {
         let Imported { document, notes } =
             import::document(&file, &import).map_err(|error| import.refusal(&error))?;
         let notes = notes.iter().map(import::ImportNote::to_proto).collect();
         Ok::<_, Problem>((Saved::of(&document), notes))
     });
     let (saved, notes) = made.await??;
-    Ok((versions::new(principal, said, Contents::New(Box::new(saved))), notes))
+    Ok((versions::new(caller, said, Contents::New(Box::new(saved))), notes))
 }

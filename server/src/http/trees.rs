@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use axum::{
-    Extension, Json,
+    Json,
     extract::State,
     http::StatusCode,
     response::{IntoResponse, Response},
@@ -14,7 +14,6 @@ use espalier_proto::{
     library::{ChangeTree, CopyTree, ImportNote, Origin, SaveTree, SavedTree, TreePage},
     text::{self, Identifier, Name},
 };
-use espalier_session::Principal;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -103,7 +102,7 @@ enum Order {
 }
 
 impl Page {
-    fn query(self, principal: &Principal, caller: &Caller) -> Result<TreeQuery, Problem> {
+    fn query(self, caller: &Caller) -> Result<TreeQuery, Problem> {
         let words: Vec<String> = self.q.split_whitespace().map(str::to_owned).collect();
         let tags = self.tags.split(',').map(str::trim).filter(|tag| !tag.is_empty());
         let tags: Vec<String> = tags.map(str::to_owned).collect();
@@ -134,7 +133,7 @@ impl Page {
             let allowed = format!("a time after saved_from, {}", from.0);
             return Err(Problem::out_of_range("saved_before", &before.0, allowed));
         }
-        let whoever = || Some(principal.to_string());
+        let whoever = || Some(caller.person());
         Ok(TreeQuery {
             is_deleted: self.deleted,
             is_template: self.template,
@@ -164,11 +163,10 @@ impl Page {
 
 pub(super) async fn list(
     State(shared): State<Shared>,
-    Extension(principal): Extension<Principal>,
     caller: Caller,
     Query(page): Query<Page>,
 ) -> Result<Json<TreePage>, Failure> {
-    let query = page.query(&principal, &caller)?;
+    let query = page.query(&caller)?;
     let trees = shared.store.trees(&query).await?;
     // Trees of a later program may be of a species that this one does not know.
     let unknown = query.species.as_deref().filter(|_| trees.is_empty()).and_then(no_species);
@@ -179,7 +177,7 @@ pub(super) async fn list(
     }
     let last = trees.last().filter(|_| trees.len() == query.limit as usize);
     let next = last.map(|tree| write_place(&query.place_of(tree)));
-    let favourites = shared.store.favourites(&principal.to_string()).await?;
+    let favourites = shared.store.favourites(&caller.person()).await?;
     let mut listed = Vec::with_capacity(trees.len());
     for tree in trees {
         listed.push(to_proto(&shared, tree, &favourites).await?);
@@ -205,27 +203,24 @@ fn read_place(text: &str) -> Result<TreePlace, Problem> {
 
 pub(super) async fn find(
     State(shared): State<Shared>,
-    Extension(principal): Extension<Principal>,
+    caller: Caller,
     Path(id): Path<String>,
 ) -> Result<impl IntoResponse, Failure> {
-    answer(&shared, &principal, &id).await
+    answer(&shared, &caller, &id).await
 }
 
 pub(super) async fn save(
     State(shared): State<Shared>,
-    Extension(principal): Extension<Principal>,
     caller: Caller,
     Body(save): Body<SaveTree>,
 ) -> Result<impl IntoResponse, Failure> {
     let SaveTree { session, name, note, author, thumbnail } = save;
-    let version =
-        versions::read(&shared, &caller, &principal, Saving { session, note, author, thumbnail }).await?;
-    Ok((StatusCode::CREATED, add(&shared, &principal, name.into(), version).await?))
+    let version = versions::read(&shared, &caller, Saving { session, note, author, thumbnail }).await?;
+    Ok((StatusCode::CREATED, add(&shared, &caller, name.into(), version).await?))
 }
 
 pub(super) async fn copy(
     State(shared): State<Shared>,
-    Extension(principal): Extension<Principal>,
     caller: Caller,
     Path(id): Path<String>,
     Body(copy): Body<CopyTree>,
@@ -237,24 +232,24 @@ pub(super) async fn copy(
         None => stored(&shared, &id).await?.head.number,
     };
     let contents = Contents::Of { tree: id, version };
-    let version = versions::new(&principal, said, contents);
-    Ok((StatusCode::CREATED, add(&shared, &principal, copy.name.into(), version).await?))
+    let version = versions::new(&caller, said, contents);
+    Ok((StatusCode::CREATED, add(&shared, &caller, copy.name.into(), version).await?))
 }
 
 /// Puts a new tree into the library.
 pub(super) async fn add(
     shared: &Shared,
-    principal: &Principal,
+    caller: &Caller,
     name: String,
     version: NewVersion,
 ) -> Result<impl IntoResponse + use<>, Failure> {
-    add_noted(shared, principal, name, version, Vec::new()).await
+    add_noted(shared, caller, name, version, Vec::new()).await
 }
 
 /// The same with what is to be known of the file that it was made of (`IM3`).
 pub(super) async fn add_noted(
     shared: &Shared,
-    principal: &Principal,
+    caller: &Caller,
     name: String,
     version: NewVersion,
     notes: Vec<ImportNote>,
@@ -262,12 +257,12 @@ pub(super) async fn add_noted(
     let id = name::unguessable();
     shared.store.add_tree(NewTree { id: id.clone(), name, version }).await?;
     shared.ahead.add(&id, 1);
-    answer_noted(shared, principal, &id, notes).await
+    answer_noted(shared, caller, &id, notes).await
 }
 
 pub(super) async fn change(
     State(shared): State<Shared>,
-    Extension(principal): Extension<Principal>,
+    caller: Caller,
     Path(id): Path<String>,
     Expected(expected): Expected,
     Body(change): Body<ChangeTree>,
@@ -281,7 +276,7 @@ pub(super) async fn change(
         ..TreeChange::default()
     };
     shared.store.change_tree(&id, expected, change).await?;
-    answer(&shared, &principal, &id).await
+    answer(&shared, &caller, &id).await
 }
 
 pub(super) async fn delete(
@@ -309,32 +304,28 @@ pub(super) async fn delete_for_good(
 
 pub(super) async fn undelete(
     State(shared): State<Shared>,
-    Extension(principal): Extension<Principal>,
+    caller: Caller,
     Path(id): Path<String>,
     Expected(expected): Expected,
 ) -> Result<impl IntoResponse, Failure> {
     let deletion = Some(Deletion::Undeleted);
     shared.store.change_tree(&id, expected, TreeChange { deletion, ..TreeChange::default() }).await?;
-    answer(&shared, &principal, &id).await
+    answer(&shared, &caller, &id).await
 }
 
 /// A tree as it is now.
-async fn answer(
-    shared: &Shared,
-    principal: &Principal,
-    id: &str,
-) -> Result<impl IntoResponse + use<>, Failure> {
-    answer_noted(shared, principal, id, Vec::new()).await
+async fn answer(shared: &Shared, caller: &Caller, id: &str) -> Result<impl IntoResponse + use<>, Failure> {
+    answer_noted(shared, caller, id, Vec::new()).await
 }
 
 async fn answer_noted(
     shared: &Shared,
-    principal: &Principal,
+    caller: &Caller,
     id: &str,
     import_notes: Vec<ImportNote>,
 ) -> Result<impl IntoResponse + use<>, Failure> {
     let tree = stored(shared, id).await?;
-    let favourites = shared.store.favourites(&principal.to_string()).await?;
+    let favourites = shared.store.favourites(&caller.person()).await?;
     let revision = revision::tag(tree.revision);
     let told = to_proto(shared, tree, &favourites).await?;
     Ok((revision, Json(SavedTree { import_notes, ..told })))

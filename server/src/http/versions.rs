@@ -1,7 +1,7 @@
 //! The library: versions of a tree.
 
 use axum::{
-    Extension, Json,
+    Json,
     extract::State,
     http::{HeaderMap, HeaderName, StatusCode, header},
     response::{IntoResponse, Response},
@@ -12,7 +12,6 @@ use espalier_proto::{
     thumbnail,
     version::TURNTABLE_PICTURES,
 };
-use espalier_session::Principal;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -29,8 +28,8 @@ use super::{
 use crate::{
     SIMULATION_VERSION,
     access::{Action, Caller},
-    drawn::{DrawError, Kind, Png},
-    pool::{Class, Panicked, Person},
+    drawn::{DrawError, Kind, Png, Why},
+    pool::Panicked,
     store::{Contents, Library, NewVersion, Saved, StoredVersion, TreeChange, TreeDocument},
     time::now,
 };
@@ -79,12 +78,7 @@ pub(super) struct Saving {
 }
 
 /// What a session holds now, as a version to be saved.
-pub(super) async fn read(
-    shared: &Shared,
-    caller: &Caller,
-    principal: &Principal,
-    saving: Saving,
-) -> Result<NewVersion, Failure> {
+pub(super) async fn read(shared: &Shared, caller: &Caller, saving: Saving) -> Result<NewVersion, Failure> {
     let Saving { session, note, author, thumbnail } = saving;
     let thumbnail = thumbnail.as_deref().map(thumbnail::from_data_url).transpose()?;
     let said = Said::by(caller, author, note);
@@ -92,7 +86,7 @@ pub(super) async fn read(
     let read = sessions::open(shared, &session).await?.read().await?;
     let document = TreeDocument { simulation_version: SIMULATION_VERSION, bytes: read.bytes };
     let saved = Saved { document, metamers: read.metamers, species: read.species, thumbnail };
-    let version = new(principal, said, Contents::New(Box::new(saved)));
+    let version = new(caller, said, Contents::New(Box::new(saved)));
     Ok(NewVersion { session: Some((session, read.through)), ..version })
 }
 
@@ -110,28 +104,26 @@ impl Said {
 }
 
 /// A version that holds this.
-pub(super) fn new(principal: &Principal, said: Said, contents: Contents) -> NewVersion {
+pub(super) fn new(caller: &Caller, said: Said, contents: Contents) -> NewVersion {
     let Said { author, note } = said;
-    let (saved_at, principal) = (now(), principal.to_string());
+    let (saved_at, principal) = (now(), caller.person());
     NewVersion { saved_at, principal, author, note, contents, session: None }
 }
 
 pub(super) async fn save(
     State(shared): State<Shared>,
-    Extension(principal): Extension<Principal>,
     caller: Caller,
     Path(tree): Path<String>,
     Expected(expected): Expected,
     Body(save): Body<SaveVersion>,
 ) -> Result<impl IntoResponse, Failure> {
     let SaveVersion { session, note, author, thumbnail } = save;
-    let version = read(&shared, &caller, &principal, Saving { session, note, author, thumbnail }).await?;
+    let version = read(&shared, &caller, Saving { session, note, author, thumbnail }).await?;
     add(&shared, &tree, expected, version).await
 }
 
 pub(super) async fn restore(
     State(shared): State<Shared>,
-    Extension(principal): Extension<Principal>,
     caller: Caller,
     Path((tree, number)): Path<(String, u32)>,
     Expected(expected): Expected,
@@ -139,7 +131,7 @@ pub(super) async fn restore(
 ) -> Result<impl IntoResponse, Failure> {
     let contents = Contents::Of { tree: tree.clone(), version: number };
     let said = Said::by(&caller, restore.author, restore.note);
-    let version = new(&principal, said, contents);
+    let version = new(&caller, said, contents);
     add(&shared, &tree, expected, version).await
 }
 
@@ -205,7 +197,6 @@ pub(super) async fn document(
 /// The picture that was saved with a version, or else one that is drawn (`LB1`).
 pub(super) async fn thumbnail(
     State(shared): State<Shared>,
-    caller: Caller,
     Path((tree, number)): Path<(String, u32)>,
     asked: HeaderMap,
 ) -> Result<Response, Failure> {
@@ -213,36 +204,34 @@ pub(super) async fn thumbnail(
         let headers = [(header::CONTENT_TYPE, picture.media_type), (FOR_GOOD.0, FOR_GOOD.1.to_owned())];
         return ranges::answer_with(&asked, headers, picture.bytes);
     }
-    drawn(&shared, &caller, &tree, number, THUMBNAIL, &asked).await
+    drawn(&shared, &tree, number, THUMBNAIL, &asked).await
 }
 
 /// Pictures of a version from all around, side by side (`LB9`).
 pub(super) async fn turntable(
     State(shared): State<Shared>,
-    caller: Caller,
     Path((tree, number)): Path<(String, u32)>,
     asked: HeaderMap,
 ) -> Result<Response, Failure> {
-    drawn(&shared, &caller, &tree, number, TURNTABLE, &asked).await
+    drawn(&shared, &tree, number, TURNTABLE, &asked).await
 }
 
 /// A picture that the server draws. Whoever goes away leaves it to those who come after.
 async fn drawn(
     shared: &Shared,
-    caller: &Caller,
     tree: &str,
     number: u32,
     kind: Kind,
     asked: &HeaderMap,
 ) -> Result<Response, Failure> {
-    let png = picture_of(shared, (Class::Whole, caller.person().into()), tree, number, kind).await?;
+    let png = picture_of(shared, Why::Asked, tree, number, kind).await?;
     ranges::answer_with(asked, [(header::CONTENT_TYPE, "image/png"), FOR_GOOD], png.to_vec())
 }
 
-/// The picture that is kept of a version, or else one that is drawn, for somebody in a class of work.
+/// The picture that is kept of a version, or else one that is drawn.
 pub(super) async fn picture_of(
     shared: &Shared,
-    beneath: (Class, Person),
+    why: Why,
     tree: &str,
     number: u32,
     kind: Kind,
@@ -253,9 +242,7 @@ pub(super) async fn picture_of(
     let saved = sessions::saved_document(shared, tree, number).await?;
     let (shared, key) = (shared.clone(), (tree.to_owned(), number, kind));
     let drawing =
-        tokio::spawn(
-            async move { shared.drawn.of(key, saved, (&shared.memory, &shared.pool), beneath).await },
-        );
+        tokio::spawn(async move { shared.drawn.of(key, saved, (&shared.memory, &shared.pool), why).await });
     drawing.await.map_err(|_| Panicked)?.map_err(|error| match error {
         DrawError::Document(error) => sessions::unreadable(tree, &error),
         DrawError::Full(full) => full.into(),

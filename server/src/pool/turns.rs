@@ -54,10 +54,8 @@ type Micros = i64;
 pub struct Turns<T> {
     workers: usize,
     queues: [Queue<T>; Class::COUNT],
-    /// Slices at work that are not [`Class::Drawing`],
-    others_at_work: usize,
-    /// and all.
-    at_work: usize,
+    /// Slices at work, by their class.
+    at_work: [usize; Class::COUNT],
     /// Until when one worker is kept for drawing.
     kept_until: Duration,
 }
@@ -96,8 +94,7 @@ impl<T> Turns<T> {
         Self {
             workers,
             queues: std::array::from_fn(|_| Queue::default()),
-            others_at_work: 0,
-            at_work: 0,
+            at_work: [0; Class::COUNT],
             kept_until: Duration::ZERO,
         }
     }
@@ -115,17 +112,14 @@ impl<T> Turns<T> {
         let class = self.next_class(now)?;
         let queue = &mut self.queues[class as usize];
         let (person, slice) = queue.take()?;
-        let is_alone =
-            self.at_work == 0 && self.waiting() == 0 && (class == Class::Drawing || now >= self.kept_until);
-        self.at_work += 1;
-        self.others_at_work += usize::from(class != Class::Drawing);
+        let is_alone = self.is_idle() && (class == Class::Drawing || now >= self.kept_until);
+        self.at_work[class as usize] += 1;
         Some(Given { class, person, slice, is_alone })
     }
 
     /// A slice has taken so long.
     pub fn done(&mut self, class: Class, person: &Person, took: Duration) {
-        self.at_work -= 1;
-        self.others_at_work -= usize::from(class != Class::Drawing);
+        self.at_work[class as usize] -= 1;
         let took = Micros::try_from(took.as_micros()).unwrap_or(Micros::MAX);
         for (of, queue) in self.queues.iter_mut().enumerate() {
             if of == class as usize {
@@ -146,9 +140,15 @@ impl<T> Turns<T> {
         std::array::from_fn(|class| self.queues[class].waiting)
     }
 
-    /// Whether there is anything to do, or being done.
+    /// Whether there is nothing to do, and nothing being done.
     pub fn is_idle(&self) -> bool {
-        self.at_work == 0 && self.waiting() == 0
+        self.at_work == [0; Class::COUNT] && self.waiting() == 0
+    }
+
+    /// The same of all that somebody waits for.
+    pub fn keeps_nobody(&self) -> bool {
+        let of = |class: Class| self.at_work[class as usize] + self.queues[class as usize].waiting;
+        [Class::Drawing, Class::Growing, Class::Whole].into_iter().all(|class| of(class) == 0)
     }
 
     /// When a worker that found nothing may find something, though nothing was pushed or done since.
@@ -158,7 +158,8 @@ impl<T> Turns<T> {
 
     fn next_class(&self, now: Duration) -> Option<Class> {
         let waits = |class: Class| self.queues[class as usize].waiting > 0;
-        let may_others = now >= self.kept_until || self.others_at_work + 1 < self.workers;
+        let others = self.at_work.iter().sum::<usize>() - self.at_work[Class::Drawing as usize];
+        let may_others = now >= self.kept_until || others + 1 < self.workers;
         if !may_others {
             return waits(Class::Drawing).then_some(Class::Drawing);
         }

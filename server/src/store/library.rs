@@ -4,6 +4,8 @@ use espalier_growth::SIMULATION_VERSION;
 pub use espalier_proto::thumbnail::Picture;
 use espalier_session::Document;
 
+use crate::document::species_in;
+
 use super::{StoreError, TreeQuery};
 
 /// Keeps trees. What a call that writes has returned from is durable. A change of a tree may name the revision that it
@@ -134,7 +136,7 @@ impl Saved {
     pub fn of(document: &Document) -> Self {
         Self {
             metamers: document.metamers(),
-            species: document.species(),
+            species: species_in(document),
             document: TreeDocument {
                 simulation_version: SIMULATION_VERSION,
                 bytes: document.to_saved_bytes(),

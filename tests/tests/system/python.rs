@@ -66,7 +66,8 @@ fn exports_open_in_other_programs() {
     // So is that of each species, with fewer sides.
     let listed = program::run(&["species", "--json"]);
     let listed: serde_json::Value = serde_json::from_str(&listed.stdout).expect("JSON");
-    let slugs = listed.as_array().expect("a list").iter().map(|species| species["slug"].as_str().expect("a name"));
+    let slugs =
+        listed.as_array().expect("a list").iter().map(|species| species["slug"].as_str().expect("a name"));
     let files: Vec<_> = slugs.map(|slug| grown(slug, &["--lod", "1"], &format!("{slug}.glb"))).collect();
     assert!(files.len() > 20);
     let printed = run(Command::new(&python).arg(home.join("wood.py")).args(&files));

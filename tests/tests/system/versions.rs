@@ -283,6 +283,11 @@ async fn lb7_trees_are_found_by_what_is_said_of_them() {
     assert_eq!((&changed["tags"], &changed["collection"]), (&json!(["Red maple", "old"]), &copse["id"]));
     assert_eq!(library.ask("PUT", &format!("{pear}/favourite"), None).status, 204);
     assert_eq!(library.get(&pear)["favourite"], json!(true));
+    // Each session that a page opens has a key of its own, and it is still the same person who asks.
+    let elsewhere = format!("espalier-client: {}\r\n", "k".repeat(24));
+    let asked = "/api/v1/trees?favourite=true&mine=true";
+    let answer = http::send_with(library.server.port(), "GET", asked, &elsewhere, b"").expect("an answer");
+    assert_eq!(answer.json()["trees"][0]["name"], json!("Pear"), "{}", answer.text());
     let first = library.get("/api/v1/trees?sort=name&limit=1");
     let next = first["next"].as_str().expect("there are more");
     for (query, expected) in [

@@ -41,10 +41,18 @@ pub fn turntable(
 }
 
 /// So many square pictures from all around, beginning with the front, side by side from the left to the right.
-pub fn strip(plant: &Plant, style: &Style, look: &Look, side: usize, frames: u16) -> Canvas {
+/// `between` is called before each.
+pub fn strip(
+    plant: &Plant,
+    style: &Style,
+    look: &Look,
+    (side, frames): (usize, u16),
+    mut between: impl FnMut(),
+) -> Canvas {
     let stage = Stage::of(plant, style, look);
     let mut strip = Canvas::new(side * usize::from(frames), side, Vec3::ZERO);
     for (number, view) in stage.steady_views(Camera::default(), [side; 2], frames).iter().enumerate() {
+        between();
         strip.paste(&stage.seen(view, [side; 2]), number * side, 0);
     }
     strip
@@ -81,8 +89,9 @@ mod tests {
             plant.extend(AxisId::new(0), &Internode { end, normal: Vec3::Z, laterals: &[] });
         }
         plant.end_step();
-        let strip = strip(&plant, &Style::default(), &Look::default(), 48, 4);
-        assert_eq!((strip.width(), strip.height()), (192, 48));
+        let mut begun = 0;
+        let strip = strip(&plant, &Style::default(), &Look::default(), (48, 4), || begun += 1);
+        assert_eq!((strip.width(), strip.height(), begun), (192, 48, 4));
         // The leftmost and the rightmost dark pixel of the upper half of each picture, from its middle.
         let lean = |picture: usize| {
             let dark = (0..24).flat_map(|y| (0..48).map(move |x| (x, y)));
