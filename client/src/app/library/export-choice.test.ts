@@ -55,6 +55,13 @@ describe("a choice", () => {
     expect([isExportChoice(choice), isExportChoice({ ...choice, camera: true })]).toEqual([true, false]);
   });
 
+  it("asks for so many points where the format is made of them", () => {
+    const cloud = { ...GLB, options: ["points"] };
+    expect([...optionsOf(FIRST_CHOICE, cloud)]).toEqual([["points", "1000000"]]);
+    expect([...optionsOf({ ...FIRST_CHOICE, points: "5000000" }, cloud)]).toEqual([["points", "5000000"]]);
+    expect([...optionsOf({ ...FIRST_CHOICE, points: "5000000" }, GLB)]).toEqual([]);
+  });
+
   it("that something else was kept as is none", () => {
     expect(isExportChoice(FIRST_CHOICE)).toBe(true);
     for (const other of [null, 3, {}, { ...FIRST_CHOICE, on: "hull" }, { ...FIRST_CHOICE, lod: 1 }]) {

@@ -12,6 +12,8 @@ export interface ExportChoice {
   readonly sway?: string;
   /** `seen`, for pictures that the server makes from where the page looks; missing in what was kept before there was that. */
   readonly camera?: string;
+  /** Points of a cloud; missing in what was kept before there was a choice. */
+  readonly points?: string;
   /** Switches that are on, for all formats that have them. */
   readonly on: readonly string[];
   readonly author: string;
@@ -36,7 +38,9 @@ export function isExportChoice(value: unknown): boolean {
     [choice.format, choice.lod, choice.frames, choice.author, choice.licence].every(
       (text) => typeof text === "string",
     ) &&
-    [choice.lightmap, choice.sway, choice.camera].every((text) => ["undefined", "string"].includes(typeof text)) &&
+    [choice.lightmap, choice.sway, choice.camera, choice.points].every((text) =>
+      ["undefined", "string"].includes(typeof text),
+    ) &&
     Array.isArray(choice.on) &&
     choice.on.every((name) => typeof name === "string")
   );
@@ -47,6 +51,9 @@ export function moves({ sway, on }: ExportChoice, { options }: ExportFormat): bo
   const sways = options.includes("sway") && (sway ?? "") !== "";
   return sways || (options.includes("wind_weights") && on.includes("wind_weights"));
 }
+
+/** Points of a cloud where nobody says more. */
+export const POINTS = "1000000";
 
 /** What of a choice the format can do, as the server is asked for it; `seen` is the page's own view, where it has one. */
 export function optionsOf(
@@ -61,6 +68,7 @@ export function optionsOf(
     ["lightmap", choice.lightmap ?? ""],
     ["sway", choice.sway ?? ""],
     ["frames", choice.frames],
+    ["points", choice.points ?? POINTS],
     ...(choice.camera === "seen" && seen ? seen : []),
     ["author", choice.author.trim()],
     ["licence", choice.licence.trim()],

@@ -3,6 +3,7 @@ import { FLOWERS, FRUITS } from "../../scene/foliage/ornament-sorts";
 import { isBearing } from "../../scene/foliage/places";
 import type { TreeTable } from "../../scene/table/tree-table";
 import { type Appearance, type ExportFormat, LEAF_NATURES } from "../../wire/generated";
+import { POINTS } from "./export-choice";
 
 /** What of a tree the size of its files goes by. */
 export interface Amount {
@@ -57,8 +58,9 @@ export function bytesExpected(
     [wood, foliage] = [wood * ofWood, foliage * ofLeaves];
   }
   const frames = Number(options.get("frames") ?? 1);
+  const share = Number(options.get("points") ?? POINTS) / Number(POINTS);
   const ofTree = (each: number) =>
-    least * frames + level * (metamers * metamer * wood + each * leaves * leaf * foliage);
+    least * share * frames + level * (metamers * metamer * wood + each * leaves * leaf * foliage);
   if (!format.options.includes("lod")) {
     return ofTree(1);
   }

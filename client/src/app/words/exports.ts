@@ -22,6 +22,7 @@ export const EXPORTS = {
   "exports.sway.none": ["None", "Keine"],
   "exports.wind_weights": ["Weights for wind shaders", "Gewichte für Wind-Shader"],
   "exports.frames": ["Pictures", "Bilder"],
+  "exports.points": ["Millions of points", "Millionen Punkte"],
   "exports.camera": ["Camera", "Kamera"],
   "exports.camera.whole": ["Whole tree", "Ganzer Baum"],
   "exports.camera.seen": ["As I see it", "Wie ich ihn sehe"],

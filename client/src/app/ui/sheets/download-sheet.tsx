@@ -16,7 +16,10 @@ const LARGE = 3840;
 
 /** Names and gives the tree as a file: a picture of the view, or what the server writes. */
 export function DownloadSheet({ studio }: { studio: Studio }) {
-  const [name, setName] = useState(() => studio.trees.name.peek() ?? usualName(studio));
+  // What the tree is called may be known later than the sheet is opened; what somebody has typed stays.
+  const [typed, setName] = useState<string | null>(null);
+  const [usual] = useState(() => usualName(studio));
+  const name = typed ?? studio.trees.name.value ?? usual;
   const [formats, askAgain] = useFormats();
   const choice = studio.settings.exportChoice.value;
   const choose = (part: Partial<ExportChoice>) => {

@@ -1,6 +1,6 @@
 import { useEffect, useState } from "preact/hooks";
 import { type ExportFormat, MAX_NAME_CHARACTERS } from "../../../wire/generated";
-import { type ExportChoice, moves } from "../../library/export-choice";
+import { type ExportChoice, moves, POINTS } from "../../library/export-choice";
 import { ask } from "../../requests/request";
 import { type Key, say } from "../../words/say";
 import { Segments } from "../controls/segments";
@@ -10,6 +10,7 @@ const LIGHTMAPS = ["", "512", "1024", "2048", "4096"] as const;
 /** The most bones of a plant; some programs take 64, most 256. */
 const BONES = ["", "64", "256", "1024"] as const;
 const FRAMES = ["24", "36", "72"] as const;
+const CLOUDS = ["100000", POINTS, "5000000", "20000000"] as const;
 const CAMERAS = ["", "seen"] as const;
 const SWITCHES = ["quantised", "compressed", "instanced", "hull", "by_limb", "wind_weights"] as const;
 const TEXTS = ["author", "licence"] as const;
@@ -65,6 +66,16 @@ export function ExportOptions({ format, choice, choose, sees = false }: OptionsP
           chosen={choice.frames}
           text={(frames) => frames}
           onChoose={(frames) => choose({ frames })}
+        />
+      )}
+      {has("points") && (
+        <Segments
+          legend={say("exports.points")}
+          name="points"
+          values={CLOUDS}
+          chosen={choice.points ?? POINTS}
+          text={(points) => String(Number(points) / 1e6)}
+          onChoose={(points) => choose({ points })}
         />
       )}
       {sees && has("target") && (
