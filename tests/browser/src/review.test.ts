@@ -254,8 +254,10 @@ test.each(KEEPING ? WALKS : WALKS.slice(0, 1))(
     expect(annsLimb.size).toBeGreaterThan(3);
 
     // Bo follows her, until he touches his picture.
+    const followed = await ann.watchFor(".toast", "Bo follows your view");
     await amongPeople(bo, "Follow");
     await bo.page.locator("[data-following]").waitFor();
+    await followed();
     const first = await turn(ann, TURN);
     await until("both see the same side", async () => Math.abs(first - (await turned(bo))) <= 1);
     await bo.untilStill();
@@ -269,7 +271,9 @@ test.each(KEEPING ? WALKS : WALKS.slice(0, 1))(
     expect(Math.abs(first - (await turned(bo))), "he sees what he saw").toBeLessThanOrEqual(1);
 
     // She comments on a place, for Bo; he is told that something is for him, and answers.
+    const called = await bo.watchFor(".toast", "Ann has said something to you");
     await askBo(ann);
+    await called();
     await bo.page.locator('.unread[data-me="true"]').first().waitFor();
     await pinOn(bo);
     await picture("3-comment");

@@ -266,26 +266,27 @@ export class Tablet extends Glass {
     await until("all that slides in has come", () => this.page.evaluate(isAtRest, restAsked("come")));
   }
 
-  /** Notes from now on what comes, if only for a moment: what this gives waits until it has, and says its text. */
-  async watchFor(selector: string): Promise<() => Promise<string>> {
-    const noted = await this.page.evaluateHandle((selector) => {
+  /** Notes from now on what comes with a text, if only for a moment: what this gives waits until it has, and says its text. */
+  async watchFor(selector: string, text = ""): Promise<() => Promise<string>> {
+    const watched = { selector, text };
+    const noted = await this.page.evaluateHandle(({ selector, text }) => {
       const noted: { text: string | null } = { text: null };
       const watcher = new MutationObserver(() => {
-        const found = document.querySelector(selector);
-        if (found === null) return;
+        const found = [...document.querySelectorAll(selector)].find((one) => one.textContent?.includes(text));
+        if (found === undefined) return;
         noted.text = found.textContent ?? "";
         watcher.disconnect();
       });
       watcher.observe(document, { subtree: true, childList: true, attributes: true });
       return noted;
-    }, selector);
+    }, watched);
     return async () => {
-      let text: string | null = null;
-      await until(`${selector} comes`, async () => {
-        text = await noted.evaluate((noted) => noted.text);
-        return text !== null;
+      let seen: string | null = null;
+      await until(`${selector} ${text} comes`, async () => {
+        seen = await noted.evaluate((noted) => noted.text);
+        return seen !== null;
       });
-      return text ?? "";
+      return seen ?? "";
     };
   }
 }

@@ -11,7 +11,7 @@ import { pointerAt } from "../together/own-pointer";
 import { onWood } from "../together/wood-place";
 import { say } from "../words/say";
 import * as api from "./comment-api";
-import { callsForMe, unreadIn } from "./filters";
+import { callsForMe, newCalls, unreadIn } from "./filters";
 import { type Line, picture } from "./view-picture";
 
 /** A comment that is being written. */
@@ -94,7 +94,10 @@ export class Conversation {
     stale.value = new Set();
     for (const number of changed) {
       try {
-        this.#take(await api.findThread(tree, number));
+        const before = this.threads.peek()?.get(number);
+        const thread = await api.findThread(tree, number);
+        this.#take(thread);
+        this.#tell(before, thread);
       } catch (error) {
         if (!(error instanceof RequestFailed && error.status === 404)) {
           return this.#failed(error);
@@ -271,6 +274,19 @@ export class Conversation {
     const others = [...(this.threads.peek() ?? [])].filter(([number]) => number !== thread.thread);
     const all = [...others, [thread.thread, thread] as const];
     this.threads.value = new Map(all.sort(([a], [b]) => b - a));
+  }
+
+  /** Whoever is named in what was just said is told so, unless they read it already. */
+  #tell(before: Thread | undefined, thread: Thread): void {
+    const { comments, layout, toasts } = this.#studio;
+    const isRead = layout.panel.peek() === "comments" && comments.open.peek() === thread.thread;
+    const call = newCalls(before, thread).at(-1);
+    if (call && !isRead) {
+      toasts.show(say("comments.calls", { name: call.author }), {
+        label: say("comments.read"),
+        act: () => this.show(this.threads.peek()?.get(thread.thread) ?? thread),
+      });
+    }
   }
 
   #drop(number: number): void {

@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { Comment, Pin, Thread } from "../../wire/generated";
-import { authorsOf, callsForMe, FILTERS, isUnread, isWanted, unreadIn } from "./filters";
+import { authorsOf, callsForMe, FILTERS, isUnread, isWanted, newCalls, unreadIn } from "./filters";
 
 function comment(number: number, author: string, rest: Partial<Comment> = {}): Comment {
   const written_at = "2026-05-01T12:00:00.000Z";
@@ -53,4 +53,15 @@ it("CT4: what was not seen is counted, and told apart where it is for whoever lo
   expect([callsForMe(both), callsForMe({ ...both, seen: 0 })]).toEqual([false, true]);
   const another = thread(9, [comment(1, "Bo", { mentions: [{ name: "Ann", you: false }] })]);
   expect(callsForMe(another)).toBe(false);
+});
+
+it("CT4: whoever is named is called by what was just said, and by nothing that was there or that they have seen", () => {
+  const mentions = [{ name: "Ann", you: true }];
+  const before = thread(9, [comment(1, "Bo", { mentions }), comment(2, "Bo")]);
+  const answer = comment(3, "Cy", { mentions });
+  const after = { ...before, comments: [...before.comments, answer] };
+  expect(newCalls(before, after)).toEqual([answer]);
+  expect(newCalls(undefined, after).map(({ comment }) => comment)).toEqual([1, 3]);
+  expect(newCalls(before, { ...after, seen: 3 })).toEqual([]);
+  expect(newCalls(before, { ...before, resolved: { by: "Bo", at: "2026" } })).toEqual([]);
 });

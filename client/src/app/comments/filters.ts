@@ -31,6 +31,12 @@ export function callsForMe(thread: Thread): boolean {
   return unreadIn(thread).some(isForMe);
 }
 
+/** What is for whoever looks in a thread that has changed, and was not there before. */
+export function newCalls(before: Thread | undefined, after: Thread): Comment[] {
+  const known = new Set(before?.comments.map(({ comment }) => comment));
+  return unreadIn(after).filter((comment) => isForMe(comment) && !known.has(comment.comment));
+}
+
 /** Whether a list shows a thread. */
 export function isWanted(thread: Thread, pin: Pin | undefined, { filter, person }: Wanted): boolean {
   if (person !== null && !thread.comments.some(({ author }) => author === person)) {

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { countHere } from "./count-here";
-import { changesOf, companions, isFollowed } from "./people";
+import { changesOf, companions, followersOf, isFollowed, isReplaying } from "./people";
 import type { PeopleHere } from "./together";
 
 const HERE: PeopleHere = {
@@ -40,6 +40,21 @@ describe("people", () => {
 
   it("PS4: a page knows that it is followed", () => {
     expect([isFollowed(HERE), isFollowed({ ...HERE, you: 2 }), isFollowed(null)]).toEqual([true, false, false]);
+  });
+
+  it("PS4: and by whom, but for its own other devices' follow of somebody else", () => {
+    expect(followersOf(HERE).map(({ person }) => person)).toEqual([2]);
+    expect(followersOf({ ...HERE, you: 4 })).toEqual([]);
+  });
+
+  it("PS3: a device plays the design as long as it answers", () => {
+    const device = { device: 2, tool: "replay" };
+    expect((["here", "away", "gone"] as const).map((state) => isReplaying({ ...device, state }))).toEqual([
+      true,
+      true,
+      false,
+    ]);
+    expect(isReplaying({ device: 2, tool: "brush", state: "here" })).toBe(false);
   });
 
   it("has come or left who has no device or the first one", () => {

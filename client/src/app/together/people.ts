@@ -42,6 +42,12 @@ export function isFollowed(here: PeopleHere | null): boolean {
   return companions(here).some(({ device }) => device.follows === here?.you);
 }
 
+/** Who else sees what this page shows, by their devices. */
+export function followersOf(here: PeopleHere): Person[] {
+  const { you, people } = here;
+  return people.filter(({ devices }) => devices.some(({ device, follows }) => device !== you && follows === you));
+}
+
 /** Who has come and who has left, by their numbers. */
 export function changesOf(before: PeopleHere, after: PeopleHere): { came: Person[]; left: Person[] } {
   const numbers = ({ people }: PeopleHere) => new Set(people.map(({ person }) => person));

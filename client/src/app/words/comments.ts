@@ -32,6 +32,8 @@ export const COMMENTS = {
   ],
   "comments.new.in": ["New: {count}", "Neu: {count}"],
   "comments.new.me": ["For you", "An dich"],
+  "comments.calls": ["{name} has said something to you", "{name} hat dir etwas gesagt"],
+  "comments.read": ["Read", "Lesen"],
   "comments.mention": ["Whom it is for", "Für wen es ist"],
   "comments.resolve": ["Resolve", "Erledigt"],
   "comments.reopen": ["Reopen", "Wieder öffnen"],

@@ -47,6 +47,7 @@ export const TOGETHER = {
   "together.more": ["And {count} more devices", "Und {count} weitere Geräte"],
   "together.follow": ["Follow", "Folgen"],
   "together.following": ["Following {name}", "Du folgst {name}"],
+  "together.followed": ["{name} follows your view", "{name} folgt deiner Ansicht"],
   "together.stop": ["Stop", "Beenden"],
   "together.gather": ["Bring everyone here", "Alle hierher holen"],
   "together.gather.advice": [

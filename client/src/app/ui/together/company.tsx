@@ -1,6 +1,6 @@
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
-import { changesOf, companions, nameOf } from "../../together/people";
+import { changesOf, companions, followersOf, nameOf } from "../../together/people";
 import { Room } from "../../together/room";
 import type { PeopleHere } from "../../together/together";
 import { say } from "../../words/say";
@@ -30,7 +30,7 @@ export function Company({ studio }: { studio: Studio }) {
   );
 }
 
-/** Notes who comes and who leaves; a short break is none. */
+/** Notes who comes, who leaves, and who begins to follow this page; a short break is none. */
 function tellOfChanges({ together, toasts }: Studio): () => void {
   let before: PeopleHere | null = null;
   const leaving = new Map<number, ReturnType<typeof setTimeout>>();
@@ -45,7 +45,13 @@ function tellOfChanges({ together, toasts }: Studio): () => void {
       return;
     }
     const { came, left } = before === null ? { came: [], left: [] } : changesOf(before, here);
+    const followed = new Set(before === null ? [] : followersOf(before).map(({ person }) => person));
     before = here;
+    for (const person of followersOf(here)) {
+      if (!followed.has(person.person)) {
+        toasts.show(say("together.followed", { name: nameOf(person) }));
+      }
+    }
     for (const person of came) {
       if (!back(person.person)) {
         toasts.show(say("together.came", { name: nameOf(person) }));
