@@ -112,6 +112,38 @@ function stands(all: ReadonlySet<string>, some: ReadonlySet<string>): string {
   return count === some.size ? "all of it" : count === 0 ? "none of it" : `${count} of ${some.size}`;
 }
 
+/** A finger that rests on what both drew at once reads whose it is, and goes nowhere in time. */
+async function namesByTouch(ann: Tablet, name: string): Promise<void> {
+  const { page } = ann;
+  const fold = page.getByRole("button", { name: "Show the timeline" });
+  if ((await fold.count()) > 0) await ann.press(fold);
+  const { present, sent, operations } = await ann.facts();
+  const signs = page.locator(".timeline .timeline-sign");
+  const kinds = operations.split(" ");
+  await until("each operation has a sign of its own", async () => (await signs.count()) === kinds.length);
+  await ann.touch("touchStart", [middle(await ann.boxOf(signs.nth(kinds.lastIndexOf("stroke"))))]);
+  const bubble = page.locator(".timeline-bubble");
+  await bubble.locator("em", { hasText: "Bo" }).waitFor();
+  const names = () =>
+    bubble.locator("em").evaluateAll((all) => all.map(({ textContent, dataset }) => [textContent, dataset.away]));
+  expect((await names()).sort()).toEqual([
+    ["Ann", "true"],
+    ["Bo", "false"],
+  ]);
+  await ann.showNow(`79-names-by-touch-${name}`);
+  const box = (await bubble.boundingBox())!;
+  const { width } = page.viewportSize()!;
+  expect([box.x >= 0, box.x + box.width <= width], "all of it is on the glass").toEqual([true, true]);
+  // By now a button would have said its name.
+  await page.waitForTimeout(600);
+  expect(await page.locator(".button-label:popover-open").count(), "nothing else is said there").toBe(0);
+  await ann.touch("touchEnd", []);
+  expect((await names()).length, "it stays to be read").toBe(2);
+  await bubble.waitFor({ state: "detached" });
+  const after = await ann.facts();
+  expect([after.present, after.sent], "nobody travels").toEqual([present, sent]);
+}
+
 /** Says something of the trunk, for Bo. */
 async function askBo(ann: Tablet): Promise<void> {
   await press(ann, "Comments");
@@ -192,10 +224,18 @@ test("UD4: two draw at the same time, and each takes back their own", async () =
     [ann, way(at(0, 300), at(170, 380))],
     [bo, way(at(0, 200), at(-170, 280))],
   ];
-  for (const [page, limb] of limbs) await page.touch("touchStart", [limb[0]!]);
-  for (let i = 1; i < limbs[0]![1].length; i++) {
+  const move = async (i: number) => {
     for (const [page, limb] of limbs) await page.touch("touchMove", [limb[i]!]);
-  }
+  };
+  const leaving = 4;
+  // Fingers that the machine keeps waiting where they came down would not draw but hold what is there.
+  await ann.inNoTime(() =>
+    bo.inNoTime(async () => {
+      for (const [page, limb] of limbs) await page.touch("touchStart", [limb[0]!]);
+      for (let i = 1; i <= leaving; i++) await move(i);
+    }),
+  );
+  for (let i = leaving + 1; i < limbs[0]![1].length; i++) await move(i);
   for (const [page] of limbs) await page.touch("touchEnd", []);
   await ann.until("both limbs have grown", ({ metamers }) => metamers >= before.size + 16);
   for (const page of [ann, bo]) await page.untilQuiet();
@@ -217,6 +257,11 @@ test("UD4: two draw at the same time, and each takes back their own", async () =
   expect(his.size).toBeGreaterThan(3);
   expect(Math.sign(side(hers)), "each one's is where they drew").toBe(-Math.sign(side(his)));
   expect(without(before, left).size, "nothing else has gone").toBe(0);
+  for (const [name, { width, height }] of Object.entries({ across: LANDSCAPE, upright: UPRIGHT, phone: PHONE })) {
+    await ann.page.setViewportSize({ width, height });
+    await namesByTouch(ann, name);
+  }
+  await ann.page.setViewportSize({ width: LANDSCAPE.width, height: LANDSCAPE.height });
   expect(without(await undo(bo), before).size, "all that was drawn has gone").toBe(0);
 });
 

@@ -2,8 +2,8 @@
 const HOLD = 500;
 /** A finger that has gone so far, in pixels, does something else. */
 const WANDERS = 10;
-/** What is pressed or pulled at. */
-const CONTROLS = 'button, [role="slider"]';
+/** What is pressed or pulled at, but for what says itself what a finger rests on. */
+const CONTROLS = 'button, [role="slider"]:not([data-says-what])';
 
 /** A control that shows no name of its own. */
 export interface NamedControl {

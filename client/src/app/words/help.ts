@@ -82,7 +82,10 @@ export const HELP = {
     "Durch Wachstum und Eingriffe reisen, vor und zurück",
   ],
   "help.topic.sign": ["Tap a sign on it", "Ein Zeichen darauf antippen"],
-  "help.topic.sign.text": ["Go to where that was done", "Dorthin gehen, wo das geschah"],
+  "help.topic.sign.text": [
+    "Go to where that was done; rest a finger on it to read what it was and by whom",
+    "Dorthin gehen, wo das geschah; den Finger darauf ruhen lassen, um zu lesen, was es war und von wem",
+  ],
   "help.topic.fork": ["A fork above it", "Eine Gabel darüber"],
   "help.topic.fork.text": [
     "Other futures: what was ahead when someone went back",

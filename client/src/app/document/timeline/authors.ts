@@ -20,6 +20,16 @@ export function partsOf({ author, away, parts }: TimelineOperation): readonly Ti
   return parts?.length ? parts : [{ author, away: away ?? false }];
 }
 
+/** Who did an operation, each once; away if all of theirs is. */
+export function distinctParts(operation: TimelineOperation): TimelinePart[] {
+  const all = partsOf(operation);
+  const authors = [...new Set(all.map(({ author }) => author))];
+  return authors.map((author) => ({
+    author,
+    away: all.every((part) => part.author !== author || part.away === true),
+  }));
+}
+
 /** What an author is called: by name if they are here and have one, or if a replay knows it, else by number. */
 export function authorName(author: number, { people, authors }: Pick<Together, "people" | "authors">): string {
   const known = [...(people.value?.people ?? []), ...authors.value];

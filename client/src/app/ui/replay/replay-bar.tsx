@@ -1,5 +1,5 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { authorColour, authorName } from "../../document/timeline/authors";
+import { authorColour, authorName, distinctParts } from "../../document/timeline/authors";
 import { peopleOf } from "../../document/timeline/timeline-signs";
 import { ReplayPlayer } from "../../replay/player";
 import type { Studio } from "../../studio";
@@ -99,12 +99,16 @@ function Caption({ studio }: { studio: Studio }) {
     return <p class="replay-caption">{say("replay.beginning")}</p>;
   }
   const sort = sortOf(done.kind);
-  const colour = authorColour(done.author, peopleOf(timeline));
+  const people = peopleOf(timeline);
   return (
-    <p class="replay-caption" style={{ "--author": colour }}>
+    <p class="replay-caption" style={{ "--author": authorColour(done.author, people) }}>
       <sort.Icon />
       {say(sort.name)}
-      <em>{authorName(done.author, studio.together)}</em>
+      {distinctParts(done).map(({ author }) => (
+        <em key={author} style={{ "--author": authorColour(author, people) }}>
+          {authorName(author, studio.together)}
+        </em>
+      ))}
     </p>
   );
 }

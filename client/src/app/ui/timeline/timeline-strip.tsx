@@ -1,6 +1,6 @@
-import { useEffect, useRef, useState } from "preact/hooks";
-import type { Timeline, TimelineOperation, TimelinePart } from "../../../wire/generated";
-import { authorColour, authorName, partsOf } from "../../document/timeline/authors";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import type { Timeline, TimelineOperation } from "../../../wire/generated";
+import { authorColour, authorName, distinctParts, partsOf } from "../../document/timeline/authors";
 import { clusters, peopleOf } from "../../document/timeline/timeline-signs";
 import type { Studio } from "../../studio";
 import type { Together } from "../../together/together";
@@ -120,6 +120,7 @@ export function Track({ studio, timeline }: { studio: Studio; timeline: Timeline
         aria-valuenow={step}
         aria-valuetext={speech(timeline, step, studio.together)}
         data-pulled={scrubbing.place !== null}
+        data-says-what
         {...scrubbing.handlers}
       >
         <span class="timeline-rail">
@@ -207,8 +208,10 @@ function Bubble({ studio, timeline, operation, place, step }: BubbleProps) {
   const done = operation === null ? undefined : timeline.operations[operation];
   const people = peopleOf(timeline);
   const sort = done && sortOf(done.kind);
+  const bubble = useRef<HTMLDivElement>(null);
+  useLayoutEffect(() => keepOver(bubble.current, place));
   return (
-    <div class="timeline-bubble" style={{ "--place": place }} aria-hidden="true">
+    <div class="timeline-bubble" ref={bubble} aria-hidden="true">
       {done && sort && (
         <span class="timeline-what">
           <sort.Icon />
@@ -228,6 +231,21 @@ function Bubble({ studio, timeline, operation, place, step }: BubbleProps) {
       </span>
     </div>
   );
+}
+
+/** What is left between a bubble and the edge of the workspace, in pixels. */
+const EDGE = 8;
+
+/** Puts a bubble over its place on the strip, as far as the workspace reaches. */
+function keepOver(bubble: HTMLElement | null, place: number): void {
+  const [track, workspace] = [bubble?.parentElement, bubble?.closest(".workspace")];
+  if (!bubble || !track || !workspace) {
+    return;
+  }
+  const [strip, all] = [track.getBoundingClientRect(), workspace.getBoundingClientRect()];
+  const over = strip.left + place * strip.width - bubble.offsetWidth / 2;
+  const left = Math.max(all.left + EDGE, Math.min(over, all.right - EDGE - bubble.offsetWidth));
+  bubble.style.left = `${left - strip.left}px`;
 }
 
 function useWidth(element: { readonly current: HTMLElement | null }): number {
@@ -254,16 +272,6 @@ function speech(timeline: Timeline, step: number, together: Together): string {
   return peopleOf(timeline) > 1
     ? say("timeline.step-of.who", { ...where, what, who: namesOf(operation, together) })
     : say("timeline.step-of.what", { ...where, what });
-}
-
-/** Who did an operation, each once; away if all of theirs is. */
-function distinctParts(operation: TimelineOperation): TimelinePart[] {
-  const all = partsOf(operation);
-  const authors = [...new Set(all.map(({ author }) => author))];
-  return authors.map((author) => ({
-    author,
-    away: all.every((part) => part.author !== author || part.away === true),
-  }));
 }
 
 function namesOf(operation: TimelineOperation, together: Together): string {
