@@ -173,6 +173,7 @@ async function answer(bo: Tablet): Promise<void> {
   await bo.press(bo.page.locator('.comment-pin[data-thread="1"] button'));
   await bo.page.locator('.mention[data-me="true"]').waitFor();
   await until("it is read", async () => (await bo.page.locator(".unread").count()) === 0);
+  expect(await bo.page.locator(".toast", { hasText: "Ann has said" }).count(), "he is told no more").toBe(0);
   await bo.press(bo.page.getByRole("button", { name: "Answer" }));
   await bo.page.getByLabel("What you want to say").fill("I will draw one.");
   await bo.press(bo.page.getByRole("button", { name: "Send" }));

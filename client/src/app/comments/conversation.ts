@@ -11,7 +11,7 @@ import { pointerAt } from "../together/own-pointer";
 import { onWood } from "../together/wood-place";
 import { say } from "../words/say";
 import * as api from "./comment-api";
-import { callsForMe, newCalls, unreadIn } from "./filters";
+import { callsForMe, isForMe, newCalls, unreadIn } from "./filters";
 import { type Line, picture } from "./view-picture";
 
 /** A comment that is being written. */
@@ -118,6 +118,9 @@ export class Conversation {
   see(thread: Thread): void {
     const [tree, newest] = [this.tree.peek(), thread.comments.at(-1)?.comment ?? 0];
     if (tree !== null && newest > thread.seen) {
+      for (const { author } of unreadIn(thread).filter(isForMe)) {
+        this.#studio.toasts.withdraw(calls(author));
+      }
       this.#take({ ...thread, seen: newest });
       void this.#try(() => api.seeThread(tree, thread.thread, newest));
     }
@@ -282,7 +285,7 @@ export class Conversation {
     const isRead = layout.panel.peek() === "comments" && comments.open.peek() === thread.thread;
     const call = newCalls(before, thread).at(-1);
     if (call && !isRead) {
-      toasts.show(say("comments.calls", { name: call.author }), {
+      toasts.show(calls(call.author), {
         label: say("comments.read"),
         act: () => this.show(this.threads.peek()?.get(thread.thread) ?? thread),
       });
@@ -316,4 +319,9 @@ export class Conversation {
     }
     toasts.show(await explained(error));
   }
+}
+
+/** What whoever somebody has named is told. */
+function calls(name: string): string {
+  return say("comments.calls", { name });
 }

@@ -24,3 +24,11 @@ it("the same note twice is one, and the newest three are shown", () => {
   for (const text of ["a", "b", "a", "c", "d"]) toasts.show(text);
   expect(texts(toasts)).toEqual(["a", "c", "d"]);
 });
+
+it("a note goes as soon as what it says is known, and no other", () => {
+  const toasts = new Toasts();
+  toasts.show("Ann has said something", { label: "Read", act: () => {} });
+  toasts.show("told");
+  toasts.withdraw("Ann has said something");
+  expect(texts(toasts)).toEqual(["told"]);
+});

@@ -30,6 +30,11 @@ export class Toasts {
     setTimeout(() => this.dismiss(id), action === undefined ? SHOWN_FOR : OFFERED_FOR);
   }
 
+  /** What a note says is known by now. */
+  withdraw(text: string): void {
+    this.list.value = this.list.value.filter((toast) => toast.text !== text);
+  }
+
   dismiss(id: number): void {
     this.list.value = this.list.value.filter((toast) => toast.id !== id);
   }
