@@ -73,6 +73,14 @@ async function amongPeople(tablet: Tablet, button: string): Promise<void> {
   await tablet.page.getByRole("dialog").waitFor({ state: "detached" });
 }
 
+/** Takes back what this page's person drew last; the page says so. */
+async function undone(tablet: Tablet): Promise<void> {
+  const said = await tablet.watchFor(".toast", "Undone: Stroke");
+  await tablet.tap("Undo");
+  await said();
+  await tablet.untilQuiet();
+}
+
 /** Where the pin of the first thread is on a page, once it rests there. */
 async function pinOn(tablet: Tablet): Promise<void> {
   await tablet.page.locator('.comment-pin[data-shown="true"][data-thread="1"]').waitFor({ state: "attached" });
@@ -242,9 +250,7 @@ test("UD4: two draw at the same time, and each takes back their own", async () =
   for (const page of [ann, bo]) await page.untilQuiet();
   const drawn = without(await wood(ann), before);
   const undo = async (page: Tablet) => {
-    await page.tap("Undo");
-    await page.page.locator(".toast", { hasText: "Undone: Stroke" }).waitFor();
-    await page.untilQuiet();
+    await undone(page);
     return wood(ann);
   };
   await ann.show("77-drawn-at-once");
@@ -330,8 +336,9 @@ test.each(KEEPING ? WALKS : WALKS.slice(0, 1))(
 
     // She brings him to what she sees.
     const view = await turn(ann, -TURN);
+    const brought = await bo.watchFor(".toast", "Ann has brought you here");
     await amongPeople(ann, "Bring everyone here");
-    await bo.page.locator(".toast", { hasText: "Ann has brought you here" }).waitFor();
+    await brought();
     await until("he is there", async () => Math.abs(view - (await turned(bo))) <= 1);
     await bo.untilStill();
     await picture("5-gather");
@@ -341,9 +348,7 @@ test.each(KEEPING ? WALKS : WALKS.slice(0, 1))(
     const bosLimb = await limb(bo, 0.36, -0.14);
     const another = await limb(bo, 0.5, 0.12);
     await ann.untilQuiet();
-    await ann.tap("Undo");
-    await ann.page.locator(".toast", { hasText: "Undone: " }).waitFor();
-    await ann.untilQuiet();
+    await undone(ann);
     await bo.untilQuiet();
     const afterHers = await wood(ann);
     expect([annsLimb, bosLimb, another].map((one) => stands(afterHers, one))).toEqual([
@@ -353,9 +358,7 @@ test.each(KEEPING ? WALKS : WALKS.slice(0, 1))(
     ]);
     for (const page of [ann, bo]) await page.untilStill();
     await picture("6-undo");
-    await bo.tap("Undo");
-    await bo.page.locator(".toast", { hasText: "Undone: " }).waitFor();
-    await bo.untilQuiet();
+    await undone(bo);
     const afterHis = await wood(bo);
     expect([bosLimb, another].map((one) => stands(afterHis, one))).toEqual(["all of it", "none of it"]);
     expect(without(before, afterHis).size, "what was there before stays").toBe(0);
