@@ -261,8 +261,8 @@ pub const FORMATS: &[FormatRow] = &[
         [
             ["Point cloud (PLY)", "Punktwolke (PLY)"],
             [
-                "A million points of wood and leaves, each with what it lies on.",
-                "Eine Million Punkte auf Holz und Blättern, jeder mit dem, worauf er liegt.",
+                "Points of wood and leaves, each with what it lies on.",
+                "Punkte auf Holz und Blättern, jeder mit dem, worauf er liegt.",
             ],
         ],
         &[option::POINTS],
@@ -361,7 +361,8 @@ impl FormatRow {
             (Some(wanted), Some((size, _))) => pixels(wanted) / pixels((size, 1)),
             _ => 1.0,
         };
-        let least = least * drawn + BONE * f64::from(bones);
+        let points = f64::from(options.points()) / f64::from(ExportOptions::default().points());
+        let least = least * drawn * points + BONE * f64::from(bones);
         let leaves = 0.5 * f64::from(leaves) * leaf * foliage;
         (least + level * f64::from(metamers) * (metamer * wood + leaves)) as u64
     }

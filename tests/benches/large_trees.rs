@@ -110,9 +110,10 @@ async fn open(server: &Server, tree: &str) {
 
 /// Has its turntable drawn.
 fn turn(server: &Server, tree: &str) {
-    let begun = Instant::now();
-    let bytes = download(server.port(), &format!("/api/v1/trees/{tree}/versions/1/turntable"));
-    println!("  its turntable: {:.2} s, {} kB", begun.elapsed().as_secs_f64(), bytes / 1000);
+    // Of a large tree it takes longer than answers are waited for in tests.
+    let (first, _) = silence(server.port(), &format!("/api/v1/trees/{tree}/versions/1/turntable"))
+        .expect("the server answers");
+    println!("  its turntable: {:.2} s", first.as_secs_f64());
 }
 
 /// From asking for a socket to the first word on it.

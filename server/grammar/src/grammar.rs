@@ -32,7 +32,7 @@ pub struct Grammar {
     pub(crate) ignored: Vec<Symbol>,
     /// The only symbols that contexts see, where the file says so.
     pub(crate) considered: Option<Vec<Symbol>>,
-    pub(crate) timing: Vec<(Symbol, Expr)>,
+    pub(crate) timing: Vec<(Symbol, Expr, Span)>,
 }
 
 /// What a file says once.

@@ -418,7 +418,7 @@ impl Parser<'_> {
                 self.report.error(span, wording::LIFESPAN_TWICE, [("name", &self.symbols.name(symbol))]);
                 return Err(Lost);
             }
-            self.timing.push((symbol, lifespan));
+            self.timing.push((symbol, lifespan, span));
             self.skip_blanks();
             let _separated = self.eat(',');
             self.skip_blanks();

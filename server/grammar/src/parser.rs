@@ -65,7 +65,7 @@ pub(crate) struct Parser<'a> {
     pub depths: [Option<u8>; 3],
     pub ignored: Vec<Symbol>,
     pub considered: Option<Vec<Symbol>>,
-    pub timing: Vec<(Symbol, crate::expression::Expr)>,
+    pub timing: Vec<(Symbol, crate::expression::Expr, Span)>,
     /// Names of rows of [`Heading`] that have been read.
     pub seen: Vec<Header>,
     /// The file has said that it is over.

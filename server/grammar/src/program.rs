@@ -313,11 +313,11 @@ impl Program {
         let seed = within(seed, is_seed, wording::SEED_RANGE)?;
         let compiling = Compiling { grammar, values: &values };
         let mut lifespans = Vec::new();
-        for (symbol, expr) in &grammar.timing {
+        for (symbol, expr, span) in &grammar.timing {
             let name = grammar.symbols.name(*symbol);
-            let value = constant(expr, &values, curves, name, Span::default())?;
+            let value = constant(expr, &values, curves, name, *span)?;
             if !(0.001..=1e6).contains(&value) {
-                return Err((Span::default(), impossible(wording::LIFESPAN_RANGE, name, value)));
+                return Err((*span, impossible(wording::LIFESPAN_RANGE, name, value)));
             }
             lifespans.resize(grammar.symbols.len(), None);
             lifespans[*symbol as usize] = Some(value);

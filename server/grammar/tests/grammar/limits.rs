@@ -105,6 +105,9 @@ fn numbers_of_headers_are_in_their_ranges() {
         refused(&format!("{line}\naxiom: A\nA --> F"), id);
     }
     read("derivation length: 1000\naxiom: A\nA --> F");
+    let checked = Grammar::check("axiom: A\nA --> F\ntiming: A 1, B 0\nB --> F");
+    let place = checked.diagnostics.first().map(|one| (one.id, one.line, one.column, one.length));
+    assert_eq!(place, Some(("out-of-range.lifespan", 3, 14, 1)));
 }
 
 #[test]
