@@ -31,7 +31,7 @@ enum ClientEvent {
     DiskTakes(u64),
 }
 
-fn command() -> impl Strategy<Value = Value> {
+pub fn command() -> impl Strategy<Value = Value> {
     let sample = (-5.0f32..5.0, 0.0f32..12.0, -5.0f32..5.0, 0.0f32..4.0)
         .prop_map(|(x, y, z, radius)| json!({ "position": [x, y, z], "radius": radius }));
     prop_oneof![

@@ -11,6 +11,7 @@ mod cutting;
 mod deeds;
 mod designing;
 mod durability;
+mod faults;
 mod filling;
 mod finishing;
 mod flow;
