@@ -120,3 +120,17 @@ fn before(printed: &str, words: &str) -> u32 {
     let number = head.rsplit(' ').next().and_then(|number| number.parse().ok());
     number.unwrap_or_else(|| panic!("no number before{words}: {printed}"))
 }
+
+#[test]
+fn the_server_keeps_to_rfc_6455_case_by_case() {
+    let scratch = Scratch::new();
+    let server = Server::start(&scratch.path("trees.db"));
+    let address = format!("http://127.0.0.1:{}", server.port());
+    let script = folder("tests/conformance/websocket.py");
+    let table = run(Command::new("python3").arg("-B").arg(script).arg(address));
+    let kept: Vec<(&str, &str)> = table.lines().skip(2).filter_map(|row| row.rsplit_once(" | ")).collect();
+    assert_eq!(kept.len(), 9, "{table}");
+    for (row, good) in kept {
+        assert!(row.ends_with(good.trim_end_matches(" |")), "{table}");
+    }
+}
