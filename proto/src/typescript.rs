@@ -79,6 +79,7 @@ pub fn declarations() -> String {
         ("VersionMismatch", version::CloseCode::VersionMismatch),
         ("HelloExpected", version::CloseCode::HelloExpected),
         ("TooSlow", version::CloseCode::TooSlow),
+        ("Silent", version::CloseCode::Silent),
         ("UnknownSession", version::CloseCode::UnknownSession),
         ("Replaced", version::CloseCode::Replaced),
         ("Removed", version::CloseCode::Removed),

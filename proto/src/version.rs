@@ -132,6 +132,8 @@ pub enum CloseCode {
     /// The session cannot be opened by this server, however often one asks: it needs a newer program, or is damaged;
     /// or this client may not join it.
     CannotOpen = 4007,
+    /// There was no sign of the other side for too long, not even an answer to a ping; reconnect with backoff.
+    Silent = 4008,
 }
 
 impl From<CloseCode> for u16 {

@@ -70,6 +70,7 @@ export const CloseCode = {
   VersionMismatch: 4000,
   HelloExpected: 4001,
   TooSlow: 4002,
+  Silent: 4008,
   UnknownSession: 4003,
   Replaced: 4004,
   Removed: 4005,

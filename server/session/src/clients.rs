@@ -23,6 +23,8 @@ pub(crate) struct Client {
     pub(crate) access: Access,
     /// Control messages sent and not yet written to the socket (`FL3`).
     pub(crate) unread: usize,
+    /// Whether it has so many of them that it gets the newest figures once it has read some (`FL4`).
+    pub(crate) lacks_state: bool,
     /// Of those, how many are to be written until it has had the notices; none if it is sent none.
     pub(crate) notified_after: Option<usize>,
     /// Who it is; nobody before its hello.

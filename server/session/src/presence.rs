@@ -1,6 +1,9 @@
 //! What is known of who is here and what they do (`PS`): of everything the newest alone.
 
-use std::{collections::BTreeMap, sync::Arc};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    sync::Arc,
+};
 
 use espalier_proto::{
     BrushRadius, Camera, DeviceNews, Pointer, PointerNews, PointerPlace, Position, PresenceFrame,
@@ -189,6 +192,9 @@ impl FramesOfTick {
     }
 }
 
+/// The numbers of devices and of people that are in use.
+pub(crate) type Here = (BTreeSet<u32>, BTreeSet<u32>);
+
 /// Numbers of people and devices, and what people are called, while the session is in memory. A replay takes a copy, so
 /// that everybody has the number and with it the colour that they have in the session (`RP3`).
 #[derive(Clone, Debug, Default)]
@@ -207,20 +213,20 @@ pub struct Register {
 }
 
 impl Register {
-    /// The numbers of a device and of whoever is at it; `here` says which numbers are in use.
+    /// The numbers of a device and of whoever is at it, where these are in use.
     pub(crate) fn enter(
         &mut self,
         principal: &Principal,
         person: &Arc<str>,
-        here: &[(u32, u32)],
+        (devices, people): &Here,
     ) -> (u32, u32) {
-        let device = self.devices.of(principal, |number| here.iter().any(|&(device, _)| device == number));
+        let device = self.devices.of(principal, |number| devices.contains(&number));
         self.people.rename(&author_alone(principal), person);
-        let person = self.people.of(person, |number| here.iter().any(|&(_, person)| person == number));
-        let known = &self.people.numbers;
-        self.names.retain(|number, _| known.values().any(|known| known == number));
-        self.given.retain(|number, _| known.values().any(|known| known == number));
-        self.remembered.retain(|number, _| known.values().any(|known| known == number));
+        let person = self.people.of(person, |number| people.contains(&number));
+        let known: BTreeSet<u32> = self.people.numbers.values().copied().collect();
+        self.names.retain(|number, _| known.contains(number));
+        self.given.retain(|number, _| known.contains(number));
+        self.remembered.retain(|number, _| known.contains(number));
         self.person_at.insert(principal.clone(), person);
         self.person_at.retain(|device, _| self.devices.numbers.contains_key(device));
         (device, person)

@@ -40,7 +40,7 @@ use crate::{
     principal::Principal,
     snapshot::{self, RestoreError},
     to_proto::Held,
-    window::MAX_UNREAD,
+    window::{MAX_UNREAD, MAX_UNREAD_STATES},
     work::{BendUpdate, Work},
 };
 
@@ -253,14 +253,25 @@ impl Session {
             return;
         }
         self.start_clocks();
+        // Of signs by which nothing becomes due there are more than of all else, and the rest of what an input causes costs as
+        // much as there are people.
+        let is_due = self.upkeep.is_due(self.now);
         match input {
             Input::Connected(client, entrant) => self.connect(client, entrant),
             Input::Granted(client, role) => self.grant(client, role),
-            Input::Heard(client) => self.hear(client),
+            Input::Heard(client) => {
+                if !self.hear(client) && !is_due {
+                    return;
+                }
+            }
             Input::Text(client, text) => self.read(client, &text),
             Input::Binary(client) => self.read_binary(client),
             Input::Disconnected(client) => self.forget(client),
-            Input::Written(client, count) => self.written(client, count),
+            Input::Written(client, count) => {
+                if !self.written(client, count) && !is_due {
+                    return;
+                }
+            }
             Input::Journaled(through) => self.journaled(through),
             Input::JournalFailed(reason) => self.fail(&reason),
             Input::Worked(work) => self.worked(work),
@@ -403,15 +414,17 @@ impl Session {
         }
     }
 
-    /// So many control messages more have gone out to a client.
-    fn written(&mut self, client: ClientId, count: usize) {
-        let Some(client) = self.clients.get_mut(&client) else { return };
+    /// So many control messages more have gone out to a client. Whether something is to be done now.
+    fn written(&mut self, client: ClientId, count: usize) -> bool {
+        let Some(client) = self.clients.get_mut(&client) else { return false };
         client.unread = client.unread.saturating_sub(count);
-        let Some(left) = client.notified_after else { return };
-        client.notified_after = left.checked_sub(count).filter(|&left| left > 0);
-        if client.notified_after.is_none() {
-            self.outputs.push_back(Output::Notified);
+        if let Some(left) = client.notified_after {
+            client.notified_after = left.checked_sub(count).filter(|&left| left > 0);
+            if client.notified_after.is_none() {
+                self.outputs.push_back(Output::Notified);
+            }
         }
+        client.lacks_state && client.unread < MAX_UNREAD_STATES
     }
 
     fn read_binary(&mut self, client: ClientId) {

@@ -6,6 +6,8 @@ use std::collections::VecDeque;
 pub(crate) const WINDOW_BYTES: usize = 256 * 1024;
 /// A client with this many unread control messages is closed (`FL3`).
 pub(crate) const MAX_UNREAD: usize = 1024;
+/// One with this many is sent no figures until it has read some, and then the newest (`FL4`).
+pub(crate) const MAX_UNREAD_STATES: usize = 32;
 
 /// Frames sent and not yet answered with `received`.
 #[derive(Debug, Default)]

@@ -25,7 +25,8 @@ impl Session {
     pub(super) fn connect(&mut self, client: ClientId, entrant: Entrant) {
         self.forget(client);
         let access = if self.is_replay { Access::Travel } else { entrant.access() };
-        let state = Client { entrant, access, unread: 0, notified_after: None, connected: None };
+        let state =
+            Client { entrant, access, unread: 0, lacks_state: false, notified_after: None, connected: None };
         self.clients.insert(client, state);
         self.upkeep.hellos.push_back((self.now + HELLO_MS, client));
     }

@@ -13,7 +13,7 @@ use crate::{
     document::Document,
     entrant::Entrant,
     io::{ClientId, Named, Output},
-    presence::{FramesOfTick, Presence, Register, Said},
+    presence::{FramesOfTick, Here, Presence, Register, Said},
     principal::Principal,
     rights::{Access, forbidden},
 };
@@ -53,7 +53,7 @@ pub(super) struct Room {
 impl Session {
     /// Somebody has said hello.
     pub(super) fn enter_room(&mut self, client: ClientId, principal: &Principal) -> Presence {
-        let here: Vec<_> = self.present().map(|presence| (presence.device, presence.person)).collect();
+        let here: Here = self.present().map(|presence| (presence.device, presence.person)).unzip();
         let entrant = self.clients.get(&client).map(|client| client.entrant.clone());
         let Entrant { person, name, .. } = entrant.unwrap_or_else(|| Entrant::new("", Role::Viewer));
         let (device, person) = self.room.register.enter(principal, &person, &here);
@@ -130,13 +130,14 @@ impl Session {
         }
     }
 
-    /// There was a sign of a client.
-    pub(super) fn hear(&mut self, client: ClientId) {
+    /// There was a sign of a client. Whether others are to hear of it.
+    pub(super) fn hear(&mut self, client: ClientId) -> bool {
         let now = self.now;
-        let Some(connected) = self.connected_mut(client) else { return };
+        let Some(connected) = self.connected_mut(client) else { return false };
         connected.presence.heard_at = now;
         let was_gone = std::mem::take(&mut connected.presence.is_gone);
         self.room.people_changed |= was_gone;
+        was_gone
     }
 
     /// The client has drawn the frames up to this one.

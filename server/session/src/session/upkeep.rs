@@ -6,14 +6,18 @@ use espalier_proto::{Action, DocumentState, Pause, ServerMessage, version::Close
 
 use super::{Session, text_of};
 use crate::{
+    clients::Client,
     io::{ClientId, Output},
     principal::Principal,
+    window::MAX_UNREAD_STATES,
 };
 
 /// How long the strokes of a client that went away stay open, in milliseconds (`CM5`).
 const ABSENCE_MS: u64 = 30_000;
 /// Figures go out no more often than this, in milliseconds.
 const STATE_MS: u64 = 50;
+/// Of figures no more than this are sent in all.
+const STATES_PER_MS: u64 = 4;
 /// Lines of time go out no faster than this, and no more often than figures.
 const TIMELINE_BYTES_PER_MS: u64 = 256;
 /// After so many commands a snapshot is made.
@@ -93,6 +97,11 @@ impl Upkeep {
             snapshot: None,
             wake_at: None,
         }
+    }
+
+    /// Whether the time that was asked for last has come.
+    pub(super) fn is_due(&self, now: u64) -> bool {
+        self.wake_at.is_some_and(|at| at <= now)
     }
 
     /// The time asked for has come; the next one must be asked for anew.
@@ -210,10 +219,11 @@ impl Session {
         self.hand_out_snapshot();
         if self.upkeep.state_changed && self.now >= self.upkeep.state_due {
             self.upkeep.state_changed = false;
-            self.upkeep.state_due = self.now + STATE_MS;
+            self.upkeep.state_due = self.now + STATE_MS.max(self.clients.len() as u64 / STATES_PER_MS);
             self.upkeep.sent = self.state();
-            self.broadcast(&ServerMessage::State { state: self.upkeep.sent.clone() });
+            self.clients.values_mut().for_each(|client| client.lacks_state = client.connected.is_some());
         }
+        self.tell_state();
         if self.upkeep.widths_changed && self.now >= self.upkeep.widths_due {
             self.upkeep.widths_changed = false;
             self.upkeep.widths_due = self.now + STATE_MS;
@@ -244,6 +254,23 @@ impl Session {
         self.keep_room();
     }
 
+    /// Sends figures to those who lack them and can read them.
+    fn tell_state(&mut self) {
+        let lacks = |client: &Client| client.lacks_state && client.unread < MAX_UNREAD_STATES;
+        let told: Vec<ClientId> =
+            self.clients.iter().filter(|(_, client)| lacks(client)).map(|(&id, _)| id).collect();
+        if told.is_empty() {
+            return;
+        }
+        let text = text_of(&ServerMessage::State { state: self.upkeep.sent.clone() });
+        for id in told {
+            if let Some(client) = self.clients.get_mut(&id) {
+                client.lacks_state = false;
+            }
+            self.send_text(id, &text);
+        }
+    }
+
     /// Tells those of whose commands nothing is left to do, once they have been told what came of them (`CM11`).
     fn tell_who_is_done(&mut self) {
         let upkeep = &self.upkeep;
@@ -254,7 +281,7 @@ impl Session {
         let done = self.done.min(self.journal.durable());
         let mut notified = Vec::new();
         for (&client, state) in &mut self.clients {
-            let Some(connected) = &mut state.connected else { continue };
+            let Some(connected) = state.connected.as_mut().filter(|_| !state.lacks_state) else { continue };
             let Some(author) = self.authors.get(&connected.principal) else { continue };
             if author.taken > connected.done && author.last_entry <= done {
                 connected.done = author.taken;

@@ -170,6 +170,83 @@ fn fl4_the_state_is_told_at_most_every_50_ms() {
     assert_eq!(state.step, world.document().figures().step, "the last change is told as well");
 }
 
+/// Each comes a little after the other, and says what a page says.
+fn crowd(world: &mut World, size: u64) -> Vec<u64> {
+    let come = |number| {
+        world.pass(5);
+        world.join(&format!("somebody-{number}"))
+    };
+    (0..size).map(come).collect()
+}
+
+fn is_state(text: &ServerMessage) -> bool {
+    matches!(text, ServerMessage::State { .. })
+}
+
+#[test]
+fn fl4_states_are_4000_a_second_at_most_however_many_come() {
+    const MANY: u64 = 500;
+    let mut world = World::new();
+    let people = crowd(&mut world, MANY);
+    let told = |world: &World| {
+        let states =
+            people.iter().map(|id| world.peer(*id).texts.iter().filter(|text| is_state(text)).count());
+        states.sum::<usize>() as u64
+    };
+    // While they come, and while half of them go: each time as many are told of each of them as were here.
+    let seconds = world.now / 1000 + 1;
+    assert!(told(&world) <= seconds * 4000 + MANY, "{} in {seconds} s", told(&world));
+    world.settle();
+    let before = told(&world);
+    let from = world.now;
+    for id in &people[..MANY as usize / 2] {
+        world.handle(Input::Disconnected(espalier_session::ClientId(*id)));
+        world.pass(10);
+    }
+    let seconds = (world.now - from) / 1000 + 1;
+    assert!(told(&world) - before <= seconds * 4000 + MANY, "{} in {seconds} s", told(&world) - before);
+    world.pass(1000);
+    for id in &people[MANY as usize / 2..] {
+        assert_eq!(world.peer(*id).last_state().unwrap().people, MANY as u32 / 2, "the last one is told");
+    }
+}
+
+#[test]
+fn fl4_who_reads_nothing_is_sent_the_newest_state_once_they_read() {
+    let mut world = World::new();
+    let (deaf, other) = (world.join("birch-01"), world.join("maple-01"));
+    world.settle();
+    world.peer_mut(deaf).deaf = true;
+    world.peer_mut(deaf).texts.clear();
+    for id in 1..=1500 {
+        // With something in between that everybody is told of.
+        world.command(other, id, if id % 2 == 1 { grow(1) } else { json!({ "kind": "ungrow", "steps": 1 }) });
+        world.pass(60);
+    }
+    assert_eq!(world.peer(deaf).closed, Some(CloseCode::TooSlow), "lines of time are sent all the same");
+    let states = world.peer(deaf).texts.iter().filter(|text| is_state(text)).count();
+    assert!(states <= 32, "{states} figures wait for somebody who reads nothing");
+
+    let mut world = World::new();
+    let deaf = world.join("birch-01");
+    world.settle();
+    world.peer_mut(deaf).deaf = true;
+    world.peer_mut(deaf).texts.clear();
+    for number in 0..500 {
+        let guest = world.join(&format!("somebody-{number}"));
+        world.pass(60);
+        if number % 2 == 0 {
+            world.leave(guest);
+        }
+    }
+    let states = world.peer(deaf).texts.iter().filter(|text| is_state(text)).count();
+    assert!(states <= 32, "{states} figures wait for somebody who reads nothing");
+    assert_eq!(world.peer(deaf).closed, None, "they are let go for nothing that could be left out");
+    world.peer_mut(deaf).deaf = false;
+    world.pass(1000);
+    assert_eq!(world.peer(deaf).last_state().unwrap().people, 251, "and then they have the newest");
+}
+
 #[test]
 fn fl4_a_ping_is_answered_at_once() {
     let mut world = World::new();
