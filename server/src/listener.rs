@@ -1,6 +1,7 @@
 //! Connections: accepted, served over HTTP/1.1, and ended when the server stops.
 
 mod paced;
+mod unfinished;
 mod unread;
 
 use std::{sync::Arc, time::Duration};
@@ -22,6 +23,7 @@ use tokio_util::{sync::CancellationToken, task::TaskTracker};
 use tower::util::MapRequest;
 
 use self::paced::{PATIENCE, Paced};
+pub use self::unfinished::Unfinished;
 use crate::{access::Peer, places::Places};
 
 /// A client that takes longer to send a request's head is let go: it would hold a connection for nothing.
@@ -127,12 +129,13 @@ impl Listening {
 
     /// Answers requests until the peer or the server has enough.
     async fn converse(&self, stream: TcpStream, peer: Peer) {
-        let service = TowerToHyperService::new(of_peer(self.answers.all.clone(), peer));
+        let unfinished = Unfinished::default();
+        let service = TowerToHyperService::new(of_peer(self.answers.all.clone(), peer, unfinished.clone()));
         let connection = http1::Builder::new()
             .timer(TokioTimer::new())
             .header_read_timeout(HEADER_TIMEOUT)
             .max_buf_size(BUFFER)
-            .serve_connection(TokioIo::new(self.paced(stream)), service)
+            .serve_connection(TokioIo::new(self.paced(stream, unfinished)), service)
             .with_upgrades();
         let mut connection = std::pin::pin!(connection);
         let ended = tokio::select! {
@@ -149,28 +152,33 @@ impl Listening {
 
     /// Answers one request of somebody for whom there is no place.
     async fn tell(&self, stream: TcpStream, peer: Peer) {
-        let service = TowerToHyperService::new(of_peer(self.answers.crowded.clone(), peer));
+        let unfinished = Unfinished::default();
+        let service =
+            TowerToHyperService::new(of_peer(self.answers.crowded.clone(), peer, unfinished.clone()));
         let connection = http1::Builder::new()
             .keep_alive(false)
             .max_buf_size(BUFFER)
-            .serve_connection(TokioIo::new(self.paced(stream)), service);
+            .serve_connection(TokioIo::new(self.paced(stream, unfinished)), service);
         if !matches!(timeout(BRIEF, connection).await, Ok(Ok(()))) {
             tracing::debug!("a connection without a place broke");
         }
     }
 
-    fn paced(&self, stream: TcpStream) -> Paced {
-        Paced::new(stream, self.limits.patience, self.stop.clone(), self.connections.clone())
+    fn paced(&self, stream: TcpStream, unfinished: Unfinished) -> Paced {
+        let lingering = self.connections.clone();
+        Paced::new(stream, self.limits.patience, unfinished, self.stop.clone(), lingering)
     }
 }
 
-/// The router, with who asks.
+/// The router, with who asks and what counts their messages.
 fn of_peer(
     router: Router,
     peer: Peer,
+    unfinished: Unfinished,
 ) -> MapRequest<Router, impl FnMut(Request<Incoming>) -> Request<Incoming> + Clone> {
     MapRequest::new(router, move |mut request: Request<Incoming>| {
         request.extensions_mut().insert(peer);
+        request.extensions_mut().insert(unfinished.clone());
         request
     })
 }

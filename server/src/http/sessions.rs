@@ -33,6 +33,7 @@ use super::{
 use crate::{
     SIMULATION_VERSION,
     access::{self, Action, Caller, Peer, Rate, SecretHash},
+    listener::Unfinished,
     live::{self, Grants, OpenError, SessionHandle},
     memory::{self, Full, Growing, Need, Use},
     name,
@@ -219,9 +220,10 @@ pub(super) async fn socket(
     name: Path<String>,
     caller: Result<Caller, Failure>,
     peer: Option<Extension<Peer>>,
+    unfinished: Option<Extension<Unfinished>>,
     upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
 ) -> Response {
-    upgraded(With::Session, shared, name, caller, peer, upgrade).await
+    upgraded(With::Session, shared, name, caller, peer, unfinished, upgrade).await
 }
 
 pub(super) async fn replay(
@@ -229,9 +231,10 @@ pub(super) async fn replay(
     name: Path<String>,
     caller: Result<Caller, Failure>,
     peer: Option<Extension<Peer>>,
+    unfinished: Option<Extension<Unfinished>>,
     upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
 ) -> Response {
-    upgraded(With::Replay, shared, name, caller, peer, upgrade).await
+    upgraded(With::Replay, shared, name, caller, peer, unfinished, upgrade).await
 }
 
 async fn upgraded(
@@ -240,6 +243,7 @@ async fn upgraded(
     Path(name): Path<String>,
     caller: Result<Caller, Failure>,
     peer: Option<Extension<Peer>>,
+    unfinished: Option<Extension<Unfinished>>,
     upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
 ) -> Response {
     let upgrade = match upgrade {
@@ -258,6 +262,8 @@ async fn upgraded(
         Err(Ok(problem)) => Err(removals::close_of(&problem)),
         Err(Err(failure)) => return failure.into_response(),
     };
+    let unfinished = unfinished.map(|Extension(unfinished)| unfinished).unwrap_or_default();
+    unfinished.count_in(shared.memory.clone());
     let claim = shared.memory.take(Use::Socket, Need::Other, memory::SOCKET);
     let admitted =
         admitted.and_then(|admitted| claim.map(|claim| (admitted, claim)).map_err(|full| no_memory(&full)));
@@ -269,7 +275,9 @@ async fn upgraded(
         .on_upgrade(async move |socket| {
             let connected = async {
                 match admitted {
-                    Ok((admitted, _claim)) => connect(socket, &shared, (with, &name), admitted).await,
+                    Ok((admitted, _claim)) => {
+                        connect((socket, unfinished), &shared, (with, &name), admitted).await
+                    }
                     Err((code, sentence)) => live::turn_away(socket, code, &sentence).await,
                 }
             };
@@ -290,7 +298,12 @@ async fn admit(shared: &Shared, caller: Result<Caller, Failure>, session: &str) 
     Ok(caller)
 }
 
-async fn connect(mut socket: WebSocket, shared: &Shared, (with, name): (With, &str), caller: Caller) {
+async fn connect(
+    (mut socket, unfinished): (WebSocket, Unfinished),
+    shared: &Shared,
+    (with, name): (With, &str),
+    caller: Caller,
+) {
     let opened = live::open(&mut socket, &shared.sessions, name).await;
     let opened = match (with, opened) {
         (With::Replay, Ok(Some(session))) => replays::copied(shared, name, &session).await.map(Some),
@@ -303,8 +316,8 @@ async fn connect(mut socket: WebSocket, shared: &Shared, (with, name): (With, &s
                 tracing::warn!(%error, session = name, "that somebody was in the session is not kept");
             }
             let entrant = caller.entrant();
-            return live::serve(socket, session, entrant, |grants| let_out(shared, name, caller, grants))
-                .await;
+            let let_out = |grants| let_out(shared, name, caller, grants);
+            return live::serve(socket, unfinished, session, entrant, let_out).await;
         }
         Ok(None) => (CloseCode::UnknownSession, "There is no such session."),
         Err(OpenError::Memory(full)) => {

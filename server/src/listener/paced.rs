@@ -20,7 +20,7 @@ use tokio::{
 };
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
 
-use super::unread;
+use super::{unfinished::Unfinished, unread};
 
 /// A peer that takes no byte for so long is let go. One that reads slowly takes some now and then: systems tell of room
 /// by up to 128 KiB at a time where both ends are on one machine.
@@ -46,6 +46,7 @@ pub struct Paced {
     /// What is written instead of what was to be written, and how much of it is.
     instead: Option<(Vec<u8>, usize)>,
     timer: Option<Pin<Box<Sleep>>>,
+    unfinished: Unfinished,
     /// Nothing more comes or goes.
     is_over: bool,
     stop: CancellationToken,
@@ -57,6 +58,7 @@ impl Paced {
     pub fn new(
         stream: TcpStream,
         patience: Duration,
+        unfinished: Unfinished,
         stop: CancellationToken,
         lingering: TaskTracker,
     ) -> Self {
@@ -70,7 +72,16 @@ impl Paced {
             tracing::debug!(%error, "TCP_NOTSENT_LOWAT cannot be set");
         }
         let pace = Pace { patience, until: None };
-        Self { stream: Some(stream), pace, instead: None, timer: None, is_over: false, stop, lingering }
+        Self {
+            stream: Some(stream),
+            pace,
+            instead: None,
+            timer: None,
+            unfinished,
+            is_over: false,
+            stop,
+            lingering,
+        }
     }
 
     fn stream(&mut self) -> io::Result<Pin<&mut TcpStream>> {
@@ -128,8 +139,9 @@ impl AsyncRead for Paced {
     ) -> Poll<io::Result<()>> {
         let (filled, room) = (buffer.filled().len(), buffer.remaining());
         let read = ready!(self.stream()?.poll_read(context, buffer));
-        self.is_over |= read.is_err() || (room > 0 && buffer.filled().len() == filled);
-        Poll::Ready(read)
+        let came = buffer.filled().len() - filled;
+        self.is_over |= read.is_err() || (room > 0 && came == 0);
+        Poll::Ready(read.and_then(|()| self.unfinished.came(came)))
     }
 }
 
@@ -243,7 +255,11 @@ mod tests {
         let peer = TcpStream::connect(listener.local_addr().unwrap()).await.unwrap();
         let (stream, _) = listener.accept().await.unwrap();
         let lingering = TaskTracker::new();
-        (Paced::new(stream, patience, CancellationToken::new(), lingering.clone()), peer, lingering)
+        (
+            Paced::new(stream, patience, Unfinished::default(), CancellationToken::new(), lingering.clone()),
+            peer,
+            lingering,
+        )
     }
 
     async fn write(paced: &mut Paced, bytes: &[u8]) -> io::Result<usize> {

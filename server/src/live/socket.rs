@@ -1,6 +1,6 @@
 //! One WebSocket: what it says goes to its session, what the session says goes out.
 
-use std::{error::Error, future::pending, pin::pin, time::Duration};
+use std::{error::Error, future::pending, io::ErrorKind, pin::pin, time::Duration};
 
 use axum::{
     body::Bytes,
@@ -9,10 +9,7 @@ use axum::{
 use espalier_proto::access::Role;
 use espalier_proto::version::{CloseCode, MAX_MESSAGE_BYTES};
 use espalier_session::{ClientId, Entrant};
-use futures_util::{
-    SinkExt, StreamExt,
-    stream::{SplitSink, SplitStream},
-};
+use futures_util::{SinkExt, Stream, StreamExt, stream::SplitSink};
 use tokio::time::{Instant, MissedTickBehavior, interval, sleep, sleep_until, timeout};
 use tokio_tungstenite::tungstenite::{self, error::ProtocolError};
 
@@ -20,6 +17,7 @@ use super::{
     handle::{Request, SessionHandle},
     outbox::{self, Closing, Farewell, Outgoing, Outgoings},
 };
+use crate::listener::Unfinished;
 
 /// The server asks so often whether the other side is still there,
 const PING_INTERVAL: Duration = Duration::from_secs(20);
@@ -54,6 +52,7 @@ impl Grants {
 /// the reason that `let_out` gives, which also tells what they may do when that changes.
 pub async fn serve<LetOut: Future<Output = (CloseCode, String)>>(
     socket: WebSocket,
+    unfinished: Unfinished,
     session: SessionHandle,
     entrant: Entrant,
     let_out: impl FnOnce(Grants) -> LetOut,
@@ -64,7 +63,12 @@ pub async fn serve<LetOut: Future<Output = (CloseCode, String)>>(
         return turn_away(socket, CloseCode::GoingAway, "The session is being put away; come back.").await;
     };
     let (sink, stream) = socket.split();
-    let mut reading = pin!(read(stream, &session, client, &closing));
+    let stream = stream.inspect(move |heard| match heard {
+        // They may come between the pieces of a message.
+        Ok(Message::Ping(payload) | Message::Pong(payload)) => unfinished.came_between(payload.len()),
+        _ => unfinished.is_whole(),
+    });
+    let mut reading = pin!(read(stream, &session, client, &closing, SILENCE));
     {
         let mut writing = pin!(write(sink, outgoings, &session, client));
         let let_out = let_out(Grants { session: session.clone(), client });
@@ -75,7 +79,7 @@ pub async fn serve<LetOut: Future<Output = (CloseCode, String)>>(
         };
         tokio::select! {
             () = watching => {}
-            heard = &mut reading => if heard == Heard::Nonsense {
+            heard = &mut reading => if heard == Heard::Refused {
                 writing.as_mut().await;
             },
             () = &mut writing => {
@@ -102,20 +106,27 @@ pub async fn turn_away(mut socket: WebSocket, code: CloseCode, sentence: &str) {
 /// How reading ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Heard {
-    /// The other side has said goodbye and been answered, or has gone, or says nothing.
+    /// The other side has said goodbye and been answered, or has gone.
     Nothing,
-    /// What cannot be read. It is decided how the socket closes.
-    Nonsense,
+    /// What cannot be read, or nothing for too long. It is decided how the socket closes.
+    Refused,
 }
 
 async fn read(
-    mut stream: SplitStream<WebSocket>,
+    mut stream: impl Stream<Item = Result<Message, axum::Error>> + Unpin,
     session: &SessionHandle,
     client: ClientId,
     closing: &Closing,
+    silence: Duration,
 ) -> Heard {
     let mut next_ping = Instant::now();
-    while let Ok(Some(message)) = timeout(SILENCE, stream.next()).await {
+    loop {
+        let Ok(message) = timeout(silence, stream.next()).await else {
+            let sentence = format!("There was no sign of you for {} s.", silence.as_secs());
+            closing.decide(Farewell { code: CloseCode::Silent, sentence });
+            return Heard::Refused;
+        };
+        let Some(message) = message else { return Heard::Nothing };
         let request = match message {
             Ok(Message::Text(text)) => Request::Text(client, text.as_str().into()),
             Ok(Message::Binary(_)) => Request::Binary(client),
@@ -130,7 +141,7 @@ async fn read(
             Err(error) => {
                 let Some(farewell) = refusal(&error) else { return Heard::Nothing };
                 closing.decide(farewell);
-                return Heard::Nonsense;
+                return Heard::Refused;
             }
         };
         if !closing.is_decided() {
@@ -138,7 +149,6 @@ async fn read(
             let _ = session.send(request).await;
         }
     }
-    Heard::Nothing
 }
 
 /// What is said to a client whose bytes are no messages, unless it has just gone.
@@ -147,6 +157,9 @@ fn refusal(error: &axum::Error) -> Option<Farewell> {
         tungstenite::Error::Capacity(_) => {
             let sentence = format!("A message may have {} KiB at most.", MAX_MESSAGE_BYTES / 1024);
             (CloseCode::MessageTooBig, sentence)
+        }
+        tungstenite::Error::Io(error) if error.kind() == ErrorKind::OutOfMemory => {
+            (CloseCode::TryAgainLater, "memory-full: there is no memory for so long a message now.".into())
         }
         tungstenite::Error::Utf8(_) => (CloseCode::NotText, "A text is not UTF-8.".into()),
         tungstenite::Error::Protocol(ProtocolError::ResetWithoutClosingHandshake) => return None,
@@ -238,7 +251,25 @@ fn shortened(sentence: &str) -> &str {
 
 #[cfg(test)]
 mod tests {
+    use futures_util::stream;
+    use tokio::sync::mpsc;
+
     use super::*;
+
+    #[tokio::test]
+    async fn hs9_silence_closes_with_a_code_and_a_sentence() {
+        let (requests, mut requested) = mpsc::channel(4);
+        let session = SessionHandle::new(requests);
+        // A last sign, and then nothing.
+        let signs = stream::iter([Ok(Message::Pong(Bytes::new()))]).chain(stream::pending());
+        let closing = Closing::default();
+        let heard = read(signs.boxed(), &session, ClientId(1), &closing, Duration::from_millis(20)).await;
+        assert_eq!(heard, Heard::Refused, "so that the close is written");
+        assert!(matches!(requested.recv().await, Some(Request::Heard(ClientId(1)))));
+        let farewell = closing.farewell();
+        assert_eq!(farewell.code, CloseCode::Silent);
+        assert!(farewell.sentence.starts_with("There was no sign of you for"), "{}", farewell.sentence);
+    }
 
     #[test]
     fn a_close_reason_fits_its_frame() {

@@ -11,6 +11,8 @@ const FORESEEN_ROW: u64 = 300;
 const STORED_BYTE: u64 = 6;
 /// A socket: its buffers, and what is on its way to a client that reads.
 pub const SOCKET: u64 = 64 * 1024;
+/// A message that is not whole yet: what has come of the last frame, and the frames before it.
+pub const MESSAGE: u64 = 512 * 1024;
 /// A file that is made: what is written at once, and textures.
 const EXPORT: u64 = 64 << 20;
 /// A byte of a document that is exported: the document read again, and the scene of its foliage.

@@ -220,6 +220,44 @@ async fn unfinished_messages_hold_little() {
 }
 
 #[test]
+fn lm19_messages_that_are_not_whole_take_memory_until_there_is_none() {
+    const SOCKETS: usize = 120;
+    let scratch = Scratch::new();
+    // 48 MiB may be taken, 85 in 100 of them by others than those who draw.
+    let server = Server::start_with(&scratch.path("trees.db"), 0, &["--memory", "64M"]);
+    let session = server.new_session(3);
+    let taken = || {
+        let figures = http::get(server.port(), "/metrics").expect("the server answers").text();
+        let line =
+            figures.lines().find(|line| line.starts_with(r#"espalier_memory_taken_bytes{for="sockets"}"#));
+        line.and_then(|line| line.rsplit(' ').next()?.parse::<u64>().ok()).expect("it is told")
+    };
+    let begin = || {
+        let mut raw = Raw::greeted(&server, &session);
+        raw.0.write_all(&Raw::head(LAST | TEXT, 200 * 1024)).expect("it is sent");
+        raw.0.write_all(&[b' '; 100 * 1024]).expect("it is sent");
+        raw
+    };
+    let unfinished: Vec<Raw> = (0..SOCKETS).map(|_| begin()).collect();
+    // No room for half of them: those are told so.
+    let mut last = begin();
+    let close = loop {
+        let (first, payload) = last.next().expect("it is closed with a code");
+        if first == LAST | CLOSE {
+            break payload;
+        }
+    };
+    assert_eq!(u16::from_be_bytes([close[0], close[1]]), 1013);
+    let reason = String::from_utf8_lossy(&close[2..]);
+    assert!(reason.starts_with("memory-full: "), "{reason}");
+    assert!(taken() <= 48 << 20, "{} bytes for sockets", taken());
+    drop((unfinished, last));
+    while taken() > 0 {
+        std::thread::yield_now();
+    }
+}
+
+#[test]
 fn a_flood_of_pings_is_held_back() {
     const FLOOD: usize = 64 << 20;
     let (server, session, _scratch) = house();

@@ -103,9 +103,10 @@ impl Visitor {
     async fn hear<T>(&mut self, pick: impl Fn(ServerMessage) -> Option<T>) -> T {
         let picked = async {
             loop {
-                if let Outgoing::Text(text) = self.outgoings.lane.recv().await.unwrap()
-                    && let Some(picked) = pick(serde_json::from_str(&text).unwrap())
-                {
+                let Outgoing::Text(text) = self.outgoings.lane.recv().await.unwrap() else { continue };
+                // As a socket says of what it has written. Fails when the session has ended.
+                let _ = self.session.send(Request::Written(self.client, 1)).await;
+                if let Some(picked) = pick(serde_json::from_str(&text).unwrap()) {
                     return picked;
                 }
             }
