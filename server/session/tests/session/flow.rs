@@ -200,7 +200,7 @@ fn fl4_states_are_4000_a_second_at_most_however_many_come() {
     let before = told(&world);
     let from = world.now;
     for id in &people[..MANY as usize / 2] {
-        world.handle(Input::Disconnected(espalier_session::ClientId(*id)));
+        world.handle(Input::Disconnected(ClientId(*id)));
         world.pass(10);
     }
     let seconds = (world.now - from) / 1000 + 1;
