@@ -73,10 +73,11 @@ pub async fn draw_ahead(shared: Shared, stop: CancellationToken) {
                     .is_some_and(|now| now.deleted_at.is_none() && now.head.number == version);
                 let has_one = kind == THUMBNAIL
                     && shared.store.thumbnail(&tree, version).await.is_ok_and(|picture| picture.is_some());
-                if is_newest && !has_one {
-                    if let Err(failure) = picture_of(&shared, Why::Ahead, &tree, version, kind).await {
-                        tracing::debug!(tree, version, ?failure, "no picture was drawn ahead");
-                    }
+                if is_newest
+                    && !has_one
+                    && let Err(failure) = picture_of(&shared, Why::Ahead, &tree, version, kind).await
+                {
+                    tracing::debug!(tree, version, ?failure, "no picture was drawn ahead");
                 }
             }
         }
