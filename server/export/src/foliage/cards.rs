@@ -345,7 +345,9 @@ impl Cards {
     /// What has been added since the last time goes along with a metamer.
     pub(crate) fn ride_on(&mut self, id: MetamerId) {
         let said = self.riders.len();
-        for grid in self.grids.iter().filter(|grid| grid.first as usize >= said) {
+        // They stand in the order of their vertices, and there are as many as leaves.
+        let new = self.grids.partition_point(|grid| (grid.first as usize) < said);
+        for grid in &self.grids[new..] {
             for row in 0..=grid.rows {
                 let rider = Rider { row: id.raw(), share: 1.0, flutter: row as f32 / grid.rows as f32 };
                 self.riders.extend(std::iter::repeat_n(rider, grid.columns as usize + 1));
