@@ -204,7 +204,8 @@ test("PS3: who is cut off is not in the list, and comes back as the same person"
   await untilStates(ann, "Bo", "he is back with one device", "here");
   expect(await number()).toBe(before);
   const { states: seen, notes } = await noted();
-  expect(new Set(seen)).toEqual(new Set(["here", ""]));
+  // A page that is being closed may still say that nobody looks at it.
+  expect(new Set(seen.filter((state) => state !== "away"))).toEqual(new Set(["here", ""]));
   // Whether that was short enough not to be spoken of, the machine decides; nobody comes who has not left.
   expect(notes.filter((note) => note.endsWith("is here")).length).toBe(
     notes.filter((note) => note.endsWith("has left")).length,
