@@ -49,7 +49,8 @@ impl Why {
     fn patience(self) -> Duration {
         match self {
             Self::Asked => Duration::from_millis(20),
-            Self::Ahead => Duration::from_secs(2),
+            // Who asks meanwhile waits for the same picture.
+            Self::Ahead => Duration::from_millis(200),
         }
     }
 }

@@ -84,14 +84,19 @@ async function openPeople(tablet: Tablet): Promise<void> {
   await tablet.page.locator(".people > li").first().waitFor();
 }
 
+/** Has a page follow the only other one. */
+async function follow(tablet: Tablet): Promise<void> {
+  await openPeople(tablet);
+  await tablet.press(tablet.page.locator(".people").getByRole("button", { name: "Follow" }));
+  await tablet.page.locator("[data-following]").waitFor();
+}
+
 test("PS1: a pointer is seen at its place in the tree, with its brush, and rides with a branch that is bent", async () => {
   const { tablet, address, at } = await workshop.stem(SEEN);
   const other = await workshop.open(address, WITH_MOUSE);
   await together(tablet, other);
   // What is seen at the same place of both is at the same place of the tree.
-  await openPeople(other);
-  await other.press(other.page.locator(".people").getByRole("button", { name: "Follow" }));
-  await other.page.locator("[data-following]").waitFor();
+  await follow(other);
   // A mouse that rests points where it did, while a camera still comes to where it follows.
   await other.untilStill();
   const above = at(130, 200);
@@ -124,9 +129,7 @@ test("PS1: an outline is seen on another page where it is, while it is drawn and
   const other = await workshop.open(address, WITH_MOUSE);
   await together(tablet, other);
   // Both see the same place at the same place of the glass.
-  await openPeople(other);
-  await other.press(other.page.locator(".people").getByRole("button", { name: "Follow" }));
-  await other.page.locator("[data-following]").waitFor();
+  await follow(other);
   await other.untilStill();
   await tablet.take("Lasso");
   const [middle, radii] = [at(0, 230), { x: 90, y: 60 }];
