@@ -314,8 +314,9 @@ const LEVELS: [f64; 4] = [1.0, 0.22, 0.036, 0.0022];
 /// The same of USD, which says more of each mesh.
 const USD_LEVELS: [f64; 4] = [1.0, 0.22, 0.048, 0.0008];
 
-/// Bytes of the keys of a bone.
-const BONE: f64 = 17e3;
+/// Bytes of the keys of a bone in glTF, where it has few, and in USD.
+const BONE: f64 = 4e3;
+const USD_BONE: f64 = 17e3;
 
 /// The shares of the bytes for metamers and for leaves that options leave.
 const SHARES: &[(&str, [f64; 2])] = &[
@@ -345,6 +346,13 @@ impl FormatRow {
         }
     }
 
+    fn bone(&self) -> f64 {
+        match self.format {
+            Format::Usda | Format::Usdz => USD_BONE,
+            _ => BONE,
+        }
+    }
+
     /// About how many bytes a file has of so many metamers with so many leaves each.
     pub fn expected(&self, metamers: u32, leaves: u32, options: &ExportOptions) -> u64 {
         let level = match options.model().detail {
@@ -362,7 +370,7 @@ impl FormatRow {
             _ => 1.0,
         };
         let points = f64::from(options.points()) / f64::from(ExportOptions::default().points());
-        let least = least * drawn * points + BONE * f64::from(bones);
+        let least = least * drawn * points + self.bone() * f64::from(bones);
         let leaves = 0.5 * f64::from(leaves) * leaf * foliage;
         (least + level * f64::from(metamers) * (metamer * wood + leaves)) as u64
     }

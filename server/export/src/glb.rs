@@ -1,6 +1,7 @@
 //! glTF 2.0 binary: each plant as a node with its wood, leaves, flowers and fruits, textured, in metres, Y up.
 
 mod instances;
+mod keys;
 mod material;
 mod packing;
 mod skin;

@@ -1,4 +1,4 @@
-//! Bones for programs that know of no joints like ours: a few nodes of slow limbs, between which vertices are blended.
+//! Bones for programs that know of no joints like ours: a few nodes of limbs, between which vertices are blended.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 
 use crate::{
     Limbs, NONE,
-    joints::Joints,
+    joints::{Joint, Joints},
     pose::{Node, Pose},
     wood::Wood,
 };
@@ -49,8 +49,8 @@ pub struct Rig {
 }
 
 impl Rig {
-    /// At most so many bones, one at least, for the plant that grows from the seed. The slowest limbs come first, each after
-    /// those that bear it. `reach` says how far each joint turns at most, in radians.
+    /// At most so many bones, one at least, for the plant that grows from the seed: for the limbs that carry the most the
+    /// furthest, each after those that bear it. `reach` says how far each joint turns at most, in radians.
     pub fn of(joints: &Joints, limbs: &Limbs, wood: &Wood, seed: u32, reach: &[f64], most: usize) -> Self {
         let own = of_seed(joints, wood, seed);
         let top = own
@@ -128,6 +128,29 @@ impl Rig {
         Bound { bones: pair, share }
     }
 
+    /// How far the nodes of what each bone carries lie from it, m: all that turns with it, what other bones above it carry
+    /// as well.
+    pub fn arms(&self, joints: &Joints, wood: &Wood) -> Vec<f64> {
+        let mut arms = vec![0.0f64; self.bones.len()];
+        let seed = self.bones[0].row;
+        let mut own = vec![false; wood.len()];
+        for row in 0..wood.len() as u32 {
+            own[row as usize] = row == seed || joints.below(row).is_some_and(|below| own[below as usize]);
+            if !own[row as usize] {
+                continue;
+            }
+            for bone in self.bound(joints, row, 1.0).bones {
+                let mut at = Some(bone);
+                while let Some(bone) = at {
+                    let arm = &mut arms[bone as usize];
+                    *arm = arm.max(self.bones[bone as usize].rest.distance(wood.place(row)));
+                    at = self.bones[bone as usize].parent;
+                }
+            }
+        }
+        arms
+    }
+
     /// Where all bones are when joints are turned by `bends`; those of joints that are not shown do not count.
     pub fn stand(&self, joints: &Joints, wood: &Wood, bends: &[DVec3]) -> Vec<Node> {
         let shown =
@@ -156,7 +179,58 @@ fn rows_of<'a>(joints: &Joints, limbs: &'a Limbs, joint: u32) -> &'a [u32] {
     limbs.rows(joints.all()[joint as usize].limb)
 }
 
-/// Which joints are shown, in how many pieces each.
+/// What bones of a joint are worth: squares of how far it moves what it carries, summed over rows.
+struct Worth {
+    /// All of it, which is missed where it has no bones.
+    whole: f64,
+    /// How far one straight piece misses the curve, and how many rows lie on that.
+    sagitta: f64,
+    rows: f64,
+}
+
+impl Worth {
+    /// What one more than so many pieces gains: nothing where these are near enough.
+    fn of_another(&self, pieces: usize, near: f64) -> f64 {
+        let is_near = self.sagitta / (pieces * pieces) as f64 <= near;
+        if is_near || pieces == MOST_PIECES { 0.0 } else { self.missed(pieces) - self.missed(pieces + 1) }
+    }
+
+    /// What so many straight pieces still miss.
+    fn missed(&self, pieces: usize) -> f64 {
+        let sagitta = self.sagitta / (pieces * pieces) as f64;
+        self.rows * sagitta * sagitta
+    }
+}
+
+/// What bones of each joint are worth, by joint.
+fn worth(joints: &Joints, limbs: &Limbs, wood: &Wood, reach: &[f64]) -> Vec<Worth> {
+    // Σ 1, Σ x and Σ |x|² over the rows that each joint carries.
+    let mut sums = vec![(0.0, DVec3::ZERO, 0.0); joints.all().len()];
+    for (row, ride) in joints.rides().iter().enumerate().filter(|(_, ride)| ride.joint != NONE) {
+        let (count, first, second) = &mut sums[ride.joint as usize];
+        let place = wood.place[row];
+        (*count, *first, *second) = (*count + 1.0, *first + place, *second + place.length_squared());
+    }
+    let own: Vec<f64> = sums.iter().map(|&(count, ..)| count).collect();
+    for (joint, at) in joints.all().iter().enumerate().rev() {
+        if let Some(parent) = at.parent {
+            let (count, first, second) = sums[joint];
+            let below = &mut sums[parent as usize];
+            *below = (below.0 + count, below.1 + first, below.2 + second);
+        }
+    }
+    let of = |(number, joint): (usize, &Joint)| {
+        let (count, first, second) = sums[number];
+        let base = wood.place[joint.node as usize];
+        let about = second - 2.0 * base.dot(first) + count * base.length_squared();
+        let length: f64 = limbs.rows(joint.limb).iter().map(|&row| wood.length[row as usize]).sum();
+        let reach = reach[number];
+        Worth { whole: reach * reach * about.max(0.0), sagitta: reach * length / 8.0, rows: own[number] }
+    };
+    joints.all().iter().enumerate().map(of).collect()
+}
+
+/// Which joints are shown, in how many pieces each: bone by bone what is worth most, a joint after those that bear it.
 fn shown(
     joints: &Joints,
     limbs: &Limbs,
@@ -166,27 +240,44 @@ fn shown(
     near: f64,
     most: usize,
 ) -> BTreeMap<u32, usize> {
-    let mut order = own.to_vec();
-    let frequency = |joint: u32| joints.all()[joint as usize].frequency;
-    order.sort_by(|&a, &b| frequency(a).total_cmp(&frequency(b)).then(a.cmp(&b)));
-    let mut shown = BTreeMap::new();
+    let worth = worth(joints, limbs, wood, reach);
+    let mut shown: BTreeMap<u32, usize> = BTreeMap::new();
     let mut left = most;
-    for joint in order {
-        let (mut needed, mut at) = (Vec::new(), Some(joint));
-        while let Some(one) = at.filter(|one| !shown.contains_key(one)) {
-            let length: f64 = rows_of(joints, limbs, one).iter().map(|&row| wood.length[row as usize]).sum();
-            let pieces = (reach[one as usize] * length / (8.0 * near)).sqrt().ceil();
-            needed.push((one, (pieces as usize).clamp(1, MOST_PIECES)));
-            at = joints.all()[one as usize].parent;
+    loop {
+        let mut best: (f64, Option<u32>) = (0.0, None);
+        for &joint in own {
+            let (gain, bones) = match shown.get(&joint) {
+                Some(&pieces) => (worth[joint as usize].of_another(pieces, near), 1),
+                None => bare(joints, &shown, joint).fold((0.0, 0), |(gain, bones), at| {
+                    let worth = &worth[at as usize];
+                    (gain + worth.whole - worth.missed(1), bones + 2)
+                }),
+            };
+            // Of two alike the first.
+            if bones as usize <= left && gain / f64::from(bones) > best.0 {
+                best = (gain / f64::from(bones), Some(joint));
+            }
         }
-        let bones: usize = needed.iter().map(|(_, pieces)| pieces + 1).sum();
-        if bones > left {
-            continue;
+        let (_, Some(joint)) = best else { return shown };
+        if let Some(pieces) = shown.get_mut(&joint) {
+            *pieces += 1;
+            left -= 1;
+        } else {
+            let chain: Vec<u32> = bare(joints, &shown, joint).collect();
+            left = left.saturating_sub(2 * chain.len());
+            shown.extend(chain.into_iter().map(|joint| (joint, 1)));
         }
-        left -= bones;
-        shown.extend(needed);
     }
-    shown
+}
+
+/// A joint and those of its bearers that are not shown either.
+fn bare<'a>(
+    joints: &'a Joints,
+    shown: &'a BTreeMap<u32, usize>,
+    joint: u32,
+) -> impl Iterator<Item = u32> + 'a {
+    std::iter::successors(Some(joint), |&at| joints.all()[at as usize].parent)
+        .take_while(|at| !shown.contains_key(at))
 }
 
 /// The rows of a joint's limb at whose nodes its pieces end: at even shares of what it bends.

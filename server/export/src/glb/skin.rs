@@ -1,17 +1,21 @@
 //! Bones, skins and animations: how a plant sways.
 
 use espalier_motion::{Bound, Rig, clips::Clip};
-use glam::{DVec3, Quat, Vec3};
+use glam::{DQuat, DVec3, Quat, Vec3};
 
-use super::{vertex::Attribute, writer::Writer};
+use super::{keys::Keys, vertex::Attribute, writer::Writer};
 use crate::{
     ExportError,
-    gltf::{Animation, Channel, FLOAT, Node, Path, Sampler, Skin, Target},
+    gltf::{Animation, Channel, FLOAT, Node, Path, Skin, Target},
     swaying::{Local, Rider, Swaying},
 };
 
 /// Bytes of JSON for each bone: its node, and what says of both clips where its keys are.
-pub(super) const CAPACITY_OF_BONE: usize = 1500;
+pub(super) const CAPACITY_OF_BONE: usize = 1000;
+
+/// What leaving keys out and writing turns in 16 bits may move anything by for each bone, as a share of how far the plant
+/// reaches: where that fills a screen of 2,000 pixels a fifth of one.
+const NEAR: f64 = 1e-4;
 
 /// The bones of the plant whose parts are being written.
 pub(super) struct Skeleton<'a> {
@@ -19,6 +23,10 @@ pub(super) struct Skeleton<'a> {
     rig: Rig,
     /// The node of each bone.
     nodes: Vec<usize>,
+    /// How far what each bone carries reaches from it, m.
+    arms: Vec<f64>,
+    /// By how much each bone may miss where it belongs, m.
+    near: f64,
 }
 
 impl<'a> Skeleton<'a> {
@@ -51,7 +59,10 @@ impl<'a> Skeleton<'a> {
             writer.adopt(ground, 0);
         }
         writer.root.nodes.extend(made);
-        let skeleton = Self { swaying, rig, nodes };
+        let arms = rig.arms(&swaying.joints, &swaying.wood);
+        // The ground carries the whole plant.
+        let near = NEAR * arms[0];
+        let skeleton = Self { swaying, rig, nodes, arms, near };
         for clip in &swaying.clips {
             skeleton.animate(writer, clip, &owner)?;
         }
@@ -99,53 +110,33 @@ impl<'a> Skeleton<'a> {
     fn animate(&self, writer: &mut Writer<'_>, clip: &Clip, owner: &str) -> Result<(), ExportError> {
         let bones = self.rig.bones();
         let count = clip.keys.len();
-        let mut turns: Vec<Vec<f32>> = vec![Vec::with_capacity(4 * count); bones.len()];
-        let mut places: Vec<Vec<f32>> = vec![Vec::with_capacity(3 * count); bones.len()];
+        let mut turns: Vec<Vec<DQuat>> = vec![Vec::with_capacity(count); bones.len()];
+        let mut places: Vec<Vec<DVec3>> = vec![Vec::with_capacity(count); bones.len()];
         for key in &clip.keys {
-            // The first is the ground, which stands still.
-            for (number, Local { turn, place }) in
-                self.swaying.locals(&self.rig, key).into_iter().enumerate().skip(1)
+            for (number, Local { turn, place }) in self.swaying.locals(&self.rig, key).into_iter().enumerate()
             {
-                turns[number].extend(turn.to_array().map(|part| part as f32));
-                places[number].extend(place.as_vec3().to_array());
+                if !(turn.is_finite() && place.is_finite()) {
+                    return Err(ExportError::NotFinite);
+                }
+                turns[number].push(turn);
+                places[number].push(place);
             }
         }
-        let times: Vec<f32> = (0..count).map(|key| clip.time(key) as f32).collect();
-        let last = times.last().copied().unwrap_or_default();
-        let input = Self::keys(writer, &times, "SCALAR", count)?;
-        let timed = &mut writer.root.accessors[input];
-        (timed.min, timed.max) = (Some(vec![0.0]), Some(vec![last]));
-        let mut animation =
-            Animation { name: format!("{} {owner}", clip.name), channels: Vec::new(), samplers: Vec::new() };
+        let mut keys = Keys::of(clip);
+        let mut channels = Vec::new();
+        // The first is the ground, which stands still.
         for number in 1..bones.len() {
-            for (path, values, shape) in
-                [(Path::Rotation, &turns[number], "VEC4"), (Path::Translation, &places[number], "VEC3")]
-            {
-                let output = Self::keys(writer, values, shape, count)?;
-                let sampler = animation.samplers.len();
-                animation.samplers.push(Sampler { input, output });
-                animation
-                    .channels
-                    .push(Channel { sampler, target: Target { node: self.nodes[number], path } });
+            let node = self.nodes[number];
+            keys.turns(&turns[number], self.near / self.arms[number]);
+            keys.places(&places[number], self.near);
+            for path in [Path::Rotation, Path::Translation] {
+                channels.push(Channel { sampler: channels.len(), target: Target { node, path } });
             }
         }
-        if !animation.channels.is_empty() {
-            writer.root.animations.push(animation);
+        if !channels.is_empty() {
+            let (name, samplers) = (format!("{} {owner}", clip.name), keys.finish(writer)?);
+            writer.root.animations.push(Animation { name, channels, samplers });
         }
         Ok(())
-    }
-
-    fn keys(
-        writer: &mut Writer<'_>,
-        values: &[f32],
-        shape: &'static str,
-        count: usize,
-    ) -> Result<usize, ExportError> {
-        if values.iter().any(|value| !value.is_finite()) {
-            return Err(ExportError::NotFinite);
-        }
-        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        let view = writer.whole_view(&bytes, None)?;
-        Ok(writer.accessor(view, Attribute { offset: 0, component_type: FLOAT, shape }, false, count))
     }
 }
