@@ -21,8 +21,9 @@ const SLOW: f64 = 2.5;
 const SLOW_BESIDE_TRUNK: f64 = 4.0;
 /// Whole trees swing at about 2.4 Hz / √(height in metres) (Jackson 2021).
 const OBSERVED: f64 = 2.4;
-/// The most by which wood is made softer to swing as observed.
+/// The most by which wood is made softer to swing as observed, and stiffer: as stiff as the stiffest green wood, of 11 GPa.
 const SOFTEST: f64 = 1.0 / 9.0;
+const STIFFEST: f64 = 11.0 / 7.0;
 /// The share of its polar inertia with which what is borne turns about an axis across it.
 const ACROSS: f64 = 2.0 / 3.0;
 const TAU: f64 = std::f64::consts::TAU;
@@ -46,7 +47,7 @@ pub struct Joint {
     pub damping: f64,
     /// Σ A y² / Σ m y², m²/kg: times dq/dU / 2ω it is the damping by air.
     pub drag: f64,
-    /// How much softer its wood is than uncalibrated.
+    /// How much softer its wood is than uncalibrated; less than 1 where it is stiffer.
     pub softness: f64,
     /// By how much it turns where it turns most, in radians for each Pa of wind pressure along x, y and z.
     pub compliance: DMat3,
@@ -257,7 +258,7 @@ fn plants(rows: &Rows, limbs: &Limbs, wood: &Wood, modes: &[Mode], mass: &Borne)
         let slow = (SLOW * SLOW * TAU * TAU).max(SLOW_BESIDE_TRUNK * SLOW_BESIDE_TRUNK * rate);
         // A trunk without length swings in no way, and says nothing of what stands beside it.
         let swings = rate.is_finite() && whole[row].is_finite();
-        let softer = if swings { (observed / whole[row]).clamp(SOFTEST, 1.0) } else { 1.0 };
+        let softer = if swings { (observed / whole[row]).clamp(SOFTEST, STIFFEST) } else { 1.0 };
         plants[row] = Plant { slow, softer, whole: whole[row] };
     }
     plants

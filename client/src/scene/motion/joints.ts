@@ -14,8 +14,9 @@ const SLOW = 2.5;
 const SLOW_BESIDE_TRUNK = 4;
 /** Whole trees swing at about 2.4 Hz / √(height in metres) (Jackson 2021). */
 const OBSERVED = 2.4;
-/** The most by which wood is made softer to swing as observed. */
+/** The most by which wood is made softer to swing as observed, and stiffer: as stiff as the stiffest green wood, of 11 GPa. */
 const SOFTEST = 1 / 9;
+const STIFFEST = 11 / 7;
 /** The share of its polar inertia with which what is borne turns about an axis across it. */
 const ACROSS = 2 / 3;
 const TAU = 2 * Math.PI;
@@ -231,7 +232,7 @@ function plantsOf(rows: MotionRows, limbs: Limbs, wood: Wood, modes: Modes, mass
     );
     // A trunk without length swings in no way, and says nothing of what stands beside it.
     const swings = Number.isFinite(rate) && Number.isFinite(whole[row]);
-    if (swings) softer[row] = Math.min(Math.max(observed / whole[row]!, SOFTEST), 1);
+    if (swings) softer[row] = Math.min(Math.max(observed / whole[row]!, SOFTEST), STIFFEST);
   }
   return { slow, softer, whole };
 }
