@@ -19,6 +19,9 @@ pub const MIN_RADIUS: f32 = 0.001;
 /// Ratio of neighbouring radius codes, as a natural logarithm.
 pub const RADIUS_LOG_STEP: f32 = 0.01;
 
+/// Organs of one row at most.
+pub const MOST_ORGANS: usize = 15;
+
 /// One change to the table of rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
@@ -89,6 +92,8 @@ pub enum Column {
     Light = 4,
     /// When it was born.
     Born = 5,
+    /// Organs that it is given.
+    Organs = 6,
 }
 
 /// Values of one column.
@@ -106,6 +111,8 @@ pub enum Values {
     Light(Vec<u8>),
     /// Steps of growth up to its birth, the one in which it was born included; 0 for the first seed.
     Born(Vec<u32>),
+    /// Organs that it is given, at most 15, each in one number (`LF5`); none where it bears what grows on such wood.
+    Organs(Vec<Option<Vec<u32>>>),
 }
 
 /// Whole rows, column by column; all columns have the same length.
@@ -182,6 +189,7 @@ impl Values {
             Self::Position(v) => v.len(),
             Self::Radius(v) => v.len(),
             Self::Foliage(v) | Self::Light(v) => v.len(),
+            Self::Organs(v) => v.len(),
         }
     }
 
@@ -199,6 +207,7 @@ impl Values {
             Self::Foliage(_) => Column::Foliage,
             Self::Light(_) => Column::Light,
             Self::Born(_) => Column::Born,
+            Self::Organs(_) => Column::Organs,
         }
     }
 
@@ -209,6 +218,7 @@ impl Values {
             Self::Radius(v) => write_radii(out, v),
             Self::Foliage(v) | Self::Light(v) => write_bytes(out, v),
             Self::Born(v) => write_births(out, v),
+            Self::Organs(v) => write_organs(out, v),
         }
     }
 
@@ -220,6 +230,7 @@ impl Values {
             3 => Self::Foliage(read_bytes(bytes, count)?),
             4 => Self::Light(read_bytes(bytes, count)?),
             5 => Self::Born(read_births(bytes, count)?),
+            6 => Self::Organs((0..count).map(|_| read_organs(bytes)).collect::<Result<_, _>>()?),
             _ => return Err(FrameError::Body),
         })
     }
@@ -372,6 +383,29 @@ fn write_radii(out: &mut Vec<u8>, radii: &[u16]) {
 fn write_births(out: &mut Vec<u8>, births: &[u32]) {
     let mut before = 0;
     write_column(out, births, |&born| born.wrapping_sub(std::mem::replace(&mut before, born)));
+}
+
+/// A byte that is 0 for none and else one more than their number, then so many numbers.
+fn write_organs(out: &mut Vec<u8>, rows: &[Option<Vec<u32>>]) {
+    for organs in rows {
+        debug_assert!(organs.as_ref().is_none_or(|organs| organs.len() <= MOST_ORGANS), "at most 15");
+        out.push(organs.as_ref().map_or(0, |organs| 1 + organs.len() as u8));
+        out.extend(organs.iter().flatten().flat_map(|organ| organ.to_le_bytes()));
+    }
+}
+
+fn read_organs(bytes: &mut &[u8]) -> Result<Option<Vec<u32>>, FrameError> {
+    let Some(count) = usize::from(read_byte(bytes)?).checked_sub(1) else { return Ok(None) };
+    if count > MOST_ORGANS {
+        return Err(FrameError::Body);
+    }
+    let organ = |_| {
+        let (organ, rest) = bytes.split_first_chunk().ok_or(FrameError::Truncated)?;
+        *bytes = rest;
+        let organ = u32::from_le_bytes(*organ);
+        if organ >> 30 == 3 { Err(FrameError::Body) } else { Ok(organ) }
+    };
+    (0..count).map(organ).collect::<Result<_, _>>().map(Some)
 }
 
 fn read_byte(bytes: &mut &[u8]) -> Result<u8, FrameError> {

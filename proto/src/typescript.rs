@@ -307,6 +307,8 @@ fn add_tables(out: &mut String) {
         let of = format!("Record<Exclude<{sort}Kind, \"none\">, OrnamentNature>");
         let _ = writeln!(out, "export const {name}_NATURES: {of} = {{\n{natures}}};");
     }
+    let _ = writeln!(out, "export const GIVEN_FLOWER = {:?};", settings::GIVEN_FLOWER.name());
+    let _ = writeln!(out, "export const GIVEN_FRUIT = {:?};", settings::GIVEN_FRUIT.name());
     let _ = writeln!(out, "export const THICKEST_BEARING = {};", settings::THICKEST_BEARING);
     out.push_str("\nexport const BARK_NATURES: Record<BarkKind, BarkNature> = {\n");
     for &kind in settings::BarkKind::ALL {

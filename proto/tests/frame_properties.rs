@@ -44,6 +44,7 @@ fn patched() -> impl Strategy<Value = (Vec<u8>, Values)> {
             vec(any::<u8>(), n).prop_map(Values::Foliage),
             vec(any::<u8>(), n).prop_map(Values::Light),
             vec(any::<u32>(), n).prop_map(Values::Born),
+            vec(proptest::option::of(vec(0u32..3 << 30, 0..=15)), n).prop_map(Values::Organs),
         ];
         (Just(rows), values)
     })
@@ -207,7 +208,13 @@ fn fr1_what_is_reserved_is_refused() {
     assert_eq!(with(2, 2), Err(FrameError::Codec(2)));
     assert_eq!(with(3, 3), Err(FrameError::Flags(3)));
     assert_eq!(Frame::decode(&headed(&[9, 0, 0])), Err(FrameError::Body));
-    assert_eq!(Frame::decode(&headed(&[4, 0, 0, 6, 1, 0, 0])), Err(FrameError::Body));
+    assert_eq!(Frame::decode(&headed(&[4, 0, 0, 7, 1, 0, 0])), Err(FrameError::Body));
+    assert_eq!(Frame::decode(&headed(&[4, 0, 0, 6, 1, 0, 17])), Err(FrameError::Body), "16 organs");
+    assert_eq!(
+        Frame::decode(&headed(&[4, 0, 0, 6, 1, 0, 2, 0, 0, 0, 192])),
+        Err(FrameError::Body),
+        "of no kind"
+    );
 }
 
 #[test]

@@ -105,6 +105,10 @@ fn patches() -> Frame {
             patch(vec![17], Values::Foliage(vec![0x40])),
             patch(vec![100, 200], Values::Light(vec![0, 255])),
             patch(vec![0, 1, 7], Values::Born(vec![129, 129, 4000])),
+            patch(
+                vec![3, 4, 9],
+                Values::Organs(vec![Some(vec![0x0003_ff80, 0x8000_0000]), None, Some(vec![])]),
+            ),
         ],
     }
 }
@@ -139,6 +143,7 @@ fn described_change(change: &ChunkChange) -> Value {
                 Values::Foliage(v) => ("foliage", json!(v)),
                 Values::Light(v) => ("light", json!(v)),
                 Values::Born(v) => ("born", json!(v)),
+                Values::Organs(v) => ("organs", json!(v)),
             };
             json!({
                 "change": "patch", "chunk": chunk, "generation": generation, "rows": rows,

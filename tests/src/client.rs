@@ -504,9 +504,9 @@ pub async fn until_equal(a: &mut Client, b: &mut Client) {
 }
 
 /// Where two tables differ, for people.
-fn difference<T: Copy + Debug + PartialEq>(a: &[T], b: &[T]) -> String {
+fn difference<T: Debug + PartialEq>(a: &[T], b: &[T]) -> String {
     let all = a.iter().zip(b).filter(|(a, b)| a != b).count();
     let first = a.iter().zip(b).position(|(a, b)| a != b);
-    let pair = first.map(|i| (a[i], b[i]));
+    let pair = first.map(|i| (&a[i], &b[i]));
     format!("{} and {} rows, {all} differ, first {first:?}: {pair:?}", a.len(), b.len())
 }

@@ -3,7 +3,7 @@
 use espalier_proto::{ChunkChange, Frame, Resume, Rows, Values, frame::CHUNK_ROWS};
 
 /// One metamer as a client knows it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Row {
     /// See [`Values::Parent`].
     pub parent: u32,
@@ -17,6 +17,8 @@ pub struct Row {
     pub light: u8,
     /// Steps of growth up to its birth.
     pub born: u32,
+    /// Organs that it is given.
+    pub organs: Option<Vec<u32>>,
 }
 
 /// What a row is apart from its looks: light and vigor are shown as they were last worth a patch.
@@ -143,6 +145,7 @@ impl Table {
                 foliage: rows.foliage[i],
                 light: rows.light[i],
                 born: rows.born[i],
+                organs: None,
             };
         }
         Ok(())
@@ -159,6 +162,7 @@ impl Table {
             Values::Foliage(v) => self.rows[row].foliage = v[i],
             Values::Light(v) => self.rows[row].light = v[i],
             Values::Born(_) => panic!("a metamer never changes its birth"),
+            Values::Organs(v) => self.rows[row].organs.clone_from(&v[i]),
         }
         Ok(())
     }

@@ -36,10 +36,17 @@ export interface Rows {
   born: Uint32Array;
 }
 
+/** Organs that rows are given, each in one number (LF5); null where a row bears what grows on such wood. */
+export type OrganRows = readonly (Uint32Array | null)[];
+
 /** Values of one column, encoded as in `Rows`. */
-export type Values = { [C in keyof Rows]: { column: C; values: Rows[C] } }[keyof Rows];
+export type Values =
+  | { [C in keyof Rows]: { column: C; values: Rows[C] } }[keyof Rows]
+  | { column: "organs"; values: OrganRows };
 
 const CATCH_UP = 1;
+/** Organs of one row at most. */
+const MOST_ORGANS = 15;
 /** The parent of a row that goes on where the row before it ends. */
 const NEXT = 2;
 
@@ -121,9 +128,23 @@ function readValues(reader: ByteReader, column: number, count: number): Values {
       return { column: "light", values: readBytes(reader, count) };
     case 5:
       return { column: "born", values: readBirths(reader, count) };
+    case 6:
+      return { column: "organs", values: Array.from({ length: count }, () => readOrgans(reader)) };
     default:
       throw new FrameError(`Column ${column} is unknown.`);
   }
+}
+
+function readOrgans(reader: ByteReader): Uint32Array | null {
+  const count = reader.byte() - 1;
+  if (count < 0) return null;
+  const organs = new Uint32Array(count);
+  for (let i = 0; i < count; i += 1) {
+    const [a, b, c, d] = reader.take(4) as unknown as [number, number, number, number];
+    organs[i] = (a | (b << 8) | (c << 16) | (d << 24)) >>> 0;
+  }
+  if (count > MOST_ORGANS || organs.some((organ) => organ >>> 30 === 3)) throw new FrameError("Organs cannot be read.");
+  return organs;
 }
 
 function readVarints(reader: ByteReader, count: number): Uint32Array {

@@ -145,6 +145,8 @@ export const FRUIT_NATURES: Record<Exclude<FruitKind, "none">, OrnamentNature> =
   nut: {"together":2,"reach":0.33,"hang":-0.8,"turn":0.5,"stalk":0.0,"gloss":1.4,"second":[150,134,96]},
   winged: {"together":2,"reach":0.5,"hang":-0.9,"turn":0.35,"stalk":0.0,"gloss":0.5,"second":[196,172,120]},
 };
+export const GIVEN_FLOWER = "rosette";
+export const GIVEN_FRUIT = "round";
 export const THICKEST_BEARING = 0.6;
 
 export const BARK_NATURES: Record<BarkKind, BarkNature> = {

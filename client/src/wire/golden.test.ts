@@ -26,14 +26,18 @@ function described({ kind, frame }: ServerFrame): object {
 function describedChange(change: ChunkChange): object {
   if (change.change === "truncate") return change;
   if (change.change === "patch") {
-    const { values } = change;
     return {
       ...change,
       rows: [...change.rows],
-      values: change.column === "position" ? triples(values) : [...values],
+      values: describedValues(change),
     };
   }
   return { ...change, rows: describedRows(change.rows) };
+}
+
+function describedValues(change: Extract<ChunkChange, { change: "patch" }>): unknown[] {
+  if (change.column === "organs") return change.values.map((organs) => organs && [...organs]);
+  return change.column === "position" ? triples(change.values) : [...change.values];
 }
 
 function describedRows(rows: Rows): object {

@@ -1,4 +1,4 @@
-import { type BendFrame, decodeBend } from "./bend-frame";
+import type { BendFrame } from "./bend-frame";
 import { kindOf, type OpenedFrame, openFrame } from "./envelope";
 import { decodeFrame, type Frame } from "./frame";
 import { FrameKind } from "./generated";
@@ -18,7 +18,11 @@ export type AsideServerFrame = Exclude<ServerFrame, { readonly kind: typeof Fram
 /** Reads whatever kind of frame this is; any bytes at all give one or a `FrameError`. */
 export async function decodeServerFrame(bytes: ArrayBuffer): Promise<ServerFrame> {
   const kind = kindOf(bytes);
-  if (kind === FrameKind.Bend) return { kind, frame: await decodeBend(bytes) };
+  if (kind === FrameKind.Bend) {
+    // The first picture has none.
+    const { decodeBend } = await import("./bend-frame");
+    return { kind, frame: await decodeBend(bytes) };
+  }
   if (kind === FrameKind.Ghost) return { kind, frame: await decodeGhost(bytes) };
   if (kind === FrameKind.Presence) return { kind, frame: await openFrame(bytes, kind) };
   return { kind: FrameKind.MeshDelta, frame: await decodeFrame(bytes) };

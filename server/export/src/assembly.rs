@@ -182,6 +182,8 @@ impl<'a> Assembly<'a> {
                 foliage: Foliage::of(plant, style, looks, drawn).upon(&wood),
             }
         });
+        let levels: Vec<_> = levels.collect();
+        let borne = levels.first().map_or(looks, |level| level.foliage.look());
         Self {
             plant,
             looks,
@@ -189,11 +191,11 @@ impl<'a> Assembly<'a> {
             model,
             bark: Bark::of(&looks.bark),
             thin: [
-                Some(thin::leaves(&looks.leaves)),
-                thin::flowers(&looks.flowers),
-                thin::fruits(&looks.fruits),
+                Some(thin::leaves(&borne.leaves)),
+                thin::flowers(&borne.flowers),
+                thin::fruits(&borne.fruits),
             ],
-            levels: levels.collect(),
+            levels,
             wood,
             swaying: None,
         }

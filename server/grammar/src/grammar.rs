@@ -48,7 +48,17 @@ pub(crate) struct Heading {
     pub time_step: Option<(Expr, Span)>,
     pub seed: Option<(Expr, Span)>,
     pub buds: Option<Buds>,
+    pub leaves: Option<Leaves>,
     pub widths: Option<Radii>,
+}
+
+/// Which leaves, flowers and fruits a plant bears.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Leaves {
+    /// Those that the grammar puts there, and no others.
+    Grammar,
+    /// Those that grow on such wood.
+    Fill,
 }
 
 /// Which buds a plant gets beside those that go on growing by the grammar.

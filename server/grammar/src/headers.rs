@@ -5,7 +5,7 @@ use std::fmt::Display;
 use crate::{
     diagnostic::nearest,
     expression::{Expr, Lost},
-    grammar::{Buds, Curve, Define, Radii, SliderRow},
+    grammar::{Buds, Curve, Define, Leaves, Radii, SliderRow},
     parser::{Macro, Parser, Scope, Section},
     source::{ARROW, Span, is_definition},
     wording,
@@ -24,6 +24,7 @@ pub(crate) enum Header {
     TimeStep,
     Seed,
     Buds,
+    Leaves,
     Widths,
     Define,
     CDefine,
@@ -54,6 +55,7 @@ pub(crate) const HEADERS: &[(&str, bool, Header)] = &[
     ("dt", true, Header::TimeStep),
     ("seed", true, Header::Seed),
     ("buds", true, Header::Buds),
+    ("leaves", true, Header::Leaves),
     ("widths", true, Header::Widths),
     ("define", true, Header::Define),
     ("#define", false, Header::CDefine),
@@ -162,6 +164,10 @@ impl Parser<'_> {
             Header::Depth => self.heading.depth = Some((self.value()?, span)),
             Header::TimeStep => self.heading.time_step = Some((self.value()?, span)),
             Header::Seed => self.heading.seed = Some((self.value()?, span)),
+            Header::Leaves => {
+                let choices = [("grammar", Leaves::Grammar), ("fill", Leaves::Fill)];
+                self.heading.leaves = Some(self.choice(&choices)?);
+            }
             Header::Buds => {
                 self.heading.buds = Some(self.choice(&[("grammar", Buds::Grammar), ("fill", Buds::Fill)])?);
             }

@@ -1,4 +1,6 @@
-//! Whether a plant is drawn so small that most of its lines are no internodes of their own.
+//! What drawing loses: lines that are too short to be internodes of their own, and organs that stand on no wood.
+
+use espalier_plant::organs::MOST_ORGANS;
 
 use crate::{
     derivation::Derivation,
@@ -41,6 +43,21 @@ impl Grammar {
             ("scale", scale),
         ];
         Some(Diagnostic::new(Severity::Warning, (line, column, 0), wording::TINY_PIECES, values.into()))
+    }
+}
+
+impl Grammar {
+    /// A warning, at the axiom, where organs are not drawn because no wood bears them, or as many are there as can be.
+    pub fn lost_organs(&self, derivation: &Derivation, drawn: &Drawn) -> Option<Diagnostic> {
+        let (line, column) = self.axiom_at;
+        let values = [
+            ("depth", derivation.depth().to_string()),
+            ("count", drawn.unborne.to_string()),
+            ("most", MOST_ORGANS.to_string()),
+        ];
+        let warning =
+            || Diagnostic::new(Severity::Warning, (line, column, 0), wording::LOST_ORGANS, values.into());
+        (drawn.unborne > 0).then(warning)
     }
 }
 

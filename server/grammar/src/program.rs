@@ -8,10 +8,10 @@ use crate::{
     diagnostic::{Values, written},
     expression::Expr,
     functions::Function,
-    grammar::{Ahead, Buds, Curve, Grammar, Module, Neighbour, Radii, Rule, Slider, SliderRow},
+    grammar::{Ahead, Buds, Curve, Grammar, Leaves, Module, Neighbour, Radii, Rule, Slider, SliderRow},
     review::are_alternatives,
     source::Span,
-    symbols::{Action, CUT, POP, Symbol, turtle},
+    symbols::{Action, CUT, POP, SURFACE, Symbol, is_surface, turtle},
     word::Columns,
     wording::{self, Wording, filled},
 };
@@ -148,6 +148,10 @@ pub struct Program {
     seed: Option<u32>,
     pub(crate) buds: Buds,
     pub(crate) radii: Radii,
+    /// By symbol: whether it is a surface that the turtle does not know by its name.
+    surfaces: Vec<bool>,
+    /// Whether it says itself where organs are.
+    pub(crate) has_organs: bool,
 }
 
 /// Whether a grammar asks where its modules stand.
@@ -342,6 +346,13 @@ impl Program {
             time_step,
             depth: depth as u32,
             seed: heading.seed.is_some().then_some(seed as u32),
+            surfaces: (0..grammar.symbols.len() as Symbol)
+                .map(|symbol| is_foreign_surface(grammar, symbol))
+                .collect(),
+            has_organs: match heading.leaves {
+                Some(leaves) => leaves == Leaves::Grammar,
+                None => has_organs(grammar),
+            },
             buds: heading.buds.unwrap_or(Buds::Fill),
             radii: heading
                 .widths
@@ -351,7 +362,15 @@ impl Program {
 
     /// Whether a symbol is a bud: a module that rules rewrite and the turtle does not know.
     pub(crate) fn is_apex(&self, symbol: Symbol) -> bool {
-        turtle(symbol).is_none() && !self.rules.of(symbol).is_empty()
+        self.action(symbol).is_none() && !self.rules.of(symbol).is_empty()
+    }
+
+    /// What the turtle does with a symbol.
+    pub(crate) fn action(&self, symbol: Symbol) -> Option<Action> {
+        match turtle(symbol) {
+            Some(row) => Some(row.action),
+            None => self.surfaces[symbol as usize].then_some(SURFACE),
+        }
     }
 }
 
@@ -373,11 +392,27 @@ fn active(grammar: &Grammar) -> Vec<bool> {
     active
 }
 
-fn sets_widths(grammar: &Grammar) -> bool {
+fn is_foreign_surface(grammar: &Grammar, symbol: Symbol) -> bool {
+    turtle(symbol).is_none() && is_surface(grammar.symbols.name(symbol))
+}
+
+/// All modules that a word can hold or be read as.
+fn modules(grammar: &Grammar) -> impl Iterator<Item = &Module> {
     let rules = grammar.rules.iter().chain(&grammar.homomorphism).chain(&grammar.decomposition);
-    let mut modules = grammar.axiom.iter().chain(rules.flat_map(|rule| &rule.successor));
-    modules.any(|module| {
+    grammar.axiom.iter().chain(rules.flat_map(|rule| &rule.successor))
+}
+
+fn sets_widths(grammar: &Grammar) -> bool {
+    modules(grammar).any(|module| {
         matches!(turtle(module.symbol).map(|row| row.action), Some(Action::Thinner | Action::Thicker))
+    })
+}
+
+fn has_organs(grammar: &Grammar) -> bool {
+    modules(grammar).any(|module| {
+        let action = turtle(module.symbol).map(|row| row.action);
+        matches!(action, Some(Action::Organ(..) | Action::EndPolygon))
+            || is_foreign_surface(grammar, module.symbol)
     })
 }
 

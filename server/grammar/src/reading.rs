@@ -1,12 +1,15 @@
 //! Reads a word with the turtle, module by module, each as the homomorphism has it.
 
+use espalier_plant::{OrganKind, Stance};
+use glam::DVec3;
+
 use crate::{
     code::{Machine, Moment},
     environment::Environment,
     keys::{Chance, Products, WHILE_READING},
     limits::{Limits, MADE_FOR_EACH, MOST_OF_ONE, READ_FOR_EACH, Stop, WORK_FOR_EACH},
     program::{Production, Program},
-    symbols::{Action, turtle},
+    symbols::Action,
     turtle::{Moved, State, Turtle},
     word::{Tag, Word},
 };
@@ -30,6 +33,8 @@ pub(crate) trait Pen {
     fn apex(&mut self, turtle: &State);
     /// The rest of the branch is cut off.
     fn cut(&mut self);
+    /// An organ stands here, with a length in internodes if it has one of its own.
+    fn organ(&mut self, kind: OrganKind, stance: &Stance, length: Option<f64>) -> Result<(), Stop>;
 }
 
 /// Draws nothing.
@@ -50,6 +55,40 @@ impl Pen for NoPen {
     }
     fn apex(&mut self, _: &State) {}
     fn cut(&mut self) {}
+    fn organ(&mut self, _: OrganKind, _: &Stance, _: Option<f64>) -> Result<(), Stop> {
+        Ok(())
+    }
+}
+
+/// A surface that has begun.
+#[derive(Clone, Copy, Debug)]
+struct Surface {
+    /// Surfaces within it that have begun.
+    within: u32,
+    /// Where it began.
+    from: DVec3,
+    /// The farthest place that the turtle has been at since.
+    farthest: DVec3,
+    /// The turtle's up when it began.
+    up: DVec3,
+}
+
+impl Surface {
+    fn reach(&mut self, place: DVec3) {
+        if place.distance_squared(self.from) > self.farthest.distance_squared(self.from) {
+            self.farthest = place;
+        }
+    }
+
+    /// A leaf stands for it, from where it begins to its farthest place.
+    fn end(self, pen: &mut impl Pen) -> Result<(), Stop> {
+        let along = self.farthest - self.from;
+        let Some(direction) = along.try_normalize() else { return Ok(()) };
+        let normal = self.up.reject_from_normalized(direction).try_normalize();
+        let normal = normal.unwrap_or_else(|| direction.any_orthonormal_vector());
+        let stance = Stance { direction: direction.as_vec3(), normal: normal.as_vec3() };
+        pen.organ(OrganKind::Leaf, &stance, Some(along.length()))
+    }
 }
 
 /// When a word is read.
@@ -94,8 +133,8 @@ pub(crate) struct Reading {
     pub turtle: Turtle,
     pub machine: Machine,
     when: When,
-    /// Surfaces that have begun.
-    polygons: u32,
+    /// The surface that has begun.
+    surface: Option<Surface>,
     /// Branches within the rest of a branch that is cut off.
     cut: Option<u32>,
     pub cost: Cost,
@@ -109,7 +148,7 @@ impl Reading {
         let turtle = Turtle::new(program.angle, program.scale);
         let most = Cost { read: limits.modules.saturating_mul(READ_FOR_EACH), work: limits.work };
         let (machine, cost) = (Machine::new(), Cost::default());
-        Self { turtle, machine, when, polygons: 0, cut: None, cost, of_one: 0, most }
+        Self { turtle, machine, when, surface: None, cut: None, cost, of_one: 0, most }
     }
 
     /// Reads one module of a word.
@@ -141,7 +180,7 @@ impl Reading {
         surroundings: &dyn Environment,
         pen: &mut impl Pen,
     ) -> Result<(), Stop> {
-        let action = turtle(tag.symbol).map(|row| row.action);
+        let action = program.action(tag.symbol);
         if let Some(open) = self.cut {
             match action {
                 Some(Action::Push) => self.cut = Some(open + 1),
@@ -238,8 +277,26 @@ impl Reading {
                 self.cut = Some(0);
                 pen.cut();
             }
-            Action::BeginPolygon => self.polygons += 1,
-            Action::EndPolygon => self.polygons = self.polygons.saturating_sub(1),
+            Action::BeginPolygon => {
+                let State { place, up, .. } = self.turtle.state;
+                match &mut self.surface {
+                    Some(surface) => surface.within += 1,
+                    none => *none = Some(Surface { within: 0, from: place, farthest: place, up }),
+                }
+            }
+            Action::EndPolygon => match &mut self.surface {
+                Some(surface) if surface.within > 0 => surface.within -= 1,
+                surface => {
+                    if let Some(surface) = surface.take() {
+                        surface.end(pen)?;
+                    }
+                }
+            },
+            Action::Organ(kind, times) => {
+                let State { heading, up, scale, .. } = self.turtle.state;
+                let stance = Stance { direction: heading.as_vec3(), normal: up.as_vec3() };
+                pen.organ(kind, &stance, parameters.first().map(|length| length * times * scale))?;
+            }
             Action::DrawInPieces => {
                 let (length, piece) = (parameters[0], parameters[1]);
                 // As many pieces as any wood may have.
@@ -266,8 +323,14 @@ impl Reading {
     ) -> Result<(), Stop> {
         match self.turtle.act(action, parameters) {
             Moved::No => Ok(()),
-            Moved::Drew if self.polygons == 0 => pen.draw(&self.turtle.state, tag),
-            Moved::Drew | Moved::Jumped => pen.jump(&self.turtle.state),
+            Moved::Drew if self.surface.is_none() => pen.draw(&self.turtle.state, tag),
+            Moved::Drew | Moved::Jumped => {
+                let place = self.turtle.state.place;
+                if let Some(surface) = &mut self.surface {
+                    surface.reach(place);
+                }
+                pen.jump(&self.turtle.state)
+            }
         }
     }
 

@@ -7,7 +7,7 @@ use crate::{
     expression::Expr,
     grammar::{Ahead, Grammar, Module, Rule},
     program::{ANGLE, Program},
-    symbols::{Action, Symbol, turtle},
+    symbols::{Action, Symbol, is_surface, turtle},
     wording,
 };
 
@@ -95,7 +95,7 @@ fn modules(grammar: &Grammar, report: &mut Report) {
     for module in written(grammar) {
         let name = grammar.symbols.name(module.symbol);
         let row = turtle(module.symbol);
-        let is_known = row.is_some() || name.starts_with('~');
+        let is_known = row.is_some() || is_surface(name);
         let is_used = rewritten.contains(&module.symbol) || in_contexts.contains(&module.symbol);
         let count = module.arguments.len();
         if rewritten.contains(&module.symbol)
@@ -112,7 +112,7 @@ fn modules(grammar: &Grammar, report: &mut Report) {
         let wording = match row.map(|row| row.action) {
             Some(Action::Ignored(wording)) => wording,
             Some(_) => continue,
-            None if name.starts_with('~') => wording::NOT_DRAWN_SURFACE,
+            None if is_surface(name) => wording::SURFACE_AS_LEAF,
             None if name == "T" => wording::OLD_ELASTICITY,
             None => wording::DOES_NOTHING,
         };

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use espalier_plant::OrganKind;
+
 use crate::wording::{self, Wording};
 
 /// What the turtle does with a module.
@@ -29,6 +31,9 @@ pub(crate) enum Action {
     SetElasticity,
     BeginPolygon,
     EndPolygon,
+    Vertex,
+    /// An organ, as long as its parameter says times so much.
+    Organ(OrganKind, f64),
     AskPlace,
     AskHeading,
     AskUp,
@@ -107,8 +112,18 @@ pub(crate) const TURTLE: &[TurtleSymbol] = &[
     row("@Ts", Action::SetElasticity, 1),
     // A surface begins: no wood grows until it ends.
     row("{", Action::BeginPolygon, 0),
-    // The surface ends.
+    // The surface ends, and is a leaf as long as its farthest vertex is away.
     row("}", Action::EndPolygon, 0),
+    // A vertex of a surface.
+    row(".", Action::Vertex, 0),
+    // A leaf, as long as its parameter says, else as the look of the plant says.
+    row("~l", Action::Organ(OrganKind::Leaf, 1.0), 0),
+    // A flower.
+    row("~f", Action::Organ(OrganKind::Flower, 1.0), 0),
+    // A fruit.
+    row("~k", Action::Organ(OrganKind::Fruit, 1.0), 0),
+    // A sphere of a radius, which is a fruit.
+    row("@O", Action::Organ(OrganKind::Fruit, 2.0), 0),
     // Is given the turtle's place.
     row("?P", Action::AskPlace, 3),
     // Is given the turtle's heading.
@@ -119,11 +134,9 @@ pub(crate) const TURTLE: &[TurtleSymbol] = &[
     row("?L", Action::AskLeft, 3),
     // Is given the light at the turtle's place, 0 to 1.
     row("?E", Action::AskLight, 1),
-    row(".", Action::Ignored(wording::NOT_DRAWN_VERTEX), 0),
     row(";", Action::Ignored(wording::NOT_DRAWN_COLOUR), 0),
     row(",", Action::Ignored(wording::NOT_DRAWN_COLOUR), 0),
     row("'", Action::Ignored(wording::NOT_DRAWN_COLOUR), 0),
-    row("@O", Action::Ignored(wording::NOT_DRAWN_SOLID), 0),
     row("@o", Action::Ignored(wording::NOT_DRAWN_SOLID), 0),
     row("@B", Action::Ignored(wording::NOT_DRAWN_SOLID), 0),
     row("@b", Action::Ignored(wording::NOT_DRAWN_SOLID), 0),
@@ -215,6 +228,14 @@ impl Symbols {
     pub fn number(&self, name: &str) -> Option<Symbol> {
         self.numbers.get(name).copied()
     }
+}
+
+/// What a surface from a file stands for: any name behind `~` that the turtle does not know.
+pub(crate) const SURFACE: Action = Action::Organ(OrganKind::Leaf, 1.0);
+
+/// Whether a name is that of a surface.
+pub(crate) fn is_surface(name: &str) -> bool {
+    name.starts_with('~')
 }
 
 /// What the turtle does with a symbol.

@@ -1,6 +1,9 @@
 //! Words as wood: what the turtle draws becomes nodes and axes, and what goes on growing becomes buds.
 
-use espalier_plant::{DormantBuds, KeyTable, Wood, WoodAxis, WoodNode, wood::SHORTEST};
+use espalier_plant::{
+    DormantBuds, KeyTable, Organ, OrganKind, Organs, Stance, Wood, WoodAxis, WoodNode, organs::MOST_ORGANS,
+    wood::SHORTEST,
+};
 use glam::{DVec3, Vec3};
 
 use crate::{
@@ -51,6 +54,8 @@ pub struct Drawn {
     pub lines: usize,
     /// Lines that were too short to be nodes, and were joined with what follows.
     pub joined: usize,
+    /// Organs that stand on no wood, or where there are as many as can be.
+    pub unborne: usize,
     /// What drawing has cost, as [`Drawing::work`] says.
     pub read: u64,
 }
@@ -228,6 +233,9 @@ struct Carpenter {
     growing: usize,
     lines: usize,
     joined: usize,
+    /// Organs and the nodes that bear them, if the grammar says where they are.
+    organs: Option<Vec<(u32, Organ)>>,
+    unborne: usize,
 }
 
 impl Carpenter {
@@ -248,6 +256,8 @@ impl Carpenter {
             growing: 0,
             lines: 0,
             joined: 0,
+            organs: program.has_organs.then(Vec::new),
+            unborne: 0,
         }
     }
 
@@ -371,10 +381,29 @@ impl Carpenter {
         self.date();
         self.sort();
         let buds = if self.buds == Buds::Grammar { DormantBuds::Known } else { DormantBuds::Everywhere };
-        let wood = Wood { nodes: self.nodes, axes: self.axes, buds, ..Wood::default() };
+        let organs = self.organs.take().map(|organs| self.borne(organs)).unwrap_or_default();
+        let wood = Wood { nodes: self.nodes, axes: self.axes, buds, organs, ..Wood::default() };
         let modules = self.modules.unwrap_or_default();
-        let (lines, joined) = (self.lines, self.joined);
-        Drawn { wood, keys: self.keys, growing: self.growing, modules, lines, joined, read: 0 }
+        let (lines, joined, unborne) = (self.lines, self.joined, self.unborne);
+        Drawn { wood, keys: self.keys, growing: self.growing, modules, lines, joined, unborne, read: 0 }
+    }
+
+    /// The organs of every node but seeds, those included that bear none.
+    fn borne(&mut self, mut organs: Vec<(u32, Organ)>) -> Vec<(u32, Organs)> {
+        organs.sort_by_key(|&(node, _)| node);
+        let none = Organs::from([]);
+        let mut rest = organs.as_slice();
+        let bearers = (0u32..).zip(&self.nodes).filter(|(_, node)| node.parent.is_some());
+        let borne = |(node, _): (u32, &WoodNode)| {
+            let own = rest.partition_point(|&(bearer, _)| bearer <= node);
+            let (own, behind) = rest.split_at(own);
+            rest = behind;
+            let kept = own.len().min(MOST_ORGANS);
+            self.unborne += own.len() - kept;
+            let organs = if kept == 0 { none.clone() } else { own[..kept].iter().map(|row| row.1).collect() };
+            (node, organs)
+        };
+        bearers.map(borne).collect()
     }
 
     /// The thinnest wood is as thick as a twig.
@@ -424,6 +453,9 @@ impl Carpenter {
         for axis in &mut self.axes {
             axis.bearer = axis.bearer.map(moved);
         }
+        for (bearer, _) in self.organs.iter_mut().flatten() {
+            *bearer = moved(*bearer);
+        }
     }
 }
 
@@ -468,5 +500,20 @@ impl Pen for Carpenter {
 
     fn cut(&mut self) {
         self.level.is_cut = true;
+    }
+
+    fn organ(&mut self, kind: OrganKind, stance: &Stance, length: Option<f64>) -> Result<(), Stop> {
+        self.fix(LEAST)?;
+        let heading = self.level.node.and_then(|node| {
+            let WoodNode { parent, end, .. } = self.nodes[node as usize];
+            Some((node, (end - self.nodes[parent? as usize].end).try_normalize()?))
+        });
+        let (Some((node, heading)), Some(organs)) = (heading, &mut self.organs) else {
+            self.unborne += 1;
+            return Ok(());
+        };
+        let length = length.filter(|length| *length > 0.0).map(|length| length as f32);
+        organs.push((node, Organ::new(kind, heading, stance, length)));
+        Ok(())
     }
 }

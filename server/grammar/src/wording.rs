@@ -254,10 +254,14 @@ wordings! {
     TINY_PIECES: "tiny-pieces", "at depth {depth} {count} of {all} lines are shorter than a quarter of an internode, and are joined with what follows"
         => "write scale: {scale}";
 
-    NOT_DRAWN_SURFACE: "not-drawn.surface", "`{name}` is a surface: leaves stand where Appearance puts them";
-    NOT_DRAWN_VERTEX: "not-drawn.vertex", "`{name}` is a vertex of a surface: draws no wood";
+    LOST_ORGANS: "lost-organs", "at depth {depth} {count} leaves, flowers or fruits stand on no wood, or are more than {most} at one place: they are not drawn"
+        => "draw wood before them";
+
+    NOT_DRAWN_SURFACE: "not-drawn.surface", "`{name}` is a curved surface: is not drawn" => "write ~l for a leaf";
+    SURFACE_AS_LEAF: "surface-as-leaf", "`{name}` is a surface of a file that is not here: a leaf stands for it"
+        => "write ~f for a flower, ~k for a fruit";
     NOT_DRAWN_COLOUR: "not-drawn.colour", "`{name}` is another colour: wood has the colour of its bark";
-    NOT_DRAWN_SOLID: "not-drawn.solid", "`{name}` is a sphere, circle or box: draws no wood";
+    NOT_DRAWN_SOLID: "not-drawn.solid", "`{name}` is a circle or box: is not drawn";
     NOT_DRAWN_CYLINDER: "not-drawn.cylinder", "`{name}` shapes a cylinder: all wood is one skin";
     NOT_DRAWN_CONTOUR: "not-drawn.contour", "`{name}` is a contour: wood is round";
     NOT_DRAWN_LABEL: "not-drawn.label", "`{name}` is a label: is not drawn";

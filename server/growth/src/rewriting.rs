@@ -394,10 +394,12 @@ impl<'a> Writer<'a> {
     fn bear(&mut self, step: &mut Recording<'_>) -> Result<(), EditError> {
         let wood = self.wood();
         let mut axes: Vec<Option<AxisId>> = vec![None; wood.axes.len()];
-        let mut radii = Vec::new();
+        let (mut radii, mut organs) = (Vec::new(), Vec::new());
+        let mut borne = wood.organs.iter().peekable();
         // Where the axes that nodes bear begin among all of them, and room for the directions of those of one.
         let (mut from, mut directions) = (0, Vec::new());
         for (number, node) in wood.nodes.iter().enumerate() {
+            let bears = borne.next_if(|(node, _)| *node as usize == number).map(|(_, organs)| organs);
             match self.fates[number] {
                 Fate::Stays(row) => self.rows[number] = Some(row),
                 Fate::Lost => continue,
@@ -424,12 +426,18 @@ impl<'a> Writer<'a> {
                 }
             }
             let plant = step.scene().plant();
-            let given = self.rows[number]
-                .filter(|&row| !plant.is_seed(row) && plant.given_radius(row) != node.radius);
-            radii.extend(given.map(|row| (row, node.radius)));
+            let Some(row) = self.rows[number].filter(|&row| !plant.is_seed(row)) else { continue };
+            if plant.given_radius(row) != node.radius {
+                radii.push((row, node.radius));
+            }
+            if plant.given_organs(row) != bears {
+                organs.push((row, bears.cloned()));
+            }
         }
         radii.sort_unstable_by_key(|&(row, _)| row);
         step.give_radii(&radii)?;
+        organs.sort_unstable_by_key(|&(row, _)| row);
+        step.give_organs(&organs)?;
         Ok(())
     }
 

@@ -3,6 +3,7 @@
 
 use espalier_plant::{
     AxisId, BrokenPlant, DormantBuds, Edit, Given, GivenRadii, Internode, MetamerId, Plant, PlantParts, Wood,
+    given::GivenColumn,
 };
 use glam::Vec3;
 
@@ -112,6 +113,10 @@ fn set(step: &mut Recording<'_>, parts: &PlantParts) -> Result<(), EditError> {
     let radii: Vec<_> =
         given.map(|&(row, radius)| (MetamerId::new(first + row as usize), Some(radius))).collect();
     step.give_radii(&radii)?;
+    let organs = parts.given_organs.iter();
+    let organs: Vec<_> =
+        organs.map(|(row, organs)| (MetamerId::new(first + *row as usize), Some(organs.clone()))).collect();
+    step.give_organs(&organs)?;
     Ok(())
 }
 
@@ -145,6 +150,9 @@ fn check(wood: &Wood) -> Result<(), BrokenPlant> {
     let is_there = |row: u32| wood.nodes.get(row as usize).is_some_and(|node| node.parent.is_some());
     if !wood.scars.is_sorted_by(|a, b| a.0 < b.0) || !wood.scars.iter().all(|&(row, _)| is_there(row)) {
         return broken("what was shed stood on nothing");
+    }
+    if !wood.organs.is_sorted_by(|a, b| a.0 < b.0) || !wood.organs.iter().all(|&(row, _)| is_there(row)) {
+        return broken("organs are borne by nothing");
     }
     Ok(())
 }
@@ -315,6 +323,7 @@ impl Rooting<'_> {
         let radius = |row: usize| nodes[row].parent.and(nodes[row].radius);
         let mut wanted = widths.iter().peekable();
         let mut shed = scars.iter().peekable();
+        let mut organs = self.wood.organs.iter().map(|&(row, _)| row).peekable();
         let mut from = 0;
         for end in &mut self.parts.ends {
             let born = from..end[0] as usize;
@@ -322,9 +331,16 @@ impl Rooting<'_> {
             let rows: Vec<usize> = born.filter(|&row| radius(row).is_some()).collect();
             if !rows.is_empty() {
                 // What an edit keeps is what was before it.
-                let radii = GivenRadii(vec![GivenRadii::NONE; rows.len()]);
+                let radii = GivenColumn(vec![GivenRadii::NONE; rows.len()]);
                 let metamers = rows.iter().map(|&row| MetamerId::new(row)).collect();
-                self.parts.edits.push(Edit::Given(Box::new(Given { metamers, radii })));
+                self.parts.edits.push(Edit::Given(Box::new(Given { metamers, values: radii })));
+            }
+            let bearers: Vec<_> =
+                std::iter::from_fn(|| organs.next_if(|&row| (row as usize) < from)).collect();
+            if !bearers.is_empty() {
+                let values = GivenColumn(vec![None; bearers.len()]);
+                let metamers = bearers.iter().map(|&row| MetamerId::new(row as usize)).collect();
+                self.parts.edits.push(Edit::Borne(Box::new(Given { metamers, values })));
             }
             while let Some((row, _)) = wanted.next_if(|(row, _)| (*row as usize) < from) {
                 self.parts.edits.push(Edit::Width(MetamerId::new(*row as usize), None));
@@ -336,6 +352,7 @@ impl Rooting<'_> {
         }
         self.parts.given_radii =
             (0..nodes.len()).filter_map(|row| Some((row as u32, radius(row)?))).collect();
+        self.parts.given_organs.clone_from(&self.wood.organs);
         self.parts.widths.clone_from(widths);
         self.parts.now = self.parts.ends.len() as u32 - 1;
     }

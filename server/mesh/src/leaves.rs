@@ -1,8 +1,8 @@
-//! Where leaves are: rules LF1 to LF4 of the protocol, by which clients place them too.
+//! Where leaves are: rules LF1 to LF5 of the protocol, by which clients place them too.
 
 use std::f64::consts::TAU;
 
-use espalier_plant::{MetamerId, Plant};
+use espalier_plant::{MetamerId, Organ, OrganKind, Plant, Stance};
 use glam::Vec3;
 
 use crate::{foliage, style::Style};
@@ -28,11 +28,51 @@ pub struct Leaf {
 }
 
 /// The leaves that a metamer bears in the present.
-pub fn of(plant: &Plant, id: MetamerId, style: &Style) -> impl Iterator<Item = Leaf> + use<> {
-    let count = foliage::leaves(plant, id, style);
+pub fn of(plant: &Plant, id: MetamerId, style: &Style) -> impl Iterator<Item = Leaf> {
     let to = plant.metamers().end(id);
     let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
-    on_metamer(id.raw(), 0, from, to, count, style.options().leaf_size)
+    of_between(plant, id, style, [from, to])
+}
+
+/// The same, where the metamer is drawn between other places.
+pub fn of_between<'a>(
+    plant: &'a Plant,
+    id: MetamerId,
+    style: &Style,
+    [from, to]: [Vec3; 2],
+) -> impl Iterator<Item = Leaf> + use<'a> {
+    let size = style.options().leaf_size;
+    let organs = plant.given_organs(id).filter(|_| plant.is_alive(id));
+    let given = organs.into_iter().flat_map(move |organs| {
+        let leaves = organs.iter().filter(|organ| organ.kind == OrganKind::Leaf);
+        given_on_metamer(id.raw(), 0, from, to, leaves, size)
+    });
+    let count = if organs.is_some() { 0 } else { foliage::leaves(plant, id, style) };
+    on_metamer(id.raw(), 0, from, to, count, size).chain(given)
+}
+
+/// Organs of one kind that the metamer in `row`, which runs from `from` to `to`, is given (LF5); none on one without
+/// length. Those without a length of their own are as long as by LF2.
+pub fn given_on_metamer<'a>(
+    row: u32,
+    salt: u32,
+    from: Vec3,
+    to: Vec3,
+    organs: impl Iterator<Item = &'a Organ>,
+    size: f32,
+) -> impl Iterator<Item = Leaf> {
+    let heading = (to - from).try_normalize();
+    (0..).zip(organs).filter_map(move |(k, organ)| {
+        let Stance { direction, normal } = organ.stance(heading?);
+        let random = own_number(row, salt, k);
+        let size = organ.length().unwrap_or(size * (0.75 + 0.5 * random));
+        Some(Leaf { base: to, direction, normal, size, random })
+    })
+}
+
+/// The number of its own of something that a row bears, 0 to 1.
+fn own_number(row: u32, salt: u32, k: u32) -> f32 {
+    hash((row ^ salt).wrapping_mul(16).wrapping_add(k)) as f32 / (1u64 << 32) as f32
 }
 
 /// The leaves of the metamer in `row`, which runs from `from` to `to`; none on one without length. A `salt` other
@@ -57,8 +97,7 @@ pub fn on_metamer(
             GOLDEN_ANGLE * f64::from(row) + f64::from(salt % 7) + TAU * f64::from(k) / f64::from(count);
         let (cos, sin) = (libm::cos(azimuth) as f32, libm::sin(azimuth) as f32);
         let direction = (0.5 * heading + 0.866 * (cos * u + sin * w) - 0.15 * Vec3::Y).normalize();
-        let random =
-            hash((row ^ salt).wrapping_mul(16).wrapping_add(u32::from(k))) as f32 / (1u64 << 32) as f32;
+        let random = own_number(row, salt, u32::from(k));
         // LF4
         let up = if direction.y.abs() > PARALLEL { heading } else { Vec3::Y };
         Leaf {
@@ -126,6 +165,39 @@ mod tests {
             fs::write(&file, placed()).expect("the leaves can be written");
         }
         assert!(fs::read_to_string(&file).is_ok_and(|stored| stored == placed()), "leaves differ");
+    }
+
+    /// Organs on many headings as JSON, one on each line.
+    fn given() -> String {
+        let headings =
+            [[0.0, 1.0, 0.0], [0.6, 0.8, 0.0], [-0.7, -0.1, 0.5], [0.05, -0.9, 0.02], [0.0, -1.3, 0.0]];
+        let mut lines = Vec::new();
+        for (i, number) in (0u32..24).map(|i| (i, i.wrapping_mul(0x9e37_79b9) & 0x3fff_ffff)) {
+            let (from, to) = (Vec3::Z, Vec3::Z + Vec3::from_array(headings[i as usize % headings.len()]));
+            let organ = Organ::from_number(number).expect("a leaf");
+            for leaf in given_on_metamer(7, 0, from, to, [organ].iter(), 1.0) {
+                let [from, to, direction, normal] =
+                    [from, to, leaf.direction, leaf.normal].map(|place| place.to_array());
+                assert_eq!(leaf.base.to_array(), to, "organs stand at the end");
+                let length = organ.length().unwrap_or_default();
+                lines.push(format!(
+                    r#"{{"organ":{number},"from":{from:?},"to":{to:?},"direction":{direction:?},"normal":{normal:?},"length":{length:?}}}"#
+                ));
+            }
+        }
+        format!("[\n{}\n]\n", lines.join(",\n"))
+    }
+
+    /// Clients place organs by themselves: both must place those in `golden/organs.json`.
+    ///
+    /// After a deliberate change: `UPDATE_GOLDEN=1 cargo test -p espalier-mesh leaves`.
+    #[test]
+    fn lf5_organs_stand_as_they_were_written_down() {
+        let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden/organs.json");
+        if std::env::var_os("UPDATE_GOLDEN").is_some() {
+            fs::write(&file, given()).expect("the organs can be written");
+        }
+        assert!(fs::read_to_string(&file).is_ok_and(|stored| stored == given()), "organs differ");
     }
 
     /// Numbers from a separate calculation in 64 bits.

@@ -12,7 +12,7 @@ mod detail;
 
 use std::ops::Range;
 
-use espalier_plant::{AxisId, Columns, Condition, MetamerId, Plant, Widths, reserve};
+use espalier_plant::{AxisId, Columns, Condition, GivenOrgans, MetamerId, Organs, Plant, Widths, reserve};
 use glam::Vec3;
 
 pub use self::{
@@ -48,6 +48,8 @@ pub struct RingTable {
     looks: Vec<Condition>,
     /// Codes of radii as they were sent, if width constraints held; empty otherwise.
     radii: Vec<u16>,
+    /// Organs given as they were sent.
+    organs: GivenOrgans,
     /// For each number of steps of growth, how many rows had been born by then.
     births: Vec<u32>,
     /// What tips look like.
@@ -104,7 +106,17 @@ impl RingTable {
 
     /// Leaves in the low four bits, vigor in the high four.
     pub fn foliage(&self, row: u32) -> u8 {
-        self.looks[row as usize].vigor | leaves(self.tips[row as usize], &self.style)
+        let row = row as usize;
+        self.looks[row].vigor | leaves(self.tips[row], self.organs_of(row), &self.style)
+    }
+
+    /// The organs that a row is given; none where it bears what grows on such wood.
+    pub fn organs(&self, row: u32) -> Option<&Organs> {
+        self.organs_of(row as usize)
+    }
+
+    fn organs_of(&self, row: usize) -> Option<&Organs> {
+        self.organs.of(row)?.as_ref()
     }
 
     /// Exposure to light, 0 to 255.
@@ -138,6 +150,7 @@ impl RingTable {
             former: former.as_ref(),
             detail,
             radii: Vec::new(),
+            bears: !(plant.organs().is_empty() && self.organs.is_empty()),
             renumbered: false,
             changes: Changes::default(),
         };
@@ -222,6 +235,9 @@ impl RingTable {
             if pass.detail == Detail::Coarse {
                 self.keep_what_differs_little(pass, rows.start, &mut differing);
             }
+            if pass.bears {
+                self.mark_other_organs(pass, rows.start, &mut differing[..rows.len()]);
+            }
             self.update_drawing(pass, rows.start, marked(&differing))
         } else {
             self.update_drawing(pass, rows.start, 0..rows.len())
@@ -293,9 +309,17 @@ impl RingTable {
                 || look.vigor.abs_diff(held.vigor) >= vigor_step;
             let is_as_drawn = (held_tips == NO_TIPS) == (tips == NO_TIPS);
             let widths = radius(held_tips, pass.style).abs_diff(radius(tips, pass.style));
-            let as_leafy = leaves(held_tips, pass.style) == leaves(tips, pass.style);
+            let organs = self.organs_of(row);
+            let as_leafy = leaves(held_tips, organs, pass.style) == leaves(tips, organs, pass.style);
             *differs =
                 u8::from(looks_otherwise || !is_as_drawn || widths >= detail::COARSE_RADIUS || !as_leafy);
+        }
+    }
+
+    /// Marks rows that are given other organs.
+    fn mark_other_organs(&self, pass: &Pass<'_>, first: usize, differing: &mut [u8]) {
+        for (row, differs) in (first..).zip(differing) {
+            *differs |= u8::from(self.organs_of(row) != pass.organs(row));
         }
     }
 
@@ -315,7 +339,14 @@ impl RingTable {
             let held = self.looks[row];
             // What is not drawn keeps its looks: a change would only cost bytes.
             let look = if tips == NO_TIPS { held } else { seen(pass.all.condition[row]) };
-            let (held_leaves, leaves) = (leaves(held_tips, former), leaves(tips, style));
+            let organs = pass.organs(row);
+            let held_leaves = leaves(held_tips, self.organs_of(row), former);
+            let leaves = leaves(tips, organs, style);
+            if pass.bears && self.organs_of(row) != organs {
+                self.organs.replace(row, organs.cloned());
+                pass.changes.organs.push(row as u32);
+                changes = true;
+            }
             let is_as_wide = match pass.radii.get(row) {
                 Some(&code) => self.radii[row] == code,
                 None => radius(held_tips, former) == radius(tips, style),
@@ -337,7 +368,8 @@ impl RingTable {
     }
 
     fn truncate(&mut self, kept: usize, sent_style: &Style, generation: u32) {
-        self.leaves -= all_leaves(&self.tips[kept..], sent_style);
+        self.leaves -= self.all_leaves(kept..self.rows(), sent_style);
+        self.organs.truncate(kept);
         self.links.truncate(kept);
         self.axes.truncate(kept);
         self.ends.truncate(kept);
@@ -362,11 +394,20 @@ impl RingTable {
         self.ends.extend_from_slice(new.end);
         self.tips.extend(rows.clone().map(|row| pass.tips(row)));
         self.looks.extend(new.condition.iter().copied().map(seen));
-        self.leaves += all_leaves(&self.tips[rows.clone()], pass.style);
+        if pass.bears {
+            for row in rows.clone() {
+                self.organs.replace(row, pass.organs(row).cloned());
+            }
+        }
+        self.leaves += self.all_leaves(rows.clone(), pass.style);
         if !rows.is_empty() {
             self.generations.truncate(rows.start / CHUNK_ROWS);
             self.generations.resize(rows.end.div_ceil(CHUNK_ROWS), generation);
         }
+    }
+
+    fn all_leaves(&self, rows: Range<usize>, style: &Style) -> u32 {
+        rows.map(|row| u32::from(leaves(self.tips[row], self.organs_of(row), style))).sum()
     }
 }
 
@@ -381,6 +422,8 @@ struct Pass<'a> {
     radii: Vec<u16>,
     /// How much is shown.
     detail: Detail,
+    /// Whether any row is given organs, or was.
+    bears: bool,
     /// Whether rows that stayed as they were have other axes by number.
     renumbered: bool,
     changes: Changes,
@@ -401,6 +444,10 @@ impl Pass<'_> {
         let Columns { parent, tips, .. } = self.all;
         let is_drawn = parent[row] != Columns::NO_PARENT && self.all.lives(row, self.plant.step());
         if is_drawn { tips[row] } else { NO_TIPS }
+    }
+
+    fn organs(&self, row: usize) -> Option<&Organs> {
+        if self.bears { self.plant.organs().of(row)?.as_ref() } else { None }
     }
 
     fn radii(&self, widths: &Widths<'_>) -> Vec<u16> {
@@ -429,12 +476,8 @@ fn radius(tips: u32, style: &Style) -> u16 {
     if tips == NO_TIPS { NOT_DRAWN } else { style.radius_code(tips) }
 }
 
-fn leaves(tips: u32, style: &Style) -> u8 {
-    if tips == NO_TIPS { 0 } else { foliage::leaves_of_living(tips, style) }
-}
-
-fn all_leaves(tips: &[u32], style: &Style) -> u32 {
-    tips.iter().map(|&tips| u32::from(leaves(tips, style))).sum()
+fn leaves(tips: u32, organs: Option<&Organs>, style: &Style) -> u8 {
+    if tips == NO_TIPS { 0 } else { foliage::leaves_of_living(tips, organs, style) }
 }
 
 fn quantised(place: Vec3) -> [i32; 3] {

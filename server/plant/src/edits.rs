@@ -8,10 +8,11 @@ use std::mem;
 use glam::Vec3;
 
 use crate::{
-    given_radius::Given,
+    given::Given,
     id::{AxisId, MetamerId},
     metamers::Row,
     motion::Motion,
+    organs::Organs,
     plant::Plant,
     resettled::Resettled,
 };
@@ -36,6 +37,8 @@ pub enum Edit {
     Width(MetamerId, Option<f32>),
     /// Radii were given or taken away.
     Given(Box<Given>),
+    /// Organs were given or taken away.
+    Borne(Box<Given<Option<Organs>>>),
     /// Wood fell and rose: which of it stands was settled anew.
     Resettled(Box<Resettled>),
 }
@@ -258,7 +261,7 @@ impl Plant {
         let copy_of = |id: MetamerId| rows.binary_search(&id).ok().map(|at| MetamerId::new(first_row + at));
         let copy_of_axis =
             |id: AxisId| axes.binary_search(&id).map_or(root, |at| AxisId::new(root.index() + 1 + at));
-        let mut radii = Vec::new();
+        let (mut radii, mut organs) = (Vec::new(), Vec::new());
         for &row in &rows {
             let parent = self.metamers.parent(row).and_then(copy_of).unwrap_or(onto);
             let lateral = self.metamers.lateral[row.index()];
@@ -277,6 +280,9 @@ impl Plant {
             }
             if let Some(radius) = self.given_radius(row) {
                 radii.push((id, Some(radius)));
+            }
+            if let Some(borne) = self.given_organs(row) {
+                organs.push((id, Some(borne.clone())));
             }
         }
         for &axis in &axes {
@@ -299,6 +305,7 @@ impl Plant {
         }
         // They are those of living wood, so none is refused.
         let _given = self.give_radii(&radii);
+        let _borne = self.give_organs(&organs);
         for (at, shed) in self.tips_of_shed(&rows).into_iter().enumerate().filter(|&(_, shed)| shed > 0) {
             self.timeline.edits.push(Edit::Scarred(MetamerId::new(first_row + at), shed));
         }

@@ -9,7 +9,7 @@ use crate::{
     chains::check_chains,
     deaths::Deaths,
     edits::Edit,
-    given_radius::GivenRadii,
+    given::{GivenOrgans, GivenRadii},
     id::{AxisId, MetamerId},
     metamers::{Condition, Metamers},
     parts::{BrokenPlant, from_ends, id_of, to_ends},
@@ -92,6 +92,11 @@ pub struct FutureParts {
 }
 
 impl Future {
+    /// What was done to wood in it, in order.
+    pub fn edits(&self) -> &[Edit] {
+        &self.edits
+    }
+
     /// Takes a copy apart.
     pub fn to_parts(&self) -> FutureParts {
         let (m, a) = (&self.metamers, &self.axes);
@@ -141,6 +146,7 @@ impl Future {
                 condition: vec![Condition::NEW; metamers],
                 lateral: parts.lateral.into_iter().map(axis).collect(),
                 given_radius: GivenRadii::default(),
+                given_organs: GivenOrgans::default(),
             },
             axes: Axes {
                 bearer: parts.bearer.into_iter().map(metamer).collect(),

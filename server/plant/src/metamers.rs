@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::{
     capacity::reserve,
     deaths::Deaths,
-    given_radius::GivenRadii,
+    given::{GivenOrgans, GivenRadii},
     id::{AxisId, MetamerId},
 };
 
@@ -37,6 +37,8 @@ pub struct Metamers {
     pub(crate) lateral: Vec<AxisId>,
     /// Only rows of the present have any: edits keep those of futures.
     pub(crate) given_radius: GivenRadii,
+    /// The same.
+    pub(crate) given_organs: GivenOrgans,
 }
 
 /// One row of [`Metamers`], to append.
@@ -89,6 +91,7 @@ impl Metamers {
             condition: self.condition.split_off(at),
             lateral: self.lateral.split_off(at),
             given_radius: GivenRadii::default(),
+            given_organs: GivenOrgans::default(),
         }
     }
 

@@ -11,9 +11,10 @@ use crate::{
     checks,
     deaths::Deaths,
     edits::Edit,
-    given_radius::{GivenRadii, is_radius},
+    given::{GivenColumn, GivenValue, is_radius},
     id::{AxisId, MetamerId},
     metamers::{Condition, Metamers},
+    organs::Organs,
     plant::Plant,
     timeline::{StepEnd, Timeline},
 };
@@ -31,6 +32,8 @@ pub struct PlantParts {
     pub widths: Vec<(u32, f32)>,
     /// Radii given in the present, those of dead metamers included: rows in birth order, and radii.
     pub given_radii: Vec<(u32, f32)>,
+    /// Organs given in the present, those of dead metamers included: rows in birth order, and organs.
+    pub given_organs: Vec<(u32, Organs)>,
     /// Each metamer's parent.
     pub parent: Vec<u32>,
     /// Each metamer's axis.
@@ -63,7 +66,10 @@ impl Plant {
             edits: self.timeline.edits.clone(),
             widths: self.widths.iter().map(|(id, &diameter)| (id.raw(), diameter)).collect(),
             given_radii: (self.metamers.given_radius.rows())
-                .map(|(row, radius)| (row as u32, radius))
+                .map(|(row, &radius)| (row as u32, radius))
+                .collect(),
+            given_organs: (self.metamers.given_organs.rows())
+                .filter_map(|(row, organs)| Some((row as u32, organs.clone()?)))
                 .collect(),
             parent: self.metamers.parent.iter().map(|id| id.raw()).collect(),
             axis: self.metamers.axis.iter().map(|id| id.raw()).collect(),
@@ -95,7 +101,10 @@ impl Plant {
                 tips: vec![0; metamers],
                 condition: vec![Condition::NEW; metamers],
                 lateral,
-                given_radius: GivenRadii::from_rows(&parts.given_radii),
+                given_radius: GivenColumn::from_rows(parts.given_radii),
+                given_organs: GivenColumn::from_rows(
+                    parts.given_organs.into_iter().map(|(row, organs)| (row, Some(organs))),
+                ),
             },
             axes: Axes {
                 bearer: parts.bearer.iter().map(|&raw| id_of(raw, MetamerId::NONE, MetamerId::new)).collect(),
@@ -183,6 +192,12 @@ fn check_shape(parts: &PlantParts) -> Result<Vec<AxisId>, BrokenPlant> {
     if !parts.given_radii.is_sorted_by(|a, b| a.0 < b.0) || !parts.given_radii.iter().all(is_held) {
         return broken("a radius is given to nothing");
     }
+    let bears = |(row, organs): &(u32, Organs)| {
+        *row < parts.ends[parts.now as usize][0] && Some(organs.clone()).is_sound()
+    };
+    if !parts.given_organs.is_sorted_by(|a, b| a.0 < b.0) || !parts.given_organs.iter().all(bears) {
+        return broken("organs are given to nothing");
+    }
     let ends: Vec<[u32; 4]> = std::iter::once([0; 4]).chain(parts.ends.iter().copied()).collect();
     let births = Births {
         ends: &ends,
@@ -219,6 +234,7 @@ pub(crate) fn check_edit(
         Edit::Scarred(id, _) => (before[0]..end[0]).contains(&id.raw()),
         Edit::Width(id, diameter) => id.raw() < end[0] && diameter.is_none_or(is_radius),
         Edit::Given(given) => given.is_sound(end[0]),
+        Edit::Borne(given) => given.is_sound(end[0]),
         Edit::Resettled(resettled) => {
             let is_alone = [end[0], end[1], end[2]] == [before[0], before[1], before[2] + 1];
             is_alone && resettled.is_sound([before[0], before[1]], parent, axis)

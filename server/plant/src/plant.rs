@@ -441,6 +441,12 @@ impl Plant {
             // The other way about than a width constraint.
             hash.word(u64::from(radius.to_bits()) | u64::from(id.raw()) << 32);
         }
+        let given = self.metamers.given_organs.rows().map(|(row, organs)| (MetamerId::new(row), organs));
+        for (id, organs) in given.filter(|(id, _)| id.index() < self.metamer_count() && self.is_alive(*id)) {
+            let organs = organs.iter().flat_map(|organs| organs.iter());
+            hash.word(u64::from(id.raw()) | 1 << 63);
+            organs.for_each(|organ| hash.word(u64::from(organ.to_number())));
+        }
         hash.finish()
     }
 }

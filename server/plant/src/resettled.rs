@@ -2,8 +2,9 @@
 
 use crate::{
     edits::Carried,
-    given_radius::{Given, is_radius},
+    given::{Given, is_radius},
     id::{AxisId, MetamerId},
+    organs::Organs,
     parts::BrokenPlant,
     plant::Plant,
     time_travel::Journey,
@@ -26,6 +27,8 @@ pub struct Resettled {
     pub widths: Vec<(MetamerId, Option<f32>)>,
     /// Radii given.
     pub given: Given,
+    /// Organs given.
+    pub organs: Given<Option<Organs>>,
 }
 
 /// Where an axis begins and ends; none while it is a bud.
@@ -42,10 +45,10 @@ pub struct AxisEnds {
 impl Resettled {
     /// Whether nothing changes.
     pub(crate) fn is_empty(&self) -> bool {
-        let Self { metamers, axes, ends, severed, carried, widths, given } = self;
+        let Self { metamers, axes, ends, severed, carried, widths, given, organs } = self;
         let nobody = metamers.is_empty() && axes.is_empty() && ends.is_empty() && severed.is_empty();
         let nothing = carried.metamers.is_empty() && carried.axes.is_empty() && widths.is_empty();
-        nobody && nothing && given.metamers.is_empty()
+        nobody && nothing && given.metamers.is_empty() && organs.metamers.is_empty()
     }
 
     /// Whether everything named is one of the metamers and axes that there are, once and in order, and every number
@@ -76,6 +79,7 @@ impl Resettled {
             && self.widths.is_sorted_by(|a, b| a.0 < b.0)
             && self.widths.iter().all(is_width)
             && self.given.is_sound(metamers)
+            && self.organs.is_sound(metamers)
     }
 
     /// Checks that each axis begins and ends where this edit finds it, and will do so at rows of its own that hang
@@ -156,6 +160,7 @@ impl Plant {
         for (id, diameter) in &mut edit.widths {
             *diameter = self.replace_width(*id, *diameter);
         }
-        self.swap_given(&mut edit.given);
+        self.metamers.given_radius.swap(&mut edit.given);
+        self.metamers.given_organs.swap(&mut edit.organs);
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Nothing is grown again and no row gets another number. Whoever settles says of each step whether it is in force, and
 //! whether a hand drew what was born in it. From that follows which wood stands (`standing`), where (`places`), and
-//! which widths and radii hold (`fields`). The difference to the present is one edit in a step of its own.
+//! which widths, radii and organs hold (`fields`). The difference to the present is one edit in a step of its own.
 
 mod fields;
 mod places;
@@ -143,7 +143,8 @@ impl Plant {
                 edit.ends.push(AxisEnds { axis, before, after });
             }
         }
-        (edit.widths, edit.given) = fields::resettled(self, claims);
+        let fields::Fields { widths, radii, organs } = fields::resettled(self, claims);
+        (edit.widths, edit.given, edit.organs) = (widths, radii, organs);
         edit
     }
 

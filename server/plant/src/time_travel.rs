@@ -71,7 +71,8 @@ impl Plant {
             match edit {
                 Edit::Carried(carried) => self.swap(carried),
                 Edit::Width(id, diameter) => *diameter = self.replace_width(*id, *diameter),
-                Edit::Given(given) => self.swap_given(given),
+                Edit::Given(given) => self.metamers.given_radius.swap(given),
+                Edit::Borne(given) => self.metamers.given_organs.swap(given),
                 Edit::Resettled(resettled) => self.forget(resettled),
                 Edit::Shed(_) | Edit::Pruned(_) | Edit::Grafted(_) | Edit::Scarred(..) => {}
             }
@@ -107,7 +108,7 @@ impl Plant {
         journey.came.extend(lost);
         let mut edits = std::mem::take(&mut self.timeline.edits);
         for edit in edits[range.clone()].iter_mut().rev() {
-            journey.is_edited |= !matches!(edit, Edit::Width(..) | Edit::Given(_));
+            journey.is_edited |= !matches!(edit, Edit::Width(..) | Edit::Given(_) | Edit::Borne(_));
             match edit {
                 Edit::Shed(_) | Edit::Scarred(..) => {}
                 Edit::Pruned(cut) => {
@@ -116,7 +117,9 @@ impl Plant {
                 }
                 Edit::Grafted(axis) => self.ungraft(*axis),
                 Edit::Resettled(resettled) => self.resettled(resettled, now, true, journey),
-                Edit::Carried(_) | Edit::Width(..) | Edit::Given(_) => self.exchange(edit, journey),
+                Edit::Carried(_) | Edit::Width(..) | Edit::Given(_) | Edit::Borne(_) => {
+                    self.exchange(edit, journey);
+                }
             }
         }
         if resettles(&edits[range.clone()]) {
@@ -137,7 +140,7 @@ impl Plant {
         let range = before.edits as usize..end.edits as usize;
         let mut edits = std::mem::take(&mut self.timeline.edits);
         for edit in &mut edits[range.clone()] {
-            journey.is_edited |= !matches!(edit, Edit::Width(..) | Edit::Given(_));
+            journey.is_edited |= !matches!(edit, Edit::Width(..) | Edit::Given(_) | Edit::Borne(_));
             match edit {
                 Edit::Shed(_) | Edit::Scarred(..) => {}
                 Edit::Pruned(cut) => {
@@ -148,7 +151,9 @@ impl Plant {
                     self.grafts.entry(self.axes.bearer[axis.index()]).or_default().push(*axis);
                 }
                 Edit::Resettled(resettled) => self.resettled(resettled, now, false, journey),
-                Edit::Carried(_) | Edit::Width(..) | Edit::Given(_) => self.exchange(edit, journey),
+                Edit::Carried(_) | Edit::Width(..) | Edit::Given(_) | Edit::Borne(_) => {
+                    self.exchange(edit, journey);
+                }
             }
         }
         if resettles(&edits[range.clone()]) {
@@ -173,7 +178,8 @@ impl Plant {
         match edit {
             Edit::Carried(carried) => self.carry_over(carried, journey),
             Edit::Width(id, diameter) => *diameter = self.replace_width(*id, *diameter),
-            Edit::Given(given) => self.swap_given(given),
+            Edit::Given(given) => self.metamers.given_radius.swap(given),
+            Edit::Borne(given) => self.metamers.given_organs.swap(given),
             Edit::Shed(_) | Edit::Pruned(_) | Edit::Grafted(_) | Edit::Scarred(..) | Edit::Resettled(_) => {}
         }
     }

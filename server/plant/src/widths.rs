@@ -6,7 +6,7 @@
 //! it is the parameter. Where there is none between 1 and 8, radii are fitted otherwise (see `fit`), and no
 //! constraint makes wood thinner than what it bears.
 //!
-//! A radius that is [given](crate::given_radius) stays as it is, unless a constraint is on the same metamer. To what
+//! A radius that is [given](crate::given) stays as it is, unless a constraint is on the same metamer. To what
 //! bears such wood it is a leaf, and what grows on it follows from its tips.
 //!
 //! Sums of powers are kept as logarithms of radii: a metamer that bears no constraint has ln r = ln r_e + ln t / n

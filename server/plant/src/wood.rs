@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use crate::organs::Organs;
+
 /// Internodes shorter than this are none.
 pub use crate::edits::SHORTEST;
 
@@ -16,6 +18,8 @@ pub struct Wood {
     pub widths: Vec<(u32, f32)>,
     /// Tips of twigs that were shed, which nodes carry for them: nodes in ascending order, and how many.
     pub scars: Vec<(u32, u32)>,
+    /// Organs that nodes bear in place of those that grow on such wood: nodes in ascending order, seeds left out.
+    pub organs: Vec<(u32, Organs)>,
     /// Which dormant buds there are.
     pub buds: DormantBuds,
 }

@@ -28,6 +28,12 @@ pub(crate) fn crc32(table: &RingTable) -> u32 {
         (first..count.min(first + BATCH)).for_each(|row| append(table, row, &mut bytes));
         hasher.update(&bytes);
     }
+    for row in (0..count).filter(|&row| table.radius(row) != NOT_DRAWN) {
+        let Some(organs) = table.organs(row) else { continue };
+        hasher.update(&row.to_le_bytes());
+        hasher.update(&[organs.len() as u8]);
+        organs.iter().for_each(|organ| hasher.update(&organ.to_number().to_le_bytes()));
+    }
     hasher.finalize()
 }
 

@@ -49,11 +49,11 @@ pub fn check_grammar(wanted: &CheckGrammar) -> Result<GrammarReport, Problem> {
     report.sliders = sliders_of(&grammar);
     if wanted.sizes {
         let seed = wanted.seed.or(program.seed()).unwrap_or(1);
-        let mut measured = Measured { sizes: Vec::new(), tiny: None, cost: 0 };
+        let mut measured = Measured::default();
         let deepest = program.depth().max(DEEPEST);
         let ends = measured.look(&grammar, program, seed, deepest).err();
         report.sizes = measured.sizes;
-        report.diagnostics.extend(measured.tiny.as_ref().map(wire));
+        report.diagnostics.extend(measured.losses.iter().map(wire));
         report.ends = ends.map(|stop| match stop {
             Stop::Modules(_) | Stop::Parameters(_) | Stop::Work(_) | Stop::Nodes(_) => {
                 wire_end(&Stop::Counted)
@@ -65,10 +65,11 @@ pub fn check_grammar(wanted: &CheckGrammar) -> Result<GrammarReport, Problem> {
 }
 
 /// What is found out by deriving a grammar.
+#[derive(Default)]
 struct Measured {
     sizes: Vec<GrammarSize>,
-    /// Whether it is drawn too small at the depth of its text.
-    tiny: Option<Diagnostic>,
+    /// What drawing loses at the depth of its text.
+    losses: Vec<Diagnostic>,
     /// What looking has cost.
     cost: u64,
 }
@@ -94,7 +95,8 @@ impl Measured {
             ended?;
             let drawn = drawing.finish()?;
             if derivation.depth() <= depth {
-                self.tiny = grammar.tiny_pieces(&derivation, &drawn);
+                let tiny = grammar.tiny_pieces(&derivation, &drawn);
+                self.losses = tiny.into_iter().chain(grammar.lost_organs(&derivation, &drawn)).collect();
             }
             let internodes = drawn.wood.nodes.iter().filter(|node| node.parent.is_some()).count();
             let modules = derivation.word().len();
@@ -185,10 +187,10 @@ pub fn grammar_notes(text: &str) -> Vec<Diagnostic> {
         checked.grammar.and_then(|grammar| grammar.program(&[]).ok().map(|program| (grammar, program)))
     {
         let (seed, depth) = (program.seed().unwrap_or(1), program.depth());
-        let mut measured = Measured { sizes: Vec::new(), tiny: None, cost: 0 };
+        let mut measured = Measured::default();
         // Where it ends is told when it is planted.
         let _ended = measured.look(&grammar, program, seed, depth);
-        notes.extend(measured.tiny);
+        notes.extend(measured.losses);
     }
     notes
 }
@@ -211,6 +213,9 @@ mod tests {
         let tiny = checked("axiom: A\nderivation length: 200\nA --> F(0.1)[+(30)F(0.1)F(0.1)]A\n");
         let last = tiny.diagnostics.last().expect("it is told");
         assert_eq!((&*last.code, &*last.values["scale"]), ("tiny-pieces", "10"));
+        let lost = checked("axiom: ~l~fF~k\n");
+        let last = lost.diagnostics.last().expect("it is told");
+        assert_eq!((&*last.code, &*last.values["count"]), ("lost-organs", "2"));
     }
 
     #[test]
@@ -257,7 +262,7 @@ mod tests {
         for text in bombs {
             let grammar = Grammar::read(&text).expect("it is right");
             let program = grammar.program(&[]).expect("no sliders");
-            let mut measured = Measured { sizes: Vec::new(), tiny: None, cost: 0 };
+            let mut measured = Measured::default();
             let deepest = program.depth().max(DEEPEST);
             let ended = measured.look(&grammar, program, 1, deepest);
             let begin: String = text.chars().take(60).collect();

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use espalier_mesh::{Changes, RingTable, StyleOptions, radius_code, ring_table};
+use espalier_plant::organs::MOST_ORGANS;
 use espalier_proto::{
     ChunkChange, DocumentState, Frame, Pause, Resume, Rows, Values,
     frame::{self, CHUNK_ROWS},
@@ -17,6 +18,7 @@ const _: () = assert!(
         && ring_table::POSITION_STEPS == frame::POSITION_STEPS
         && radius_code::MIN_RADIUS == frame::MIN_RADIUS
         && radius_code::LOG_STEP == frame::RADIUS_LOG_STEP
+        && MOST_ORGANS == frame::MOST_ORGANS
 );
 
 /// Rows in a chunk, as row numbers are counted.
@@ -58,11 +60,13 @@ pub fn delta(table: &RingTable, changes: &Changes, epoch: u32, sequence: u32) ->
     patches(&mut list, &changes.light, end, sequence, |rows| {
         Values::Light(rows.iter().map(|&row| table.light(row)).collect())
     });
+    patches(&mut list, &changes.organs, end, sequence, |rows| organs(table, rows));
     let mut next = changes.appended.start;
     while next < changes.appended.end {
         let (chunk, start) = (next / CHUNK, next % CHUNK);
         let until = changes.appended.end.min((chunk + 1) * CHUNK);
         list.push(ChunkChange::Append { chunk, generation: sequence, start, rows: rows(table, next..until) });
+        list.extend(organs_of(table, next..until, sequence));
         next = until;
     }
     Frame { epoch, sequence, catch_up: false, changes: list }
@@ -92,6 +96,7 @@ pub(crate) fn catch_up(table: &RingTable, held: &Held, epoch: u32, sequence: u32
         if !current || held_rows < end {
             let rows = rows(table, first..end);
             changes.push(ChunkChange::Replace { chunk: chunk as u32, generation, rows });
+            changes.extend(organs_of(table, first..end, generation));
         }
     }
     Frame { epoch, sequence, catch_up: true, changes }
@@ -161,6 +166,21 @@ fn rows(table: &RingTable, range: Range<u32>) -> Rows {
         light: range.clone().map(|row| table.light(row)).collect(),
         born: range.map(|row| table.born(row)).collect(),
     }
+}
+
+/// The patch that gives rows of a chunk, which have just been told, their organs, if any has some.
+fn organs_of(table: &RingTable, range: Range<u32>, generation: u32) -> Option<ChunkChange> {
+    let chunk = range.start / CHUNK;
+    let rows: Vec<u32> = range.filter(|&row| table.organs(row).is_some()).collect();
+    let within = rows.iter().map(|row| (row % CHUNK) as u8).collect();
+    let patch = || ChunkChange::Patch { chunk, generation, rows: within, values: organs(table, &rows) };
+    (!rows.is_empty()).then(patch)
+}
+
+fn organs(table: &RingTable, rows: &[u32]) -> Values {
+    let numbers =
+        |row: &u32| table.organs(*row).map(|organs| organs.iter().map(|organ| organ.to_number()).collect());
+    Values::Organs(rows.iter().map(numbers).collect())
 }
 
 fn parent_code(table: &RingTable, row: u32) -> u32 {

@@ -24,7 +24,9 @@ pub use looks::{
     Background, BackgroundPatch, BarkKind, BarkLook, BarkPatch, FlowerKind, FlowerLook, FlowerPatch,
     FruitKind, FruitLook, FruitPatch, Ground, LeafKind, LeafLook, LeafPatch, Place, Sky, WindLook, WindPatch,
 };
-pub use ornament_nature::{FLOWER_SALT, FRUIT_SALT, OrnamentNature, THICKEST_BEARING};
+pub use ornament_nature::{
+    FLOWER_SALT, FRUIT_SALT, GIVEN_FLOWER, GIVEN_FRUIT, OrnamentNature, THICKEST_BEARING,
+};
 pub use parameters::{ParameterValues, ParametersPatch, VigorModel};
 pub use setting::{Kind, OutOfRange, Setting, Unit};
 pub use value::{Tint, Value};

@@ -4,7 +4,7 @@ use serde::Serialize;
 use ts_rs::TS;
 
 use crate::{
-    looks::{FlowerKind, FruitKind},
+    looks::{FlowerKind, FlowerLook, FruitKind, FruitLook},
     value::Tint,
 };
 
@@ -14,6 +14,27 @@ pub const FLOWER_SALT: u32 = 0x1f3d;
 pub const FRUIT_SALT: u32 = 0x6b21;
 /// Wood with a greater radius than this, in internodes, bears nothing.
 pub const THICKEST_BEARING: f32 = 0.6;
+
+/// What flowers show that a metamer is given (`LF5`) where the look has none.
+pub const GIVEN_FLOWER: FlowerKind = FlowerKind::Rosette;
+/// The same of fruits.
+pub const GIVEN_FRUIT: FruitKind = FruitKind::Round;
+
+impl FlowerLook {
+    /// The look of a plant of which metamers are given flowers: where it has none, these alone are shown.
+    pub fn with_given(self) -> Self {
+        let is_none = self.kind == FlowerKind::None;
+        if is_none { Self { kind: GIVEN_FLOWER, share: 0.0, ..self } } else { self }
+    }
+}
+
+impl FruitLook {
+    /// The look of a plant of which metamers are given fruits: where it has none, these alone are shown.
+    pub fn with_given(self) -> Self {
+        let is_none = self.kind == FruitKind::None;
+        if is_none { Self { kind: GIVEN_FRUIT, share: 0.0, ..self } } else { self }
+    }
+}
 
 /// What stands to reason of a kind of flower or fruit. Lengths are in its own.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, TS)]

@@ -201,14 +201,14 @@ fn a_grammar_that_is_none_is_told_from_one_that_ends() {
 fn what_is_to_be_known_of_a_grammar_is_noted_on_stderr() {
     let scratch = Scratch::new();
     let path = scratch.path("own.lsys");
-    fs::write(&path, "axiom: A\nderivation length: 60\nA --> F(0.1)[+(30)F(0.1)F(0.1)F(0.1)~l]A\n")
+    fs::write(&path, "axiom: A\nderivation length: 60\nA --> F(0.1)[+(30)F(0.1)F(0.1)F(0.1)@o]A\n")
         .expect("it can be written");
     let path = path.to_str().expect("a plain name");
     let finished = program::run(&["grow", "--grammar", path, "--seeds", "1-2", "--stats", "json"]);
     assert_eq!(finished.code, 0, "{}", finished.stderr);
     let notes: Vec<&str> = finished.stderr.lines().filter(|line| line.starts_with("Note: ")).collect();
     assert_eq!(notes.len(), 2, "each is said once: {}", finished.stderr);
-    assert!(notes[0].contains("own.lsys: line 3, column") && notes[0].contains("~l"), "{}", notes[0]);
+    assert!(notes[0].contains("own.lsys: line 3, column") && notes[0].contains("@o"), "{}", notes[0]);
     assert!(notes[1].contains("scale: 10"), "{}", notes[1]);
 }
 

@@ -41,7 +41,7 @@ function setUp() {
       clear: () => {
         cleared += 1;
       },
-      sum: () => ({ rows: applied.length, crc32: 7 }),
+      sum: async () => ({ rows: applied.length, crc32: 7 }),
     },
     decode: async (bytes) => {
       const [sequence = 0, turns = 0, kind = 1, epoch = 1] = new Uint8Array(bytes);

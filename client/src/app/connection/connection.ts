@@ -216,13 +216,13 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
   /** Compares the rows with what they must add up to, once all frames before it are applied. */
   #compare(sum: Checksum): void {
     const socket = this.#socket;
-    this.#frames = this.#frames.then(() => {
-      if (this.#socket === socket && !this.#closed) {
-        const own = this.#options.rows.sum();
-        if (own !== null) {
-          this.#core.compared(this.#now(), sum, own);
-          this.#settle();
-        }
+    const ours = () => this.#socket === socket && !this.#closed;
+    this.#frames = this.#frames.then(async () => {
+      // What adds them up may not be loaded while the network fails; the next answer is compared again.
+      const own = ours() ? await this.#options.rows.sum().catch(() => null) : null;
+      if (own !== null && ours()) {
+        this.#core.compared(this.#now(), sum, own);
+        this.#settle();
       }
     });
   }

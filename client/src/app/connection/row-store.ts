@@ -1,4 +1,3 @@
-import { checksumOf } from "../../scene/table/checksum";
 import type { TreeTable } from "../../scene/table/tree-table";
 import type { Frame } from "../../wire/frame";
 import type { Resume } from "../../wire/generated";
@@ -11,8 +10,8 @@ export interface RowStore<Frame> {
   apply(frame: Frame): void;
   /** Forgets every row. */
   clear(): void;
-  /** How many rows are held, and what they add up to (`CK1`); null where nobody looks at them. */
-  sum(): RowSum | null;
+  /** How many rows are held, and what they add up to (`CK1`); null where nobody looks at them. No frame is to be taken in meanwhile. */
+  sum(): Promise<RowSum | null>;
 }
 
 export interface RowSum {
@@ -29,6 +28,9 @@ export function rowStore(table: TreeTable): RowStore<Frame> {
         : undefined,
     apply: (frame) => table.apply(frame),
     clear: () => table.clear(),
-    sum: () => ({ rows: table.rows, crc32: checksumOf(table) }),
+    sum: async () => {
+      const { checksumOf } = await import("../../scene/table/checksum");
+      return { rows: table.rows, crc32: checksumOf(table) };
+    },
   };
 }

@@ -81,6 +81,6 @@ function unseenRows(held: Resume | undefined): RowStore<Frame> {
     clear: () => {
       known = undefined;
     },
-    sum: () => null,
+    sum: async () => null,
   };
 }

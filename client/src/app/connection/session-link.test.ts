@@ -78,7 +78,7 @@ function setUp(
         return socket;
       },
     },
-    rows: { held: () => undefined, apply: nothing, clear: nothing, sum: () => ({ rows: 0, crc32: 0 }) },
+    rows: { held: () => undefined, apply: nothing, clear: nothing, sum: async () => ({ rows: 0, crc32: 0 }) },
     hindrance,
     dark: () => false,
     lastSession,

@@ -44,6 +44,8 @@ const KINDS: Readonly<Record<string, Text>> = {
   "never-fires": ["Never used", "Wird nie angewendet"],
   "does-nothing": ["Does nothing", "Bewirkt nichts"],
   "not-drawn": ["Not drawn", "Wird nicht gezeichnet"],
+  "lost-organs": ["On no wood", "Auf keinem Holz"],
+  "surface-as-leaf": ["A leaf instead", "Ein Blatt dafür"],
   "no-angle": ["No angle", "Kein Winkel"],
   "tiny-pieces": ["Very small", "Sehr klein"],
 };

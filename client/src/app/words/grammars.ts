@@ -156,7 +156,7 @@ export const SHIPPED_GRAMMARS: Readonly<Record<string, readonly [title: string, 
   ],
   "timed-shoot": [
     "Trieb in der Zeit",
-    "Eine Knospe fügt jeden Tag einen Knoten hinzu; Internodien und Zweige strecken sich beim Altern entlang einer Kurve.",
+    "Eine Knospe fügt jeden Tag einen Knoten hinzu; Internodien, Zweige und Blätter strecken sich beim Altern entlang einer Kurve.",
   ],
   "barron-binary": ["Barrons binärer Baum", "Jeder Ast endet in zweien: 255 Äste nach acht Schritten."],
   monopodial: ["Monopodialer Baum", "Ein Stamm mit einer Spirale flacher Äste, nach Hondas Modell."],

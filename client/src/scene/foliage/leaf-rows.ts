@@ -3,9 +3,11 @@ import type { Box } from "../camera/camera-view";
 import type { Uniforms } from "../materials";
 import type { Fineness } from "../rendering/fineness";
 import type { TreeTable } from "../table/tree-table";
+import { GivenLengths } from "./given-lengths";
 import { BLADE_CARDS, levelFor, SPRAY_CARDS } from "./leaf-cards";
-import { leafAzimuth, leafRandom, SHOOT, shootOf } from "./leaves";
+import { leafRandom, SHOOT, shootOf } from "./leaves";
 import { reachFrom } from "./nearness";
+import { OrganKind, organsOf, standingOf } from "./organs";
 import { RowInstances } from "./row-instances";
 
 /** The largest leaf is this much longer than the leaf size (LF2). */
@@ -25,6 +27,7 @@ export class LeafRows {
   /** Drawn into the shadow map. */
   readonly caster: Mesh;
   private readonly instances: RowInstances;
+  private readonly lengths = new GivenLengths();
   private spray = false;
 
   /** The uniforms are the materials' own. */
@@ -52,6 +55,12 @@ export class LeafRows {
   /** Removes the leaves of rows from `rows` on. */
   truncate(rows: number): void {
     this.instances.truncate(rows);
+    if (rows === 0) this.lengths.clear();
+  }
+
+  /** The shortest and the longest leaf there may be, in internodes. */
+  get sizes(): readonly [shortest: number, longest: number] {
+    return this.lengths.around(this.uniforms.uLeafSize!.value as number);
   }
 
   /** Places a row's leaves anew. */
@@ -61,9 +70,11 @@ export class LeafRows {
     const count = table.radiusCode[row] !== 0 && parent >= 0 ? foliage & 15 : 0;
     const first = this.instances.place(row, count);
     const shoot = count > 0 ? leafRandom(shootOf(table, row), SHOOT) : 0;
+    const organs = count > 0 ? organsOf(table, row, OrganKind.Leaf) : [];
     for (let k = 0; k < count; k += 1) {
-      const azimuth = leafAzimuth(row, k, count);
-      this.instances.write(first + k, row, parent, azimuth, (k + 1) / count, foliage >> 4, leafRandom(row, k), shoot);
+      const standing = standingOf(row, k, count, organs[k]);
+      this.lengths.take(standing.length);
+      this.instances.write(first + k, row, parent, standing, foliage >> 4, leafRandom(row, k), shoot);
     }
   }
 
@@ -71,7 +82,7 @@ export class LeafRows {
   detail({ eye, pixels, detailed, leaves }: Fineness, box: Box): void {
     const { filled, geometries } = this.instances;
     this.follow();
-    const size = LARGEST * (this.uniforms.uLeafSize!.value as number);
+    const size = LARGEST * this.sizes[1];
     const longest = (size * pixels) / Math.max(0.5, reachFrom(eye, box).nearest - size);
     const level = levelFor(this.spray ? SPRAY_CARDS : BLADE_CARDS, filled, longest, detailed);
     this.mesh.geometry = geometries[level]!;

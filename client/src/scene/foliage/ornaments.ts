@@ -8,7 +8,8 @@ import type { Painter } from "../painting/painter";
 import type { Fineness } from "../rendering/fineness";
 import { Dirty, type TreeTable } from "../table/tree-table";
 import { ORNAMENT_CARDS } from "./leaf-cards";
-import { leafAzimuth, leafRandom } from "./leaves";
+import { leafRandom } from "./leaves";
+import { organsOf, standingOf } from "./organs";
 import type { OrnamentSort } from "./ornament-sorts";
 import { isBearing, type Placing } from "./places";
 import { RowInstances } from "./row-instances";
@@ -34,7 +35,11 @@ export class Ornaments<Look extends OrnamentLook> {
   private readonly tint = { value: new Vector3() };
   private readonly second = { value: new Vector3() };
   readonly textures: GradualTextures<"flower" | "fruit">;
+  /** As it is set, and as it is shown: where it has none of these, what rows are given shows all the same. */
+  private asked: Look | null = null;
   private look: Look | null = null;
+  /** Rows that are given some. */
+  private readonly given = new Set<number>();
   /** How many stand at a place: as many as the kind has, or fewer. */
   private together = 0;
   /** Rows there were when all places were looked for. */
@@ -69,6 +74,11 @@ export class Ornaments<Look extends OrnamentLook> {
 
   /** Shows another look; new places are found with the next upload. */
   setLook(look: Look): void {
+    this.asked = look;
+    this.show(this.given.size > 0 && look.kind === "none" ? { ...look, kind: this.sort.given, share: 0 } : look);
+  }
+
+  private show(look: Look): void {
     const before = this.look;
     this.look = look;
     const kind = this.kind;
@@ -81,7 +91,7 @@ export class Ornaments<Look extends OrnamentLook> {
       before.vigor !== look.vigor;
     if (!kind) return;
     this.form.value.set(kind.reach, kind.hang, kind.turn, kind.stalk);
-    this.finish.value.set(look.size, kind.gloss, 0, 0);
+    this.finish.value.set(look.size, kind.gloss, 1, 0);
     this.tint.value.set(...linear(look.tint));
     this.second.value.set(...linear(kind.second));
   }
@@ -89,22 +99,35 @@ export class Ornaments<Look extends OrnamentLook> {
   /** Removes everything on rows from `rows` on. */
   truncate(rows: number): void {
     this.instances.truncate(rows);
+    for (const row of this.given) if (row >= rows) this.given.delete(row);
     // What was too much for a large tree may not be for what is left of it.
     if (rows < this.searched / 2) this.stale = true;
   }
 
   /** Sees whether a row bears something now. */
   update(table: TreeTable, row: number, bits: number = Dirty.Shape): void {
+    const organs = this.organsOf(table, row);
     const { look, kind, sort, instances } = this;
     if (!look || this.stale) return;
-    const count = kind && isBearing(table, row, look, sort.salt) ? this.together : 0;
+    const others = kind && organs.length === 0 && isBearing(table, row, look, sort.salt) ? this.together : 0;
+    const count = kind ? organs.length || others : 0;
     if (count === instances.countOf(row) && (count === 0 || (bits & Dirty.Shape) === 0)) return;
     const [parent, vigor] = [table.parent[row]!, table.foliage[row]! >> 4];
     const first = instances.place(row, count);
     for (let k = 0; k < count; k += 1) {
-      const azimuth = leafAzimuth(row, k, count, sort.salt);
-      instances.write(first + k, row, parent, azimuth, (k + 1) / count, vigor, leafRandom(row, k, sort.salt));
+      const standing = standingOf(row, k, count, organs[k], sort.salt);
+      instances.write(first + k, row, parent, standing, vigor, leafRandom(row, k, sort.salt));
     }
+  }
+
+  /** What a living row is given of these; the first of them may change what is shown. */
+  private organsOf(table: TreeTable, row: number): readonly number[] {
+    const organs = table.radiusCode[row] === 0 ? [] : organsOf(table, row, this.sort.organ);
+    const had = this.given.size > 0;
+    if (organs.length > 0) this.given.add(row);
+    else this.given.delete(row);
+    if (this.asked && had !== this.given.size > 0) this.setLook(this.asked);
+    return organs;
   }
 
   /** Uploads what was written since the last call. */
@@ -122,6 +145,7 @@ export class Ornaments<Look extends OrnamentLook> {
     const step = Math.max(1, Math.ceil(this.instances.count / leaves));
     this.instances.thin(step);
     this.finish.value.x = (this.look?.size ?? 0) * Math.sqrt(step);
+    this.finish.value.z = Math.sqrt(step);
   }
 
   /** A restored context has lost the textures. */

@@ -5,10 +5,21 @@ import { ItemTexture } from "../item-texture";
 import type { Card } from "./leaf-cards";
 import { LeafSlots } from "./leaf-slots";
 
-/** Row, parent's row, azimuth and share of the way along; a random number with the vigor above the point. */
+/** Row, parent's row, azimuth and share of the way along; a random number with the vigor above the point, one of the shoot's, stance and length. */
 const STRIDE = 4 * LEAF_TEXELS;
 const TINT = 4;
 const NOTHING = -1;
+
+/** How something stands on its metamer. */
+export interface Standing {
+  readonly azimuth: number;
+  /** The share of the way along. */
+  readonly along: number;
+  /** The code of its stance (LF5); below 0 where it stands by rule. */
+  readonly stance: number;
+  /** In internodes; 0 for what the look says. */
+  readonly length: number;
+}
 /** Instances may be so many times those that show something, and a few more, before they are moved together. */
 const MOST_ROOM = 1.25;
 const SLACK = 256;
@@ -64,25 +75,18 @@ export class RowInstances {
     return first;
   }
 
-  /** Writes what a row bears in a slot: its azimuth, its share of the way along, the row's vigor, a random number and one of the shoot's. */
+  /** Writes what a row bears in a slot: how it stands, the row's vigor, a random number and one of the shoot's. */
   write(
     slot: number,
     row: number,
     parent: number,
-    azimuth: number,
-    along: number,
+    { azimuth, along, stance, length }: Standing,
     vigor: number,
     random: number,
     shoot = random,
   ): void {
-    const { numbers } = this.items;
-    const to = slot * STRIDE;
-    numbers[to] = row;
-    numbers[to + 1] = parent;
-    numbers[to + 2] = azimuth;
-    numbers[to + 3] = along;
-    numbers[to + TINT] = vigor + Math.min(random, 0.999);
-    numbers[to + TINT + 1] = shoot;
+    const values = [row, parent, azimuth, along, vigor + Math.min(random, 0.999), shoot, stance, length];
+    this.items.numbers.set(values, slot * STRIDE);
   }
 
   /** Uploads what was written since the last call. */

@@ -8,8 +8,9 @@ import { grown } from "../table/column";
 import type { TreeTable } from "../table/tree-table";
 import { SPRIG_CARD } from "./leaf-cards";
 import type { LeafRows } from "./leaf-rows";
-import { leafAzimuth, leafRandom, SHOOT, shootOf } from "./leaves";
+import { leafRandom, SHOOT, shootOf } from "./leaves";
 import { reachFrom } from "./nearness";
+import { OrganKind, organsOf, standingOf } from "./organs";
 import { RowInstances } from "./row-instances";
 
 /** Leaves shorter than the first, in pixels, have all given way to sprigs; longer than the second, none. */
@@ -83,19 +84,21 @@ export class Sprigs {
     if (count === 0 && this.instances.countOf(row) === 0) return;
     const first = this.instances.place(row, count);
     const shoot = count > 0 ? leafRandom(shootOf(table, row), SHOOT) : 0;
+    const organs = count > 0 ? organsOf(table, row, OrganKind.Leaf) : [];
     for (let i = 0; i < count; i += 1) {
       const k = (leafHash(16 * row + CHOICE) + i) % leaves;
-      const azimuth = leafAzimuth(row, k, leaves);
-      this.instances.write(first + i, row, parent, azimuth, (k + 1) / leaves, foliage >> 4, leafRandom(row, k), shoot);
+      const standing = standingOf(row, k, leaves, organs[k]);
+      this.instances.write(first + i, row, parent, standing, foliage >> 4, leafRandom(row, k), shoot);
     }
   }
 
   /** Chooses, from where the box is seen, how far its leaves give way; those that are wholly gone are not drawn. */
   detail({ eye, pixels, merging, sprigs }: Fineness, box: Box, leaves: LeafRows): void {
+    const [shortest, longest] = leaves.sizes;
     const size = this.uniforms.uLeafSize!.value as number;
     const { nearest, middle, farthest } = reachFrom(eye, box);
     const [low, high] = bandFor(leaves.filled, merging);
-    const length = (distance: number) => (size * pixels) / Math.max(0.5, distance);
+    const length = (distance: number, of = size) => (of * pixels) / Math.max(0.5, distance);
     const whole = SPRIG_LEAVES * this.count;
     // All sprigs together stand for as many leaves as there are.
     const swell = whole > 0 ? Math.min(1.3, Math.max(0.75, Math.sqrt(leaves.filled / whole))) : 1;
@@ -104,10 +107,10 @@ export class Sprigs {
     (this.uniforms.uLeafBand!.value as Vector3).set(low, high, swell * Math.sqrt(step));
     this.share = high > 0 ? 1 - rise(low, high, length(middle)) : 0;
     const any = high > 0 && this.count > 0;
-    const merged = any && length(farthest + size) < high;
+    const merged = any && length(farthest + size, shortest) < high;
     this.mesh.visible = merged;
     this.caster.visible = merged;
-    leaves.show(!any || length(nearest - size) > low);
+    leaves.show(!any || length(nearest - longest, longest) > low);
   }
 
   /** Uploads what was written since the last call. */

@@ -12,9 +12,23 @@ struct Leaf {
   vec3 direction;
   vec3 normal;
 };
-/** Of the metamer from \`a\` to \`b\`, so far around it and at such a share of the way along. */
-Leaf leafAt(vec3 a, vec3 b, float azimuth, float share) {
+/** What stands at the end \`b\` of a metamer with this heading, so far around it and in such a stance (LF5). */
+Leaf givenAt(vec3 b, vec3 h, float azimuth, float stance) {
+  float roll = floor(stance / 256.0);
+  float away = (stance - 256.0 * roll) * 0.01231997;
+  float turn = roll * 0.09817477;
+  vec3 middle = (h + vec3(0, 1, 0)) * (1.0 / max(1e-6, 1.0 + h.y));
+  vec3 u = normalize(vec3(1, 0, 0) - h.x * (h.y < -0.9999 ? h : middle));
+  vec3 w = cross(u, h);
+  vec3 aside = cos(azimuth) * u + sin(azimuth) * w;
+  vec3 across = cos(azimuth) * w - sin(azimuth) * u;
+  vec3 upper = sin(away) * h - cos(away) * aside;
+  return Leaf(b, normalize(cos(away) * h + sin(away) * aside), normalize(cos(turn) * upper + sin(turn) * across));
+}
+/** Of the metamer from \`a\` to \`b\`, so far around it, at such a share of the way along and, if it is not below 0, in such a stance. */
+Leaf leafAt(vec3 a, vec3 b, float azimuth, float share, float stance) {
   vec3 h = normalize(b - a);
+  if (stance >= 0.0) return givenAt(b, h, azimuth, stance);
   vec3 u = normalize(abs(h.y) > 0.99 ? cross(h, vec3(1, 0, 0)) : cross(h, vec3(0, 1, 0)));
   vec3 w = cross(h, u);
   vec3 d = normalize(0.5 * h + 0.866 * (cos(azimuth) * u + sin(azimuth) * w) - vec3(0.0, 0.15, 0.0));
@@ -127,13 +141,15 @@ struct Borne {
   vec4 at; // row, parent's row, azimuth, share of the way along the metamer
   float tint; // a random number with the vigor above the point; below 0 where there is none
   float shoot; // a random number of the shoot's
+  float stance; // below 0 for what stands by rule
+  float length_; // in internodes, 0 for what the look says
 };
 Borne borne() {
   int number = itemNumber();
-  if (number >= uItemsDrawn[0]) return Borne(vec4(0.0), -1.0, 0.0);
+  if (number >= uItemsDrawn[0]) return Borne(vec4(0.0), -1.0, 0.0, -1.0, 0.0);
   ivec2 place = itemPlace(number);
-  vec2 more = texelFetch(uItems, place + ivec2(1, 0), 0).xy;
-  return Borne(texelFetch(uItems, place, 0), more.x, more.y);
+  vec4 more = texelFetch(uItems, place + ivec2(1, 0), 0);
+  return Borne(texelFetch(uItems, place, 0), more.x, more.y, more.z, more.w);
 }
 `;
 
@@ -180,7 +196,8 @@ void main() {
   float random = fract(tint);
   vec4 more = ownNumbers(random);
   // From afar single leaves give way to sprigs, one here and one there, until none is left.
-  float length_ = uLeafSize * uView.w / max(0.1, distance(uView.xyz, node.position));
+  float usual = own.length_ > 0.0 ? own.length_ : uLeafSize;
+  float length_ = usual * uView.w / max(0.1, distance(uView.xyz, node.position));
   float single = uLeafBand.y > 0.0 ? smoothstep(uLeafBand.x, uLeafBand.y, length_) : 1.0;
 #ifdef SPRIG
   float share = 1.0 - single;
@@ -196,8 +213,8 @@ void main() {
   }
   float vigor = floor(tint) / 15.0;
   float grown = eased(uTime - node.birth - node.growing * 0.6, SECONDS);
-  float size = (0.75 + 0.5 * random) * uLeafSize * grown * unfolding(uLeafSeason.x, more.y) * there * inversesqrt(max(haste, 0.2));
-  Leaf place = leafAt(from.position, node.position, leaf.z, leaf.w);
+  float size = (own.length_ > 0.0 ? usual : (0.75 + 0.5 * random) * usual) * grown * unfolding(uLeafSeason.x, more.y) * there * inversesqrt(max(haste, 0.2));
+  Leaf place = leafAt(from.position, node.position, leaf.z, leaf.w, own.stance);
   vec3 h = normalize(node.position - from.position);
   vec3 side = cross(place.direction, place.normal);
   vec3 d = pointing(place.direction, h, side, uLeafForm.z, uLeafTraits.y);

@@ -23,7 +23,7 @@ export const ornamentVertex = (
 ) => /* glsl */ `${HEAD}${BORNE}${NODES}${TRAITS}${LEAF_PLACE}
 uniform vec3 uSun;
 uniform vec4 u${name}Form; // half width, hanging to upright, turned to the eye or a disc, stalk
-uniform vec4 u${name}Finish; // size, gloss
+uniform vec4 u${name}Finish; // size, gloss, how much larger all are because not all are drawn
 uniform vec3 u${name}Tint;
 in vec3 card;
 out vec3 vWorld;
@@ -51,10 +51,11 @@ void main() {
   }
   float random = fract(tint);
   vec3 more = fract(random * vec3(57.31, 131.7, 313.3));
-  float size = u${name}Finish.x * ornamentSize(random) * eased(uTime - node.birth - node.growing, SECONDS);
-  Leaf place = leafAt(from.position, node.position, leaf.z, leaf.w);
+  float length_ = own.length_ > 0.0 ? own.length_ * u${name}Finish.z : u${name}Finish.x * ornamentSize(random);
+  float size = length_ * eased(uTime - node.birth - node.growing, SECONDS);
+  Leaf place = leafAt(from.position, node.position, leaf.z, leaf.w, own.stance);
   vec3 h = normalize(node.position - from.position);
-  vec3 outward = normalize(place.direction - dot(place.direction, h) * h);
+  vec3 outward = normalize(place.direction - dot(place.direction, h) * h + 1e-4 * place.normal);
   vec3 base = place.base + outward * node.radius * 0.9;
   vec3 eye = towardsEye(base);
   float hang = u${name}Form.y;

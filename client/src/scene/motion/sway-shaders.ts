@@ -186,9 +186,9 @@ const ALONG: Change = {
 };
 /** What a row bears is placed as it is at rest, and then turned: or it would spin where its azimuth has no direction. */
 const PLACED: Change = {
-  from: line("Leaf place = leafAt(from.position, node.position, leaf.z, leaf.w);"),
+  from: line("Leaf place = leafAt(from.position, node.position, leaf.z, leaf.w, own.stance);"),
   to: `Sway sway = swayAt(int(leaf.x + 0.5));
-  Leaf place = leafAt(from.position - swayAt(int(leaf.y + 0.5)).shift, node.position - sway.shift, leaf.z, leaf.w);
+  Leaf place = leafAt(from.position - swayAt(int(leaf.y + 0.5)).shift, node.position - sway.shift, leaf.z, leaf.w, own.stance);
   place = Leaf(mix(from.position, node.position, leaf.w), turned(sway.turn, place.direction), turned(sway.turn, place.normal));`,
 };
 const FLUTTERS: Change = {

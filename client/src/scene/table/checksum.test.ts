@@ -13,6 +13,7 @@ function tableOf(rows: readonly (readonly number[])[]) {
     foliage: Uint8Array.from(column(6)),
     light: Uint8Array.from(column(7)),
     born: Uint32Array.from(column(8)),
+    organs: new Map<number, Uint32Array>(),
   };
 }
 
@@ -43,4 +44,11 @@ it("CK1: each number of each row counts", () => {
     sums.add(checksumOf(tableOf(changed)));
   }
   expect(sums.size).toBe(9);
+});
+
+it("CK1: organs of rows that are drawn count, in the order of the rows", () => {
+  // The same with struct.pack("<IBI", 1, 1, 0x8a400317) + struct.pack("<IB", 2, 0) behind the rows.
+  const table = tableOf(ROWS.slice(0, 3));
+  table.organs.set(2, new Uint32Array(0)).set(1, Uint32Array.of(0x8a400317)).set(0, Uint32Array.of(5));
+  expect(checksumOf(table)).toBe(13623858);
 });

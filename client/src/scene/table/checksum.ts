@@ -10,6 +10,7 @@ export interface Summed {
   readonly foliage: Uint8Array;
   readonly light: Uint8Array;
   readonly born: Uint32Array;
+  readonly organs: ReadonlyMap<number, Uint32Array>;
 }
 
 /** Bytes of a row in the sum. */
@@ -31,10 +32,27 @@ export function checksumOf(table: Summed): number {
   for (let first = 0; first < table.rows; first += CHUNK_ROWS) {
     const last = Math.min(table.rows, first + CHUNK_ROWS);
     for (let row = first; row < last; row++) write(table, row, view, (row - first) * ROW_BYTES);
-    const end = (last - first) * ROW_BYTES;
-    for (let i = 0; i < end; i++) crc = (crc >>> 8) ^ TABLE[(crc ^ bytes[i]!) & 0xff]!;
+    crc = summed(crc, bytes.subarray(0, (last - first) * ROW_BYTES));
   }
+  const bearing = [...table.organs.keys()].filter((row) => table.radiusCode[row] !== 0);
+  for (const row of bearing.sort((a, b) => a - b)) crc = summed(crc, organBytes(row, table.organs.get(row)!));
   return (crc ^ 0xffffffff) >>> 0;
+}
+
+function summed(crc: number, bytes: Uint8Array): number {
+  let sum = crc;
+  for (const byte of bytes) sum = (sum >>> 8) ^ TABLE[(sum ^ byte) & 0xff]!;
+  return sum;
+}
+
+/** A row's number, how many organs it is given, and their numbers. */
+function organBytes(row: number, organs: Uint32Array): Uint8Array {
+  const bytes = new Uint8Array(5 + 4 * organs.length);
+  const view = new DataView(bytes.buffer);
+  view.setUint32(0, row, true);
+  view.setUint8(4, organs.length);
+  for (const [i, organ] of organs.entries()) view.setUint32(5 + 4 * i, organ, true);
+  return bytes;
 }
 
 function write(table: Summed, row: number, view: DataView, at: number): void {

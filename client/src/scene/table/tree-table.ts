@@ -66,6 +66,8 @@ export class TreeTable {
   light = new Uint8Array(0);
   /** The step of growth in which each metamer was born; 0 for the first seed. */
   born = new Uint32Array(0);
+  /** Organs that rows are given (LF5); a row that is not in it bears what grows on such wood. */
+  readonly organs = new Map<number, Uint32Array>();
   /** The living row that continues the axis, or -1. */
   successor = new Int32Array(0);
   /** The orientation of each node as a quaternion, x y z w with w ≥ 0. */
@@ -222,6 +224,7 @@ export class TreeTable {
       if (this.successor[parent] === row) this.setSuccessor(parent, -1);
       this.limbs.leave(row);
     }
+    for (const row of this.organs.keys()) if (row >= rows) this.organs.delete(row);
     this.dirty.bits.fill(0, rows, this.rows);
     this.staleOrientations.fill(0, rows, this.rows);
     this.rows = rows;
@@ -257,6 +260,7 @@ export class TreeTable {
       this.foliage[row] = rows.foliage[i]!;
       this.light[row] = rows.light[i]!;
       this.born[row] = rows.born[i]!;
+      this.organs.delete(row);
       if (row >= known) this.birth[row] = LONG_AGO;
       this.link(row);
       this.mark(row, Dirty.Drawn | Dirty.Shape);
@@ -273,32 +277,36 @@ export class TreeTable {
     for (let i = 0; i < change.rows.length; i += 1) {
       const row = first + change.rows[i]!;
       if (row >= this.rows) throw new FrameError(`A patch of row ${row} does not fit ${this.rows} rows.`);
-      const { values } = change;
       switch (change.column) {
         case "parent":
           this.unlink(row);
-          this.setParent(row, values[i]!);
+          this.setParent(row, change.values[i]!);
           this.link(row);
           this.mark(row, Dirty.Drawn | Dirty.Shape);
           break;
         case "position":
-          this.setPosition(row, values[3 * i]!, values[3 * i + 1]!, values[3 * i + 2]!);
+          this.setPosition(row, change.values[3 * i]!, change.values[3 * i + 1]!, change.values[3 * i + 2]!);
           this.extent.invalidate();
           this.mark(row, Dirty.Drawn | Dirty.Shape);
           break;
         case "radius":
-          this.setRadius(row, values[i]!);
+          this.setRadius(row, change.values[i]!);
           break;
         case "foliage":
-          this.foliage[row] = values[i]!;
+          this.foliage[row] = change.values[i]!;
           this.mark(row, Dirty.Drawn | Dirty.Shape);
           break;
         case "light":
-          this.light[row] = values[i]!;
+          this.light[row] = change.values[i]!;
           this.mark(row, Dirty.Drawn);
           break;
+        case "organs":
+          if (change.values[i] === null) this.organs.delete(row);
+          else this.organs.set(row, change.values[i]!);
+          this.mark(row, Dirty.Drawn | Dirty.Shape);
+          break;
         case "born":
-          this.born[row] = values[i]!;
+          this.born[row] = change.values[i]!;
           this.mark(row, Dirty.Drawn);
           break;
       }

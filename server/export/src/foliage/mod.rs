@@ -4,11 +4,13 @@ pub(crate) mod cards;
 pub(crate) mod leaf_look;
 pub(crate) mod ornaments;
 
+use std::ops::ControlFlow;
+
 use espalier_mesh::{
     Bodies, Style, foliage,
     leaves::{self, Leaf},
 };
-use espalier_plant::{MetamerId, Plant, Widths};
+use espalier_plant::{MetamerId, OrganKind, Plant, Widths};
 use espalier_settings::Appearance;
 use glam::Vec3;
 
@@ -25,7 +27,7 @@ const ONE_OF: [u32; 3] = [1, 2, 6];
 pub(crate) struct Foliage<'a> {
     plant: &'a Plant,
     style: &'a Style,
-    look: &'a Appearance,
+    look: Appearance,
     /// The wood that bears it as it is drawn; none where it runs from node to node.
     wood: Option<Bodies>,
     widths: Widths<'a>,
@@ -43,7 +45,7 @@ impl<'a> Foliage<'a> {
         Self {
             plant,
             style,
-            look,
+            look: with_given(plant, look),
             wood: None,
             widths: Widths::of(plant, style.girth()),
             goes_on: goes_on(plant),
@@ -72,9 +74,7 @@ impl<'a> Foliage<'a> {
     pub(crate) fn leaves(&self, id: MetamerId) -> impl Iterator<Item = (Leaf, Vec3)> {
         let shoot = Shoot::of(self.plant, id);
         let larger = (self.one_of as f32).sqrt();
-        let [from, to] = self.ends(id);
-        let count = foliage::leaves(self.plant, id, self.style);
-        let leaves = leaves::on_metamer(id.raw(), 0, from, to, count, self.style.options().leaf_size);
+        let leaves = leaves::of_between(self.plant, id, self.style, self.ends(id));
         let all = (id.raw()..).zip(leaves);
         all.filter(|(number, _)| number % self.one_of == 0).filter_map(move |(_, leaf)| {
             let (leaf, hue) = self.painter.paint(&leaf, &shoot)?;
@@ -109,6 +109,11 @@ impl<'a> Foliage<'a> {
         self.widths.radius(id)
     }
 
+    /// The look that it has.
+    pub(crate) fn look(&self) -> &Appearance {
+        &self.look
+    }
+
     /// Adds the flowers of a metamer.
     pub(crate) fn add_flowers(&self, cards: &mut Cards, id: MetamerId) {
         ornaments::add_flowers(cards, &self.bearer(id), &self.look.flowers);
@@ -119,7 +124,7 @@ impl<'a> Foliage<'a> {
         ornaments::add_fruits(cards, &self.bearer(id), &self.look.fruits);
     }
 
-    fn bearer(&self, id: MetamerId) -> Bearer {
+    fn bearer(&self, id: MetamerId) -> Bearer<'_> {
         Bearer {
             row: id.raw(),
             ends: self.ends(id),
@@ -127,7 +132,24 @@ impl<'a> Foliage<'a> {
             is_leafy: self.is_leafy(id),
             is_tip: !self.goes_on[id.index()],
             vigor: Shoot::of(self.plant, id).vigor,
+            organs: self.plant.given_organs(id).map_or(&[], |organs| organs),
         }
+    }
+}
+
+/// A look that shows flowers and fruits which metamers of the plant are given.
+fn with_given(plant: &Plant, look: &Appearance) -> Appearance {
+    let mut organs = plant.organs().rows().filter_map(|(_, organs)| organs.as_ref());
+    let kinds = organs.try_fold([false; 2], |[flower, fruit], organs| {
+        let has = |kind| organs.iter().any(|organ| organ.kind == kind);
+        let kinds = [flower || has(OrganKind::Flower), fruit || has(OrganKind::Fruit)];
+        if kinds == [true; 2] { ControlFlow::Break(kinds) } else { ControlFlow::Continue(kinds) }
+    });
+    let (ControlFlow::Break([flowers, fruits]) | ControlFlow::Continue([flowers, fruits])) = kinds;
+    Appearance {
+        flowers: if flowers { look.flowers.with_given() } else { look.flowers },
+        fruits: if fruits { look.fruits.with_given() } else { look.fruits },
+        ..*look
     }
 }
 

@@ -1,6 +1,7 @@
 //! Flowers and fruits: which places bear one, and what it looks like.
 
 use espalier_mesh::leaves;
+use espalier_plant::{Organ, OrganKind};
 use espalier_settings::{
     FLOWER_SALT, FRUIT_SALT, FlowerLook, FruitLook, OrnamentNature, Place, THICKEST_BEARING,
 };
@@ -17,7 +18,7 @@ const SPARE: u32 = 15;
 
 /// A metamer that may bear flowers and fruits.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bearer {
+pub(super) struct Bearer<'a> {
     /// Its row.
     pub row: u32,
     /// Where it begins and ends.
@@ -30,18 +31,21 @@ pub(super) struct Bearer {
     pub is_tip: bool,
     /// Share of the greatest vigor, 0 to 1.
     pub vigor: f32,
+    /// Organs that it is given.
+    pub organs: &'a [Organ],
 }
 
 /// Which metamers bear something.
 #[derive(Clone, Copy, Debug)]
 struct Placing {
+    organ: OrganKind,
     share: f32,
     place: Place,
     vigor: f32,
     salt: u32,
 }
 
-impl Bearer {
+impl Bearer<'_> {
     /// Whether it is a place of this sort.
     fn is_place(&self, place: Place) -> bool {
         match place {
@@ -65,17 +69,24 @@ impl Bearer {
         placing: &Placing,
         nature: &OrnamentNature,
         (size, tint): (f32, Vec3),
-    ) -> impl Iterator<Item = (Ornament, Vec3)> + use<> {
-        let count = if self.bears(placing) { nature.together } else { 0 };
+    ) -> impl Iterator<Item = (Ornament, Vec3)> {
+        let given = self.organs.iter().filter(|organ| organ.kind == placing.organ);
+        // Those that it is given stand in place of others.
+        let is_given = given.clone().next().is_some();
+        let count = if !is_given && self.bears(placing) { nature.together } else { 0 };
         let ([from, to], radius, hang) = (self.ends, self.radius, nature.hang);
         let heading = (to - from).normalize_or(Vec3::Y);
-        leaves::on_metamer(self.row, placing.salt, from, to, count, 1.0).map(move |leaf| {
+        let lengths = given.clone().map(|organ| organ.length());
+        let by_rule = leaves::on_metamer(self.row, placing.salt, from, to, count, 1.0);
+        let by_rule = by_rule.map(|leaf| (leaf, None));
+        let given = leaves::given_on_metamer(self.row, placing.salt, from, to, given, 1.0).zip(lengths);
+        by_rule.chain(given).map(move |(leaf, length)| {
             let aside = leaf.direction.reject_from_normalized(heading).normalize_or(leaf.direction);
             let own = own_numbers(leaf.random).truncate();
             let ornament = Ornament {
                 base: leaf.base + 0.9 * radius * aside,
                 axis: axis(leaf.direction, hang, own),
-                size: size * varied(leaf.random),
+                size: length.unwrap_or(size * varied(leaf.random)),
                 random: leaf.random,
             };
             (ornament, hue(tint, own))
@@ -87,7 +98,7 @@ impl Bearer {
 pub(super) fn add_flowers(cards: &mut Cards, bearer: &Bearer, look: &FlowerLook) {
     let &FlowerLook { kind, tint, size, share, place, vigor } = look;
     let Some(nature) = kind.nature() else { return };
-    let placing = Placing { share, place, vigor, salt: FLOWER_SALT };
+    let placing = Placing { organ: OrganKind::Flower, share, place, vigor, salt: FLOWER_SALT };
     for (flower, hue) in bearer.borne(&placing, &nature, (size, linear(tint))) {
         flower.add(cards, &nature, hue);
     }
@@ -97,7 +108,7 @@ pub(super) fn add_flowers(cards: &mut Cards, bearer: &Bearer, look: &FlowerLook)
 pub(super) fn add_fruits(cards: &mut Cards, bearer: &Bearer, look: &FruitLook) {
     let &FruitLook { kind, tint, size, share, place, vigor } = look;
     let Some(nature) = kind.nature() else { return };
-    let placing = Placing { share, place, vigor, salt: FRUIT_SALT };
+    let placing = Placing { organ: OrganKind::Fruit, share, place, vigor, salt: FRUIT_SALT };
     for (fruit, hue) in bearer.borne(&placing, &nature, (size, linear(tint))) {
         fruit.add(cards, &nature, hue);
     }
@@ -134,13 +145,14 @@ mod tests {
 
     use super::*;
 
-    const BEARER: Bearer = Bearer {
+    const BEARER: Bearer<'_> = Bearer {
         row: 7,
         ends: [Vec3::ZERO, Vec3::Y],
         radius: 0.1,
         is_leafy: false,
         is_tip: false,
         vigor: 1.0,
+        organs: &[],
     };
 
     fn triangles(add: impl Fn(&mut Cards)) -> usize {
@@ -182,7 +194,7 @@ mod tests {
         let samples = (0..12).map(|i| {
             let (share, vigor) = ([0.1, 0.5, 0.9][i % 3], [-1.0, -0.3, 0.0, 1.0][i % 4]);
             let salt = [FLOWER_SALT, FRUIT_SALT][i % 2];
-            let placing = Placing { share, place: Place::Wood, vigor, salt };
+            let placing = Placing { organ: OrganKind::Flower, share, place: Place::Wood, vigor, salt };
             let is_bearing = |row: &u32| {
                 let vigor = (row % 16) as f32 / 15.0;
                 Bearer { row: *row, vigor, ..BEARER }.bears(&placing)
@@ -235,9 +247,30 @@ mod tests {
     }
 
     #[test]
+    fn flowers_that_are_given_stand_in_place_of_others() {
+        let look = FlowerLook {
+            kind: FlowerKind::Rosette,
+            share: 1.0,
+            place: Place::Wood,
+            ..Appearance::default().flowers
+        };
+        let one = triangles(|cards| add_flowers(cards, &BEARER, &look)) / 7;
+        let organ = |kind| Organ { kind, azimuth: 9, inclination: 90, roll: 0, length: 40 };
+        let [flower, fruit] = [OrganKind::Flower, OrganKind::Fruit].map(organ);
+        let bearer = Bearer { organs: &[flower, fruit, flower], ..BEARER };
+        assert_eq!(triangles(|cards| add_flowers(cards, &bearer, &look)), 2 * one);
+        let none = FlowerLook { kind: FlowerKind::None, ..look };
+        assert_eq!(triangles(|cards| add_flowers(cards, &bearer, &none.with_given())), 2 * one);
+        assert_eq!(triangles(|cards| add_flowers(cards, &BEARER, &none.with_given())), 0);
+        let fruit = Bearer { organs: &[fruit], ..BEARER };
+        assert_eq!(triangles(|cards| add_flowers(cards, &fruit, &look)), 7 * one);
+    }
+
+    #[test]
     fn a_share_of_the_places_bears_flowers() {
         let bearing = |own: f32, vigor| {
-            let placing = Placing { share: 0.5, place: Place::Wood, vigor, salt: FLOWER_SALT };
+            let organ = OrganKind::Flower;
+            let placing = Placing { organ, share: 0.5, place: Place::Wood, vigor, salt: FLOWER_SALT };
             (0..200).filter(|&row| Bearer { row, vigor: own, ..BEARER }.bears(&placing)).count()
         };
         assert!((75..125).contains(&bearing(0.0, 0.0)) && bearing(0.0, 0.0) == bearing(1.0, 0.0));

@@ -10,6 +10,7 @@ mod hostile;
 mod library;
 mod limits;
 mod mistakes;
+mod organs;
 mod reference;
 mod textbook;
 mod timing;

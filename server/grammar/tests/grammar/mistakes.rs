@@ -244,7 +244,8 @@ fn one_mistake_does_not_hide_the_next() {
 fn what_does_nothing_is_a_warning() {
     let cases = [
         ("axiom: FQ\nF --> F", ("does-nothing", 1, 9, 1)),
-        ("axiom: F~l\nF --> F", ("not-drawn", 1, 9, 2)),
+        ("axiom: F~a\nF --> F", ("surface-as-leaf", 1, 9, 2)),
+        ("axiom: F@o\nF --> F", ("not-drawn", 1, 9, 2)),
         ("axiom: F;\nF --> F", ("not-drawn", 1, 9, 1)),
         ("axiom: F+F\nF --> F", ("no-angle", 1, 9, 1)),
         ("axiom: A\nA --> F\nA --> G", ("never-fires", 3, 1, 7)),

@@ -1,6 +1,6 @@
 //! A step while it is recorded. Light and space follow when it ends.
 
-use espalier_plant::{AxisId, BadColumns, Carried, Internode, MetamerId, Motion};
+use espalier_plant::{AxisId, BadColumns, Carried, Internode, MetamerId, Motion, Organs};
 use glam::Vec3;
 
 use super::Scene;
@@ -104,6 +104,11 @@ impl<'a> Recording<'a> {
     /// Gives radii to wood, or takes them away ([`espalier_plant::Plant::give_radii`]).
     pub fn give_radii(&mut self, radii: &[(MetamerId, Option<f32>)]) -> Result<(), BadColumns> {
         self.scene.plant.give_radii(radii)
+    }
+
+    /// Gives organs to wood, or takes them away ([`espalier_plant::Plant::give_organs`]).
+    pub fn give_organs(&mut self, organs: &[(MetamerId, Option<Organs>)]) -> Result<(), BadColumns> {
+        self.scene.plant.give_organs(organs)
     }
 
     fn note_moved(&mut self, moved: Vec<(MetamerId, Vec3)>) {

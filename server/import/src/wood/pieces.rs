@@ -349,9 +349,9 @@ impl Joinery<'_> {
         Wood {
             nodes: order.iter().map(node).collect(),
             axes: axes.iter().map(axis).collect(),
-            widths: Vec::new(),
             scars,
             buds: DormantBuds::OnYoungWood,
+            ..Wood::default()
         }
     }
 }

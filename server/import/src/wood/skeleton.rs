@@ -168,7 +168,7 @@ fn second(mut file: Second, options: &WoodOptions) -> Result<WoodFile, Fault> {
         has_bud: axis.bud,
     };
     let axes = file.axes.iter().map(axis).collect();
-    let wood = Wood { nodes, axes, widths, scars, buds: DormantBuds::Known };
+    let wood = Wood { nodes, axes, widths, scars, buds: DormantBuds::Known, ..Wood::default() };
     let notes = Vec::new();
     Ok(WoodFile { wood, parameters: file.parameters, species: file.species, seed: file.seed, notes })
 }

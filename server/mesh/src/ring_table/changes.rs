@@ -18,6 +18,8 @@ pub struct Changes {
     pub foliage: Vec<u32>,
     /// Kept rows whose light changed.
     pub light: Vec<u32>,
+    /// Kept rows that are given other organs.
+    pub organs: Vec<u32>,
 }
 
 impl Changes {
@@ -25,6 +27,8 @@ impl Changes {
     pub fn is_empty(&self) -> bool {
         self.truncated.is_none()
             && self.appended.is_empty()
-            && [&self.position, &self.radius, &self.foliage, &self.light].iter().all(|rows| rows.is_empty())
+            && [&self.position, &self.radius, &self.foliage, &self.light, &self.organs]
+                .iter()
+                .all(|rows| rows.is_empty())
     }
 }

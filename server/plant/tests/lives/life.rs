@@ -1,6 +1,8 @@
 //! Random lives of plants.
 
-use espalier_plant::{AxisId, Carried, Claim, Internode, MetamerId, Motion, Plant, Settled};
+use espalier_plant::{
+    AxisId, Carried, Claim, Internode, MetamerId, Motion, Organ, OrganKind, Plant, Settled,
+};
 use glam::{Quat, Vec3};
 use proptest::prelude::*;
 
@@ -18,7 +20,7 @@ pub enum Event {
     Width(u16, Option<u8>),
     /// Scales a branch about its foot and turns it over, by whole columns.
     Place(u16, u8),
-    /// Gives radii to some wood and what follows it, or takes them away, and lets a bud grow with one.
+    /// Gives radii and organs to some wood and what follows it, or takes them away, and lets a bud grow with one.
     Give(u16, Option<u8>),
     GoTo(u16),
     /// Settles which wood stands with some steps in force, and some drawn by a hand.
@@ -173,6 +175,12 @@ pub fn happen(plant: &mut Plant, event: &Event) {
                 radii.push((plant.axes().last(axis).expect("it has grown"), Some(0.5)));
             }
             plant.give_radii(&radii).expect("living wood");
+            let leaf =
+                |azimuth| Organ { kind: OrganKind::Leaf, azimuth, inclination: 90, roll: 0, length: 0 };
+            let borne = |&(id, radius): &(MetamerId, Option<f32>)| {
+                (id, radius.map(|_| (0..*row as u8 % 3).map(leaf).collect()))
+            };
+            plant.give_organs(&radii.iter().map(borne).collect::<Vec<_>>()).expect("living wood");
             plant.end_step();
         }
         Event::GoTo(step) => {

@@ -5,7 +5,8 @@ mod rule;
 mod settling;
 
 use espalier_plant::{
-    AxisEnds, AxisId, Edit, Future, Given, GivenRadii, MetamerId, Plant, PlantParts, Resettled, checks,
+    AxisEnds, AxisId, Edit, Future, Given, MetamerId, Organs, Plant, PlantParts, Resettled, checks,
+    given::GivenColumn,
 };
 use glam::Vec3;
 use proptest::prelude::*;
@@ -25,8 +26,8 @@ fn edit((kind, row): (u8, usize)) -> Edit {
             Edit::Resettled(Box::new(Resettled { metamers, ends: vec![ends], ..Resettled::default() }))
         }
         _ => {
-            let (metamers, radii) = (vec![MetamerId::new(row)], GivenRadii(vec![0.5]));
-            Edit::Given(Box::new(Given { metamers, radii }))
+            let (metamers, values) = (vec![MetamerId::new(row)], GivenColumn(vec![0.5]));
+            Edit::Given(Box::new(Given { metamers, values }))
         }
     }
 }
@@ -154,6 +155,7 @@ proptest! {
             ends,
             edits: edits.into_iter().map(edit).collect(),
             widths: Vec::new(),
+            given_organs: given_radii.iter().map(|&(row, _)| (row, Organs::from([]))).collect(),
             given_radii,
             parent: rows.iter().map(|r| none(r.0)).collect(),
             axis: rows.iter().map(|r| r.1).collect(),

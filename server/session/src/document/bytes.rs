@@ -9,6 +9,7 @@ mod gestures;
 mod grammars;
 mod growth;
 mod lengths;
+mod organs;
 mod packing;
 mod plain;
 mod programmes;
@@ -106,6 +107,9 @@ impl Document {
         if !plant.given_radii.is_empty() {
             add(&sections::GIVEN_RADII, &|out| wood::write_given_radii(out, &plant));
         }
+        if organs::are_there(&plant, futures) {
+            add(&sections::GIVEN_ORGANS, &|out| organs::write(out, &plant));
+        }
         add(&sections::GROWTH, &|out| {
             growth::write(out, &self.simulation.state());
             out.u32(self.steps_begun);
@@ -156,9 +160,11 @@ impl Document {
             container.require(&sections::TIMELINE, wood::read_timeline)?;
         let widths = container.read(&sections::WIDTHS, wood::read_widths)?.unwrap_or_default();
         let given_radii = container.read(&sections::GIVEN_RADII, wood::read_given_radii)?.unwrap_or_default();
+        let given_organs = container.read(&sections::GIVEN_ORGANS, organs::read)?.unwrap_or_default();
         let rows = container.require(&sections::PLANT, wood::read_columns)?;
-        let plant = Plant::from_parts(PlantParts { now, ends, edits, widths, given_radii, ..rows })
-            .map_err(|error| damaged(error.to_string()))?;
+        let plant =
+            Plant::from_parts(PlantParts { now, ends, edits, widths, given_radii, given_organs, ..rows })
+                .map_err(|error| damaged(error.to_string()))?;
         let (mut state, steps_begun) =
             container.require(&sections::GROWTH, |r| Ok((growth::read(r)?, r.u32()?)))?;
         container.read(&sections::SWEEPS, |r| growth::read_sweeps(r, &mut state.guides))?;

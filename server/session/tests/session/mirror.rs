@@ -13,6 +13,7 @@ pub struct Row {
     pub foliage: u8,
     pub light: u8,
     pub born: u32,
+    pub organs: Option<Vec<u32>>,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -90,6 +91,7 @@ impl Mirror {
                 foliage: rows.foliage[at],
                 light: rows.light[at],
                 born: rows.born[at],
+                organs: None,
             });
         }
     }
@@ -106,6 +108,7 @@ impl Mirror {
             Values::Foliage(values) => self.rows[row].foliage = values[at],
             Values::Light(values) => self.rows[row].light = values[at],
             Values::Born(_) => panic!("a metamer never changes its birth"),
+            Values::Organs(values) => self.rows[row].organs.clone_from(&values[at]),
         }
     }
 
@@ -139,6 +142,7 @@ pub fn rows_of(document: &Document) -> Vec<Row> {
         foliage: table.foliage(row),
         light: table.light(row),
         born: table.born(row),
+        organs: table.organs(row).map(|organs| organs.iter().map(|organ| organ.to_number()).collect()),
     };
     (0..table.rows() as u32).map(row).collect()
 }
@@ -147,8 +151,10 @@ impl Row {
     /// Equal but for the looks of what is dead, and for changes of light and vigor too small to be told.
     pub fn shows(&self, plant: &Self) -> bool {
         let drawn = self.radius > 0;
-        let exact =
-            |row: &Self| (row.parent, row.begins_axis, row.position, row.radius, row.foliage & 0xf, row.born);
+        let exact = |row: &Self| {
+            let organs = row.organs.clone();
+            (row.parent, row.begins_axis, row.position, row.radius, row.foliage & 0xf, row.born, organs)
+        };
         let light = self.light.abs_diff(plant.light) < 8;
         let vigor = (self.foliage >> 4).abs_diff(plant.foliage >> 4) < 2;
         exact(self) == exact(plant) && (!drawn || light && vigor)

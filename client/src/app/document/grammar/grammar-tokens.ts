@@ -170,7 +170,7 @@ class Tokeniser {
     } else if (turtle !== undefined) {
       this.#take(this.#rewritten.has(name) && turtle === "silent" ? "rewritten" : turtle, name.length);
     } else if (name.startsWith("~")) {
-      this.#take("silent", name.length);
+      this.#take("organ", name.length);
     } else if (WORD.test(name)) {
       this.#take(this.#rewritten.has(name) ? "rewritten" : "module", name.length);
     } else {

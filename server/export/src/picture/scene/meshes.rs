@@ -165,6 +165,7 @@ fn borne(plant: &Plant, style: &Style, look: &Appearance, bodies: &Bodies) -> Ve
         (Skin::Leaf, Painted { mesh, colours, texture: Some(thin.texture), riders, grids })
     };
     let mut meshes = vec![painted(thin::leaves(&look.leaves), &|cards, id| foliage.add_leaves(cards, id))];
+    let look = foliage.look();
     let flowers = thin::flowers(&look.flowers);
     meshes.extend(flowers.map(|thin| painted(thin, &|cards, id| foliage.add_flowers(cards, id))));
     let fruits = thin::fruits(&look.fruits);

@@ -1,6 +1,7 @@
 //! How many bytes each section unpacks to at most: what the limits of the protocol leave room for (`LM4`, `LM6`,
 //! `LM11`), times what it takes.
 
+use espalier_plant::organs::MOST_ORGANS;
 use espalier_proto::version::{MAX_BEND_TOUCHES, MAX_OBSTACLES};
 
 use crate::{
@@ -44,6 +45,8 @@ const MOVED: u64 = 28 + AXES * 16;
 const EDIT: u64 = 48;
 /// A row and a value of 4 bytes.
 const PAIR: u64 = 8;
+/// A row and its organs.
+const ORGANS: u64 = 4 + 1 + 4 + 4 * MOST_ORGANS as u64;
 
 /// Parent, axis, death, node and normal of metamers; bearer, direction and death of axes.
 const fn rows(metamers: u64, axes: u64) -> u64 {
@@ -51,12 +54,13 @@ const fn rows(metamers: u64, axes: u64) -> u64 {
 }
 
 /// Edits of wood of which so many metamers are there, and the steps in which it grew.
-const TIME: u64 = METAMERS * (STEP + CUT + PAIR + AXES * SHED) + futures::MAX_PLACES * MOVED;
+const TIME: u64 = METAMERS * (STEP + CUT + PAIR + ORGANS + AXES * SHED) + futures::MAX_PLACES * MOVED;
 
 pub(super) const PLANT: u64 = FEW + rows(METAMERS, AXES * METAMERS);
 pub(super) const TIMELINE: u64 = FEW + TIME + OPERATIONS * (STEP + EDIT);
 pub(super) const WIDTHS: u64 = FEW + widths::MAX_WIDTHS as u64 * PAIR;
 pub(super) const GIVEN_RADII: u64 = FEW + METAMERS * PAIR;
+pub(super) const GIVEN_ORGANS: u64 = FEW + METAMERS * ORGANS;
 /// A marker of the brush to each metamer.
 pub(super) const GROWTH: u64 = FEW + SET + METAMERS * 17 + strokes::MAX_OPEN as u64 * STROKE;
 pub(super) const SWEEPS: u64 = FEW + strokes::MAX_OPEN as u64 * STROKE;

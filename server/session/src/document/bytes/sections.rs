@@ -72,6 +72,8 @@ pub(super) const TIMELINE: Kind = first(*b"TIME", "timeline", lengths::TIMELINE)
 pub(super) const WIDTHS: Kind = first(*b"WIDT", "widths", lengths::WIDTHS);
 /// Radii given in the present; none if it is not there.
 pub(super) const GIVEN_RADII: Kind = first(*b"RADI", "given radii", lengths::GIVEN_RADII);
+/// Organs given in the present; where it is not there no step gives any.
+pub(super) const GIVEN_ORGANS: Kind = first(*b"ORGN", "organs", lengths::GIVEN_ORGANS);
 /// What the next step of growth depends on beside plant and obstacles.
 pub(super) const GROWTH: Kind = Kind { version: 2, ..first(*b"GROW", "growth", lengths::GROWTH) };
 /// What the brushes of strokes in progress have swept, and whether wood has come to their paths; nothing if it is not
@@ -109,6 +111,7 @@ pub(super) const RELEASED: &[&Kind] = &[
     &TIMELINE,
     &WIDTHS,
     &GIVEN_RADII,
+    &GIVEN_ORGANS,
     &GROWTH,
     &SWEEPS,
     &PARAMETERS,

@@ -2,13 +2,15 @@
 
 use espalier_growth::WORLD_EXTENT;
 use espalier_plant::{
-    AxisEnds, AxisId, Carried, Edit, Future, FutureParts, Given, GivenRadii, MetamerId, PlantParts, Resettled,
+    AxisEnds, AxisId, Carried, Edit, Future, FutureParts, Given, MetamerId, PlantParts, Resettled,
+    given::GivenColumn,
 };
 use glam::Vec3;
 
 use super::{
     DocumentError, damaged,
     fields::{Reader, Writer},
+    organs,
 };
 
 /// The columns of metamers and axes.
@@ -160,9 +162,17 @@ fn write_edits(out: &mut Writer, edits: &[Edit]) {
             out.tagged(6, given.metamers.len() as u32);
             write_given(out, given);
         }
+        Edit::Borne(given) => {
+            out.tagged(8, given.metamers.len() as u32);
+            organs::write_given(out, given);
+        }
         Edit::Resettled(resettled) => {
-            out.tagged(7, resettled.metamers.len() as u32);
+            let has_organs = !resettled.organs.metamers.is_empty();
+            out.tagged(if has_organs { 9 } else { 7 }, resettled.metamers.len() as u32);
             write_resettled(out, resettled);
+            if has_organs {
+                organs::write_given(out, &resettled.organs);
+            }
         }
     });
 }
@@ -178,11 +188,11 @@ fn write_carried(out: &mut Writer, carried: &Carried) {
 fn write_given(out: &mut Writer, given: &Given) {
     out.list(&given.metamers, |out, id| out.u32(id.raw()));
     // Some are not numbers.
-    out.list(&given.radii.0, |out, radius| out.u32(radius.to_bits()));
+    out.list(&given.values.0, |out, radius| out.u32(radius.to_bits()));
 }
 
 fn write_resettled(out: &mut Writer, resettled: &Resettled) {
-    let Resettled { metamers, axes, ends, severed, carried, widths, given } = resettled;
+    let Resettled { metamers, axes, ends, severed, carried, widths, given, organs: _ } = resettled;
     out.list(metamers, |out, &(id, death)| {
         out.u32(id.raw());
         out.u32(death);
@@ -223,6 +233,11 @@ fn read_edit(reader: &mut Reader<'_>) -> Result<Edit, DocumentError> {
         5 => Edit::Scarred(metamer(row), reader.u32()?),
         6 => Edit::Given(Box::new(read_given(reader)?)),
         7 => Edit::Resettled(Box::new(read_resettled(reader)?)),
+        8 => Edit::Borne(Box::new(organs::read_given(reader)?)),
+        9 => {
+            let resettled = read_resettled(reader)?;
+            Edit::Resettled(Box::new(Resettled { organs: organs::read_given(reader)?, ..resettled }))
+        }
         _ => return Err(damaged("an edit of unknown kind")),
     })
 }
@@ -248,7 +263,7 @@ fn read_carried(reader: &mut Reader<'_>) -> Result<Carried, DocumentError> {
 fn read_given(reader: &mut Reader<'_>) -> Result<Given, DocumentError> {
     Ok(Given {
         metamers: reader.list(read_metamer)?,
-        radii: GivenRadii(reader.numbers()?.into_iter().map(f32::from_bits).collect()),
+        values: GivenColumn(reader.numbers()?.into_iter().map(f32::from_bits).collect()),
     })
 }
 
@@ -268,12 +283,13 @@ fn read_resettled(reader: &mut Reader<'_>) -> Result<Resettled, DocumentError> {
         carried: read_carried(reader)?,
         widths: reader.list(|r| Ok((read_metamer(r)?, r.option()?.map(f32::from_bits))))?,
         given: read_given(reader)?,
+        organs: Given::default(),
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use espalier_plant::{Claim, Internode, Motion, Plant, checks};
+    use espalier_plant::{Claim, Internode, Motion, Organ, OrganKind, Plant, checks};
     use glam::Quat;
 
     use super::*;
@@ -293,6 +309,8 @@ mod tests {
         plant.carry(&[MetamerId::new(2)], &[Motion { rotation, from: Vec3::Y, to: Vec3::Y }]);
         plant.set_width(MetamerId::new(1), Some(0.5));
         plant.give_radii(&[(MetamerId::new(2), Some(0.25))]).expect("living wood");
+        let leaf = Organ { kind: OrganKind::Flower, azimuth: 9, inclination: 99, roll: 5, length: 0 };
+        plant.give_organs(&[(MetamerId::new(2), Some([leaf].into()))]).expect("living wood");
         plant.end_step();
         let claim = |step: u32| Claim { in_force: step < 3, by_hand: true };
         let settled = plant.settle(&(0..=plant.step()).map(claim).collect::<Vec<_>>().into());
@@ -306,9 +324,12 @@ mod tests {
         let mut plant = settled();
         let has_all = |edit: &Edit| {
             let Edit::Resettled(edit) = edit else { return false };
-            let Resettled { metamers, axes, ends, severed, carried, widths, given } = &**edit;
+            let Resettled { metamers, axes, ends, severed, carried, widths, given, organs } = &**edit;
             let rows = [metamers.len(), ends.len(), severed.len(), carried.metamers.len(), widths.len()];
-            rows.iter().all(|&len| len > 0) && !axes.is_empty() && !given.metamers.is_empty()
+            rows.iter().all(|&len| len > 0)
+                && !axes.is_empty()
+                && !given.metamers.is_empty()
+                && !organs.metamers.is_empty()
         };
         assert!(plant.to_parts().edits.iter().any(has_all), "each part of the edit is written");
         let written = plant.to_parts();
@@ -318,9 +339,9 @@ mod tests {
         let (columns, timeline) = (columns.into_bytes(), timeline.into_bytes());
         let rows = read_columns(&mut Reader::new(&columns)).expect("columns");
         let time = read_timeline(&mut Reader::new(&timeline)).expect("a timeline");
-        let PlantParts { widths, given_radii, .. } = written.clone();
+        let PlantParts { widths, given_radii, given_organs, .. } = written.clone();
         let PlantParts { now, ends, edits, .. } = time;
-        let read = PlantParts { now, ends, edits, widths, given_radii, ..rows };
+        let read = PlantParts { now, ends, edits, widths, given_radii, given_organs, ..rows };
         assert_eq!(read, written);
         assert_eq!(Plant::from_parts(read).as_ref(), Ok(&plant));
         plant.go_to(4);

@@ -7,6 +7,7 @@ use espalier_proto::{GrammarValue, Reason};
 use super::*;
 
 mod limits;
+mod organs;
 
 fn set(text: &str, depth: u32) -> Command {
     plain(Action::SetGrammar {
