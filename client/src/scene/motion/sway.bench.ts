@@ -19,11 +19,13 @@ const HARSH = { ...CALM, speed: 20, turbulence: 0.8, snow: 0.5 };
 const NOTHING = { standing: [], meshes: [] };
 const WEATHER = { velocity: [7, 0, 3], turbulence: 0.7, seed: 7 } as const;
 
-/** Trees of about ten and a hundred thousand rows. */
-const TREES = [
-  { seed: 3, height: 62, orders: 3 },
-  { seed: 3, height: 96, orders: 4 },
-];
+/** Trees of about ten and a hundred thousand rows; with `HUGE=1` one of a million instead, which takes a minute to make. */
+const TREES = process.env.HUGE
+  ? [{ seed: 3, height: 160, orders: 4 }]
+  : [
+      { seed: 3, height: 62, orders: 3 },
+      { seed: 3, height: 96, orders: 4 },
+    ];
 
 /** A rough rock as large as a tree and close in front of it, of as many triangles as a model may have. */
 const ROCK = rock(256, 256);
