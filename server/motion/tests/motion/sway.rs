@@ -1,9 +1,12 @@
 //! Winds that follow one another, and plucks.
 
-use espalier_motion::{Answers, Exposure, LIVE_PERIOD, Pluck, Sway, Weather, Wind};
+use espalier_motion::{
+    Answers, Exposure, LIVE_PERIOD, Pluck, Sway, Weather, Wind,
+    clips::{Clip, Conditions, clips},
+};
 use glam::DVec3;
 
-use crate::trees::{Tree, grown};
+use crate::trees::{Tree, grown, unlike};
 
 fn answers(tree: &Tree, speed: f64, seed: u32) -> Answers {
     let weather = Weather { velocity: DVec3::X * speed, turbulence: 0.5, seed };
@@ -85,4 +88,48 @@ fn of_many_plucks_the_last_ones_are_kept() {
         sway.pluck(Pluck { joint: 0, at: f64::from(at), bend: DVec3::X });
     }
     assert_eq!(sway.plucks(), 32);
+}
+
+/// How a joint swings in a clip about its mean, along x and z together.
+fn swings(clip: &Clip, joint: usize) -> Vec<f64> {
+    let all: Vec<f64> = clip.keys.iter().map(|key| key[joint].x + key[joint].z).collect();
+    let mean = all.iter().sum::<f64>() / all.len() as f64;
+    all.iter().map(|one| one - mean).collect()
+}
+
+fn product(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}
+
+/// What tells a tree in wind from a rubber one: `cargo test -p espalier-motion --test motion trunks_swing -- --nocapture`.
+#[test]
+fn trunks_swing_slowly_and_limbs_of_one_bearer_each_in_their_own_time() {
+    for tree in unlike() {
+        let weather = Weather { velocity: DVec3::X * 8.0, turbulence: 0.7, seed: 7 };
+        let [sway, _] = clips(&tree.joints, &tree.wood, &Conditions::open(&tree.wood, weather));
+        let joints = tree.joints.all();
+        let all: Vec<Vec<f64>> = (0..joints.len()).map(|joint| swings(&sway, joint)).collect();
+        let turns = |swings: &Vec<f64>| swings.windows(2).filter(|two| two[0] * two[1] < 0.0).count();
+        let mut counts: Vec<usize> = all.iter().map(turns).collect();
+        let trunk = counts[0];
+        counts.sort_unstable();
+        let middle = counts[counts.len() / 2];
+        let mut alike = Vec::new();
+        for (one, joint) in joints.iter().enumerate().skip(1) {
+            let siblings = (one + 1..joints.len()).filter(|&other| joints[other].parent == joint.parent);
+            alike.extend(siblings.map(|other| {
+                let lengths = product(&all[one], &all[one]) * product(&all[other], &all[other]);
+                product(&all[one], &all[other]) / lengths.sqrt()
+            }));
+        }
+        let mean = alike.iter().sum::<f64>() / alike.len() as f64;
+        println!(
+            "{}: in 8 s the trunk passes its middle {trunk} times, the limb in the middle of all {middle}; \
+             {} pairs of limbs on one bearer are alike by {mean:.2}",
+            tree.name,
+            alike.len()
+        );
+        assert!(2 * trunk < middle, "{}: a trunk {trunk}, limbs {middle} times", tree.name);
+        assert!(alike.len() > 50 && mean < 0.6, "{}: limbs are alike by {mean}", tree.name);
+    }
 }
