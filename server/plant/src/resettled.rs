@@ -135,6 +135,10 @@ impl Plant {
             journey.axes.push(ends.axis);
         }
         self.carry_over(&mut edit.carried, journey);
+        // Buds go with what bears them, also those that point where they did.
+        for &id in &edit.carried.metamers {
+            journey.axes.extend(self.laterals(id));
+        }
         self.swap_fields(edit);
     }
 
