@@ -17,6 +17,9 @@ pub(super) const CAPACITY_OF_BONE: usize = 1000;
 /// reaches: where that fills a screen of 2,000 pixels a fifth of one.
 const NEAR: f64 = 1e-4;
 
+/// How far leaves reach from their nodes, in internodes.
+const LEAF: f32 = 2.0;
+
 /// The bones of the plant whose parts are being written.
 pub(super) struct Skeleton<'a> {
     swaying: &'a Swaying,
@@ -59,7 +62,10 @@ impl<'a> Skeleton<'a> {
             writer.adopt(ground, 0);
         }
         writer.root.nodes.extend(made);
-        let arms = rig.arms(&swaying.joints, &swaying.wood);
+        // Leaves reach beyond the nodes they stand on.
+        let leaf = f64::from(LEAF * writer.scale);
+        let arms = rig.arms(&swaying.joints, &swaying.wood).into_iter().map(|arm| arm + leaf);
+        let arms: Vec<f64> = arms.collect();
         // The ground carries the whole plant.
         let near = NEAR * arms[0];
         let skeleton = Self { swaying, rig, nodes, arms, near };

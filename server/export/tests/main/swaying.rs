@@ -6,7 +6,7 @@ use espalier_export::{About, Detail, ExportError, Model, in_memory, joints_csv};
 use espalier_growth::{Obstacle, Shape, species};
 use espalier_mesh::RingTable;
 use espalier_motion::{
-    Joints, Rig, Rows, Scale, Weather,
+    Joints, Node, Rig, Rows, Scale, Weather,
     clips::{Clip, Conditions, KEYS_A_SECOND, blow, clips, reaches},
     loads::{self, Loading},
     shelter::{Form, Solid},
@@ -46,7 +46,7 @@ fn wall() -> (Obstacle, Solid) {
 
 /// What motion itself says of the plant of the first seed: clips, where all bones stand at each key of both, how many bones there
 /// are.
-fn motion(plant: &Plant, looks: &Appearance, solids: &[Solid]) -> ([Clip; 2], Vec<Vec<Vec<Vec3>>>, usize) {
+fn motion(plant: &Plant, looks: &Appearance, solids: &[Solid]) -> ([Clip; 2], Vec<Vec<Vec<Mat4>>>, usize) {
     let look = &looks.wind;
     let mut table = RingTable::new();
     table.sync(plant, &style(), 1);
@@ -67,8 +67,8 @@ fn motion(plant: &Plant, looks: &Appearance, solids: &[Solid]) -> ([Clip; 2], Ve
     blow(gust, std::slice::from_ref(&rig), plants, &conditions, || Ok::<(), ()>(()))
         .expect("nothing ends it");
     let places = clips.iter().map(|clip| {
-        let of =
-            |key: &Vec<DVec3>| rig.stand(&joints, &wood, key).iter().map(|at| at.place.as_vec3()).collect();
+        let stands = |at: &Node| Mat4::from_rotation_translation(at.turn.as_quat(), at.place.as_vec3());
+        let of = |key: &Vec<DVec3>| rig.stand(&joints, &wood, key).iter().map(stands).collect();
         clip.keys.iter().map(of).collect()
     });
     let places = places.collect();
@@ -174,20 +174,24 @@ fn bones_stand_where_motion_has_them_at_each_key() {
         assert!(bones > 10, "{bones} bones");
         let animations = root["animations"].as_array().expect("animations");
         assert_eq!(animations.len(), 2);
-        let height = places[1][0].iter().fold(0.0, |top: f32, place| top.max(place.y));
+        let height = places[1][0].iter().fold(0.0, |top: f32, bone| top.max(bone.w_axis.y));
         let still = world(&file, &root, None);
         for (joint, &wanted) in joints.iter().zip(&places[1][0]) {
-            let found = still[index(joint)].transform_point3(Vec3::ZERO);
+            let [found, wanted] = [still[index(joint)], wanted].map(|bone| bone.transform_point3(Vec3::ZERO));
             assert!(found.distance(wanted) < 1e-3, "by itself: {found} is not {wanted}");
         }
         for ((animation, clip), places) in animations.iter().zip(&clips).zip(&places) {
             assert!(animation["name"].as_str().is_some_and(|name| name.starts_with(clip.name)));
             let mut furthest = 0f32;
-            for key in (0..clip.keys.len()).step_by(7).chain([clip.keys.len() - 1]) {
+            for key in (0..clip.keys.len()).step_by(13).chain([clip.keys.len() - 1]) {
                 let all = world(&file, &root, Some((animation, key)));
-                for (joint, &wanted) in joints.iter().zip(&places[key]) {
-                    let found = all[index(joint)].transform_point3(Vec3::ZERO);
-                    furthest = furthest.max(found.distance(wanted));
+                for (joint, wanted) in joints.iter().zip(&places[key]) {
+                    // A bone, and the tip of a leaf beside it.
+                    for aside in [Vec3::ZERO, 2.0 * METRES * Vec3::X] {
+                        let [found, wanted] =
+                            [&all[index(joint)], wanted].map(|bone| bone.transform_point3(aside));
+                        furthest = furthest.max(found.distance(wanted));
+                    }
                 }
             }
             assert!(furthest < 4e-4 * height, "{}: bones miss {furthest} m", clip.name);
@@ -398,7 +402,7 @@ fn a_skeleton_of_usd_stands_where_motion_has_it_and_its_loop_closes() {
     let (under, rest) = (parents_in(heavy), matrices(heavy, "restTransforms = "));
     assert_eq!([under.len(), rest.len()], [count; 2]);
     for (composed, &wanted) in self::composed(&under, &|bone| rest[bone]).iter().zip(&stands[1][0]) {
-        let found = composed.transform_point3(Vec3::ZERO);
+        let [found, wanted] = [*composed, wanted].map(|bone| bone.transform_point3(Vec3::ZERO));
         assert!(found.distance(wanted) < 1e-3, "under snow at rest: {found} is not {wanted}");
     }
     let keys = |name: &str| -> Vec<Vec<f32>> {
@@ -416,7 +420,7 @@ fn a_skeleton_of_usd_stands_where_motion_has_it_and_its_loop_closes() {
             )
         };
         for (matrix, &wanted) in composed(&local).iter().zip(&places[0][key]) {
-            let found = matrix.transform_point3(Vec3::ZERO);
+            let [found, wanted] = [*matrix, wanted].map(|bone| bone.transform_point3(Vec3::ZERO));
             assert!(found.distance(wanted) < 1e-3, "key {key}: {found} is not {wanted}");
         }
     }
