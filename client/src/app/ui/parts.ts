@@ -162,7 +162,8 @@ const ALL: readonly Part<unknown>[] = [
   DRAW_MODE_LEGEND,
   PREDICTION,
   ...Object.values(TOOL_PARTS),
-  ...Object.values(PANELS),
+  // Grammars come when they are opened, or stand in the tree.
+  ...Object.entries(PANELS).flatMap(([name, part]) => (name === "grammars" ? [] : [part])),
   SYMMETRY,
   VAIN,
   SUN,

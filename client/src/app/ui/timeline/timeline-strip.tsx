@@ -5,7 +5,7 @@ import { clusters, peopleOf } from "../../document/timeline/timeline-signs";
 import type { Studio } from "../../studio";
 import type { Together } from "../../together/together";
 import { say } from "../../words/say";
-import { DepthStepper } from "./depth-stepper";
+import { DEPTH } from "./depth-part";
 import { isWorthShowing } from "./has-timeline";
 import { stepsOf } from "./step-count";
 import { Forks } from "./timeline-forks";
@@ -78,10 +78,17 @@ export function TimelineStrip({ studio }: { studio: Studio }) {
       >
         <ForthIcon />
       </button>
-      {studio.grammar.inForce.value !== null && <DepthStepper studio={studio} />}
+      {studio.grammar.inForce.value !== null && <Depth studio={studio} />}
       <ReplayButton studio={studio} />
     </section>
   );
+}
+
+/** The depth of the grammar in force, once what sets it is there. */
+function Depth({ studio }: { studio: Studio }) {
+  useEffect(() => void DEPTH.open(), []);
+  const DepthStepper = DEPTH.content.value;
+  return DepthStepper && <DepthStepper studio={studio} />;
 }
 
 function ReplayButton({ studio, isAlone = false }: { studio: Studio; isAlone?: boolean }) {
