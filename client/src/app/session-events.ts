@@ -142,6 +142,12 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
     message: (message) => handle(handlers, message),
     refused: (problem, command) => {
       page.undo.refused(command);
+      if (command) {
+        page.grammar.listener?.refused(command);
+      } else if (problem.reason === "grammar-ends") {
+        // That was found out after the command had been acknowledged.
+        page.grammar.listener?.ended();
+      }
       refused(page, problem, command);
     },
     opened: (how) => forget(page, how),

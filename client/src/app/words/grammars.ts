@@ -26,6 +26,12 @@ export const GRAMMARS = {
   "grammars.no-text": ["{file} is no text.", "{file} ist kein Text."],
   "grammars.taken": ["Your text before was put aside.", "Dein Text davor liegt beiseite."],
   "grammars.bring-back": ["Bring it back", "Zurückholen"],
+  "grammars.drafts": ["Not planted", "Nicht gepflanzt"],
+  "grammars.drafts.here": ["stands in the editor", "steht im Editor"],
+  "grammars.drafts.line": ["1 line", "1 Zeile"],
+  "grammars.drafts.lines": ["{count} lines", "{count} Zeilen"],
+  "grammars.drafts.discard": ["Discard “{name}”", "„{name}“ verwerfen"],
+  "grammars.drafts.discarded": ["The text is gone.", "Der Text ist fort."],
   "grammars.text": ["Text of the grammar", "Text der Grammatik"],
   "grammars.live": ["Live", "Live"],
   "grammars.live.title": ["The plant follows while you type", "Die Pflanze folgt, während du tippst"],
@@ -99,7 +105,27 @@ export const GRAMMARS = {
   "grammars.depth.guess": ["Depth {depth}: about {count} internodes", "Tiefe {depth}: etwa {count} Internodien"],
   "grammars.depth.bar": ["Depth {depth}", "Tiefe {depth}"],
   "grammars.depth.ends": ["It ends at depth {depth}: {why}.", "Bei Tiefe {depth} ist Schluss: {why}."],
-  "grammars.depth.stopped": ["It could not be derived so far: {why}.", "So weit ließ sie sich nicht ableiten: {why}."],
+  "grammars.depth.stopped": [
+    "It stands at depth {depth} and goes no deeper: {why}.",
+    "Sie steht bei Tiefe {depth} und geht nicht tiefer: {why}.",
+  ],
+  "grammars.depth.ahead": [
+    "The text has been changed since; these are depth and sliders of the plant that stands.",
+    "Der Text ist seither geändert; dies sind Tiefe und Regler der Pflanze, die steht.",
+  ],
+  "grammars.refused": [
+    "The text could not be planted at depth {depth}.",
+    "Der Text ließ sich bei Tiefe {depth} nicht pflanzen.",
+  ],
+  "grammars.refused.why": [
+    "The text could not be planted at depth {depth}: {why}.",
+    "Der Text ließ sich bei Tiefe {depth} nicht pflanzen: {why}.",
+  ],
+  "grammars.refused.stands": [
+    "The plant before stands, at depth {depth}.",
+    "Die Pflanze davor steht, bei Tiefe {depth}.",
+  ],
+  "grammars.refused.plant": ["Plant it at depth {depth}", "Bei Tiefe {depth} pflanzen"],
   "grammars.depth.edited": [
     "Hands have changed this plant; it grows on where its buds still stand.",
     "Diese Pflanze ist von Hand verändert; sie wächst weiter, wo ihre Knospen noch stehen.",

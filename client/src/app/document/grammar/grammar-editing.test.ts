@@ -1,6 +1,7 @@
 import { signal } from "@preact/signals";
 import { describe, expect, it } from "vitest";
 import type { CheckGrammar, Command, GrammarInForce, GrammarReport } from "../../../wire/generated";
+import { Drafts } from "./drafts";
 import { BOUT, CHECK_AFTER, GrammarEditing, keptValues, valuesIn } from "./grammar-editing";
 
 const CLEAN: GrammarReport = {
@@ -29,8 +30,19 @@ const told = (text: string, values: Record<string, number> = {}): GrammarInForce
   ends: null,
 });
 
+/** What a browser keeps for its pages. */
+function store(): Storage {
+  const all = new Map<string, string>();
+  return {
+    getItem: (key: string) => all.get(key) ?? null,
+    setItem: (key: string, value: string) => void all.set(key, value),
+  } as Storage;
+}
+
 /** An editor with a clock that is turned by hand and a server whose answers are given by hand. */
-function bench(room: readonly [number, number, number] | null = null) {
+function bench(room: readonly [number, number, number] | null = null, own = store()) {
+  const drafts = new Drafts(store(), own);
+  const session = signal<string | null>(null);
   const [inForce, busy] = [signal<GrammarInForce | null>(null), signal(false)];
   const sent: Command[] = [];
   const asked: { check: CheckGrammar; answer: (report: Partial<GrammarReport>) => Promise<void> }[] = [];
@@ -60,6 +72,8 @@ function bench(room: readonly [number, number, number] | null = null) {
     ahead: () => ({ step: 0, pending: 0 }),
     room: () => room,
     planting: () => {},
+    session,
+    drafts,
     check: (check) =>
       new Promise((resolve) => {
         const answer = async (report: Partial<GrammarReport>) => {
@@ -73,7 +87,7 @@ function bench(room: readonly [number, number, number] | null = null) {
       throw error;
     },
   });
-  return { editing, inForce, sent, asked, pass };
+  return { editing, inForce, sent, asked, pass, session, drafts };
 }
 
 const ERROR = {
@@ -201,6 +215,87 @@ describe("typing a grammar", () => {
     expect([sent, editing.text.value]).toEqual([[], "mine"]);
     editing.takeTheirs();
     expect([editing.text.value, editing.setAside.value]).toEqual(["theirs", { text: "mine" }]);
+  });
+});
+
+describe("a text that is not planted", () => {
+  it("is put aside when another takes its place, and forgotten once it is planted", () => {
+    const { editing, inForce } = bench();
+    inForce.value = told("ours");
+    editing.type("axiom: F[");
+    editing.open("shipped");
+    expect(editing.aside).toEqual(["axiom: F["]);
+    editing.open("axiom: F[");
+    expect(editing.aside, "that which stands here is not offered again").toEqual(["shipped"]);
+    inForce.value = told("shipped");
+    editing.discard("axiom: F[");
+    editing.takeTheirs();
+    expect(editing.aside).toEqual(["axiom: F["]);
+  });
+
+  it("stays when the server refuses it, with a depth at which it may do", async () => {
+    const { editing, inForce, sent, asked, pass } = bench();
+    inForce.value = told("small");
+    editing.type("depth: 20\naxiom: F\nF --> FFF");
+    pass(CHECK_AFTER);
+    await asked[0]?.answer({ depth: 20 });
+    expect(sent).toMatchObject([{ text: "depth: 20\naxiom: F\nF --> FFF" }]);
+    inForce.value = { ...told("small"), ends: { id: "ends.modules", values: {}, message: "" } };
+    expect(editing.text.value).toBe("depth: 20\naxiom: F\nF --> FFF");
+    editing.refuseLast();
+    expect([editing.refused.value, editing.possibleDepth]).toEqual([
+      { of: "depth: 20\naxiom: F\nF --> FFF", depth: 20 },
+      null,
+    ]);
+    const sizes = [1, 8, 64, 512].map((internodes) => ({ internodes, modules: internodes }));
+    await asked[1]?.answer({ depth: 20, sizes: sizes as never });
+    expect(editing.possibleDepth).toBe(3);
+    editing.plant(3);
+    expect(sent.at(-1)).toMatchObject({ text: "depth: 20\naxiom: F\nF --> FFF", depth: 3 });
+    editing.refuse({ text: "depth: 20\naxiom: F\nF --> FFF", depth: 3 });
+    expect(editing.possibleDepth, "what was refused is not offered again").toBe(2);
+    editing.plant(2);
+    inForce.value = told("depth: 20\naxiom: F\nF --> FFF");
+    expect([editing.refused.value, editing.isPlanted.value]).toEqual([null, true]);
+  });
+
+  it("stands in the editor again after the page is loaded again", () => {
+    const own = store();
+    const before = bench(null, own);
+    before.session.value = "s1";
+    before.inForce.value = told("ours");
+    before.editing.type("axiom: F[");
+    const after = bench(null, own);
+    after.session.value = "s1";
+    after.inForce.value = told("ours");
+    expect([after.editing.text.value, after.editing.theirs.value, after.editing.isPlanted.value]).toEqual([
+      "axiom: F[",
+      null,
+      false,
+    ]);
+    const elsewhere = bench(null, own);
+    elsewhere.session.value = "s2";
+    elsewhere.inForce.value = told("another");
+    expect([elsewhere.editing.text.value, elsewhere.editing.aside]).toEqual(["another", ["axiom: F["]]);
+  });
+
+  it("stands here and nowhere else once it is taken up again", () => {
+    const { editing, inForce, drafts } = bench();
+    inForce.value = told("ours");
+    editing.keep("axiom: F[");
+    editing.takeUp("axiom: F[");
+    editing.type("axiom: F[]");
+    expect([editing.text.value, editing.aside, drafts.aside.value]).toEqual(["axiom: F[]", [], []]);
+  });
+
+  it("is kept when the page is left", () => {
+    const { editing, inForce, drafts } = bench();
+    inForce.value = told("ours");
+    editing.leave();
+    expect(drafts.aside.value).toEqual([]);
+    editing.type("axiom: F[");
+    editing.leave();
+    expect(drafts.aside.value).toEqual(["axiom: F["]);
   });
 });
 

@@ -12,6 +12,7 @@ import {
 import type { Clock } from "../../page/clock";
 import { NewestOnly } from "../../requests/newest-only";
 import { Draft, type GrowthAhead } from "../draft";
+import type { Drafts } from "./drafts";
 import { LiveText } from "./live-text";
 import { saysDepth } from "./typed";
 
@@ -32,6 +33,12 @@ export interface SetAside {
   readonly text: string;
 }
 
+/** A text that could not be planted, and how deep it was to be. */
+export interface Refused {
+  readonly of: string;
+  readonly depth: number;
+}
+
 export interface GrammarPage {
   readonly inForce: ReadonlySignal<GrammarInForce | null>;
   readonly submit: (command: Command) => number;
@@ -44,6 +51,9 @@ export interface GrammarPage {
   readonly room: () => Place | null;
   /** Another plant is on its way than the one that was looked at. */
   readonly planting: () => void;
+  /** The session that the page is in; null until it is known. */
+  readonly session: ReadonlySignal<string | null>;
+  readonly drafts: Drafts;
   readonly check: (check: CheckGrammar) => Promise<GrammarReport>;
   readonly clock: Clock;
   readonly failed: (error: unknown) => void;
@@ -65,6 +75,8 @@ export class GrammarEditing {
   readonly typing = signal(false);
   /** What was last taken out of the editor for the sake of another text. */
   readonly setAside = signal<SetAside | null>(null);
+  /** What the server would not plant, while it stands in the editor. */
+  readonly refused = computed(() => (this.#refused.value?.of === this.text.value ? this.#refused.value : null));
   /** Whether the text that stands in the editor is the one in force. */
   readonly isPlanted = computed(() => this.#page.inForce.value?.text === this.text.value);
   readonly problems = computed<readonly GrammarDiagnostic[]>(() => {
@@ -77,9 +89,10 @@ export class GrammarEditing {
   readonly values: Draft<Values>;
 
   readonly #page: GrammarPage;
+  readonly #refused = signal<Refused | null>(null);
   readonly #live = new LiveText();
   readonly #checks: NewestOnly<CheckGrammar, { check: CheckGrammar; report: GrammarReport }>;
-  readonly #stop: () => void;
+  readonly #stops: readonly (() => void)[];
   #cancelCheck: (() => void) | null = null;
   #cancelBout: (() => void) | null = null;
   #gesture: number | undefined;
@@ -89,6 +102,9 @@ export class GrammarEditing {
   #asking: string | null = null;
   /** Whether a first text is on its way, so that the next one takes its place. */
   #isPlanting = false;
+  #isRestored = false;
+  /** How deep the text that was sent last is to be. */
+  #sentDepth = 0;
   /** The depth that the last text without errors asks for; no number where another text was opened. */
   #asked: number | null = null;
   /** Whether somebody has chosen the depth since, which then stays while the text changes. */
@@ -112,7 +128,40 @@ export class GrammarEditing {
         page.failed(error);
       },
     );
-    this.#stop = effect(() => this.#told(page.inForce.value));
+    this.#stops = [
+      effect(() => this.#restore(page.session.value)),
+      effect(() => this.#told(page.inForce.value)),
+      effect(() => this.#remember(page.session.value)),
+    ];
+  }
+
+  /** Texts that were put aside, to be had again: not those that stand here anyway. */
+  get aside(): readonly string[] {
+    const here = [this.text.value, this.#page.inForce.value?.text];
+    return this.#page.drafts.aside.value.filter((text) => !here.includes(text));
+  }
+
+  /** Opens a text that was put aside: it stands here then, and nowhere else. */
+  takeUp(text: string): void {
+    this.discard(text);
+    this.open(text);
+  }
+
+  /** Puts a text aside. */
+  keep(text: string): void {
+    this.#page.drafts.keep(text);
+  }
+
+  /** Forgets a text that was put aside. */
+  discard(text: string): void {
+    this.#page.drafts.drop(text);
+  }
+
+  /** The page is left: what is not planted is kept. */
+  leave(): void {
+    if (!this.isPlanted.peek()) {
+      this.#page.drafts.keep(this.text.peek());
+    }
   }
 
   /** Somebody types. */
@@ -147,10 +196,39 @@ export class GrammarEditing {
     this.#ask(true);
   }
 
-  /** Plants the text as it stands, however live the page is. */
-  plant(): void {
+  /** Plants the text as it stands, however live the page is; as deep as is said, if anything is. */
+  plant(depth?: number): void {
     if (!this.hasErrors.peek()) {
-      this.#send();
+      if (depth !== undefined) {
+        this.steer();
+      }
+      this.#send(depth);
+    }
+  }
+
+  /** The greatest depth known to be within bounds at which a refused text was not tried yet; null if none is. */
+  get possibleDepth(): number | null {
+    const [refused, sized] = [this.refused.value, this.sized.value];
+    const known = refused !== null && sized?.of === refused.of ? sized.report.sizes.length - 1 : 0;
+    const depth = Math.min(known, (refused?.depth ?? 0) - 1);
+    return depth > 0 ? depth : null;
+  }
+
+  /** The server took the text that was sent last and could not derive it. */
+  refuseLast(): void {
+    const text = this.#live.unanswered;
+    if (text !== null) {
+      this.refuse({ text, depth: this.#sentDepth });
+    }
+  }
+
+  /** The server would not plant a text; what stands there stays. */
+  refuse({ text, depth }: { readonly text: string; readonly depth?: number }): void {
+    const inForce = this.#page.inForce.peek();
+    this.#isPlanting = false;
+    this.#live.refuse(text);
+    if (text !== inForce?.text) {
+      this.#refused.value = { of: text, depth: depth ?? inForce?.depth ?? 0 };
     }
   }
 
@@ -197,7 +275,9 @@ export class GrammarEditing {
   }
 
   dispose(): void {
-    this.#stop();
+    for (const stop of this.#stops) {
+      stop();
+    }
     this.#checks.stop();
     this.#cancelCheck?.();
     this.#cancelBout?.();
@@ -212,8 +292,16 @@ export class GrammarEditing {
       return;
     }
     this.values.receive(valuesIn(inForce));
+    this.#page.drafts.drop(inForce.text);
+    if (this.#refused.peek()?.of === inForce.text) {
+      this.#refused.value = null;
+    }
+    const unanswered = this.#live.unanswered;
     const told = this.#live.tell(inForce.text, { typing: this.typing.peek(), waiting: this.#page.busy.peek() });
     if (told === "adopt") {
+      if (unanswered !== null) {
+        this.#page.drafts.keep(unanswered);
+      }
       this.endBout();
       this.#show();
       this.#checkSoon();
@@ -229,6 +317,32 @@ export class GrammarEditing {
   #setAside(text: string): void {
     const isKept = text.trim() === "" || this.#page.inForce.peek()?.text === text;
     this.setAside.value = isKept ? null : { text };
+    if (!isKept) {
+      this.#page.drafts.keep(text);
+    }
+  }
+
+  /** What stood here when the page was loaded before stands here again, once the session is known. */
+  #restore(session: string | null): void {
+    if (session === null || this.#isRestored) {
+      return;
+    }
+    this.#isRestored = true;
+    const left = this.#page.drafts.left(session);
+    if (left !== null && this.text.peek() === "") {
+      this.#live.restore(left.text, left.agreed);
+      this.discard(left.text);
+      this.text.value = left.text;
+    }
+  }
+
+  /** What is not planted outlasts the page. */
+  #remember(session: string | null): void {
+    const text = this.text.value;
+    const isSafe = this.isPlanted.value || text.trim() === "";
+    if (session !== null) {
+      this.#page.drafts.stands(isSafe ? null : { session, text, agreed: this.#live.agreed });
+    }
   }
 
   #lengthenBout(): void {
@@ -285,7 +399,7 @@ export class GrammarEditing {
   }
 
   /** Plants the text, or changes the plant to it; as deep as the text asks for, unless somebody has chosen the depth. */
-  #send(): void {
+  #send(at?: number): void {
     const inForce = this.#page.inForce.peek();
     // Somebody else's text may wait for a decision.
     if (this.theirs.peek() !== null || inForce?.text === this.text.peek()) {
@@ -294,12 +408,13 @@ export class GrammarEditing {
     if (this.typing.peek()) {
       this.#gesture ??= this.#page.newGesture();
     }
+    this.#refused.value = null;
     const text = this.#live.send();
     const gesture = joined(this.typing.peek() ? this.#gesture : undefined);
     const report = this.report.peek()?.report;
     const asked = report?.depth ?? 0;
     const stays = inForce !== null && (this.#isSteered || inForce.later > 0);
-    const depth = asked > 0 && !stays ? { depth: asked } : {};
+    const depth: { depth?: number } = at !== undefined ? { depth: at } : asked > 0 && !stays ? { depth: asked } : {};
     const kept = inForce === null ? [] : keptValues(inForce, report?.sliders ?? []);
     const values = kept.length > 0 ? { values: kept } : {};
     const room = inForce === null && !this.#isPlanting ? this.#page.room() : null;
@@ -308,6 +423,7 @@ export class GrammarEditing {
       this.#page.planting();
     }
     this.#isPlanting = inForce === null;
+    this.#sentDepth = depth.depth ?? inForce?.depth ?? 0;
     this.#page.submit({ kind: "set_grammar", text, ...values, ...depth, ...position, ...gesture });
   }
 }

@@ -1,10 +1,14 @@
 import { signal } from "@preact/signals";
-import type { GrammarInForce } from "../../../wire/generated";
+import type { Command, GrammarInForce } from "../../../wire/generated";
 
 /** Follows the session once the code that edits grammars is there. */
 export interface GrammarListener {
   /** The server has answered all commands up to this one. */
   settle(settled: number): void;
+  /** The server would not do a command. */
+  refused(command: Command): void;
+  /** A grammar came to an end while it was derived; the command was answered before. */
+  ended(): void;
   /** The commands that were sent have other numbers now. */
   letGo(): void;
 }

@@ -5,6 +5,7 @@ import { explained } from "../../problems/explained";
 import type { Studio } from "../../studio";
 import { growthAhead } from "../growth/growth-ahead";
 import { DepthControl } from "./depth-control";
+import { Drafts } from "./drafts";
 import { Framing } from "./framing";
 import { checkGrammar, originsIn } from "./grammar-api";
 import { GrammarEditing } from "./grammar-editing";
@@ -67,6 +68,8 @@ export function grammarsOf(studio: Studio): Grammars {
       return [Math.round(max[0]) + ASIDE, 0, 0];
     },
     planting: () => framing.planted(),
+    session: studio.link.session,
+    drafts: new Drafts(localStorage, sessionStorage),
     check: checkGrammar,
     failed,
   });
@@ -97,12 +100,20 @@ export function grammarsOf(studio: Studio): Grammars {
       editing.values.settle(settled);
       traffic.value += 1;
     },
+    refused: (command) => {
+      if (command.kind === "set_grammar") {
+        editing.refuse(command);
+      }
+      traffic.value += 1;
+    },
+    ended: () => editing.refuseLast(),
     letGo: () => {
       editing.letGo();
       depth.rest();
       traffic.value += 1;
     },
   };
+  addEventListener("pagehide", () => editing.leave());
   editing.typing.subscribe((typing) => {
     studio.grammar.writing.value = typing;
   });

@@ -53,6 +53,26 @@ describe("a text that several people set", () => {
     expect([live.tell("a", { typing: true, waiting: false }), live.text]).toEqual(["adopt", "a"]);
   });
 
+  it("keeps what was sent and refused, whenever the server tells the one before again", () => {
+    for (const order of ["told", "refused"]) {
+      const live = planted("a");
+      live.type("too large");
+      live.send();
+      if (order === "refused") live.refuse("too large");
+      expect([live.tell("a", idle), live.text]).toEqual(["same", "too large"]);
+      live.refuse("too large");
+      expect([live.tell("a", idle), live.text, live.isAhead, live.theirs]).toEqual(["same", "too large", true, null]);
+      expect([live.tell("theirs", idle), live.text]).toEqual(["conflict", "too large"]);
+    }
+  });
+
+  it("goes on with what a page before left", () => {
+    const live = new LiveText();
+    live.restore("longer", "short");
+    expect([live.tell("short", idle), live.text, live.isAhead]).toEqual(["same", "longer", true]);
+    expect([live.tell("theirs", idle), live.theirs]).toEqual(["conflict", "theirs"]);
+  });
+
   it("lets a conflict go once both have the same text", () => {
     const live = planted("mine");
     live.type("mine!");

@@ -17,10 +17,25 @@ export class LiveText {
   theirs: string | null = null;
   /** Texts that were in force or sent before: who goes back in time loses nothing. */
   #known: string[] = [];
+  /** The text that was told last. */
+  #told: string | null = null;
+  /** What was sent and has not been told since: it may yet be refused. */
+  #unanswered: string | null = null;
 
   /** Whether something was typed that the server does not have. */
   get isAhead(): boolean {
     return this.text !== this.agreed;
+  }
+
+  /** What was sent and has not been told since. */
+  get unanswered(): string | null {
+    return this.#unanswered;
+  }
+
+  /** What a page before this one left: a text that is not planted, and what the server had while it was written. */
+  restore(text: string, agreed: string): void {
+    this.text = text;
+    this.agreed = agreed;
   }
 
   /** Somebody types here. */
@@ -31,9 +46,18 @@ export class LiveText {
   /** The text is sent. */
   send(): string {
     this.agreed = this.text;
+    this.#unanswered = this.text;
     this.theirs = null;
     this.#know(this.text);
     return this.text;
+  }
+
+  /** A text that was sent is refused: what stands in the editor is not what the server has. */
+  refuse(text: string): void {
+    if (this.#unanswered === text) {
+      this.#unanswered = null;
+      this.agreed = this.#told ?? "";
+    }
   }
 
   /**
@@ -41,6 +65,11 @@ export class LiveText {
    * is not answered.
    */
   tell(told: string, { typing, waiting }: { readonly typing: boolean; readonly waiting: boolean }): Told {
+    const isRepeated = told === this.#told;
+    this.#told = told;
+    if (told === this.#unanswered) {
+      this.#unanswered = null;
+    }
     if (told === this.text) {
       this.agreed = told;
       this.theirs = null;
@@ -50,6 +79,10 @@ export class LiveText {
     const isKnown = this.#known.includes(told);
     if (told === this.theirs || told === this.agreed || (isKnown && waiting)) {
       // Nothing new, or an answer to what was sent before the last key.
+      return "same";
+    }
+    if (isRepeated && this.#unanswered !== null) {
+      // What was sent after it is refused, or not there yet.
       return "same";
     }
     if (this.isAhead || (typing && !isKnown)) {
@@ -81,10 +114,13 @@ export class LiveText {
   forget(): void {
     this.theirs = null;
     this.#known = [];
+    this.#told = null;
+    this.#unanswered = null;
   }
 
   #adopt(text: string): void {
     this.text = text;
+    this.#unanswered = null;
     this.agreed = text;
     this.theirs = null;
     this.#know(text);

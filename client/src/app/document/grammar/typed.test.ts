@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { asMeant, hasChance, titleOf } from "./typed";
+import { asMeant, hasChance, nameIn, titleOf } from "./typed";
 
 describe("what devices make of signs", () => {
   it("is written as it was meant, and the caret stays behind it", () => {
@@ -28,5 +28,14 @@ describe("a title", () => {
   it("is what the text says first", () => {
     expect(titleOf("# x\n  Title :  My oak \nlsystem: b")).toBe("My oak");
     expect(titleOf("axiom: F")).toBeNull();
+    expect(["Lsystem: 1\naxiom: F", "lsystem: oak\ntitle: My oak", "lsystem: oak"].map(titleOf)).toEqual([
+      null,
+      "My oak",
+      "oak",
+    ]);
+  });
+
+  it("or else a text is called by its first line", () => {
+    expect(["\nLsystem: 1\naxiom: F", "title: My oak\naxiom: F"].map(nameIn)).toEqual(["Lsystem: 1", "My oak"]);
   });
 });

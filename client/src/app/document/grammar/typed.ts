@@ -46,9 +46,23 @@ function hasProbability(text: string): boolean {
   return /-->.*:[ \t]*\S/m.test(outer);
 }
 
-/** What a text calls itself. */
+/** What a text calls itself; files of other programs number their L-systems, which is no name. */
 export function titleOf(text: string): string | null {
-  return /^[ \t]*(?:title|lsystem)[ \t]*:[ \t]*(\S.*)$/im.exec(text)?.[1]?.trim() ?? null;
+  const names = [...text.matchAll(/^[ \t]*(title|lsystem)[ \t]*:[ \t]*(\S.*)$/gim)].map(
+    ([, header, name]) => [header?.toLowerCase(), name?.trim() ?? ""] as const,
+  );
+  const titled = names.find(([header]) => header === "title") ?? names.find(([, name]) => isName(name));
+  return titled?.[1] ?? null;
+}
+
+/** Whether what a grammar is called says anything: a number alone does not. */
+export function isName(name: string): boolean {
+  return !/^[\d.]*$/.test(name.trim());
+}
+
+/** What to call a text in a list: its title, or else its first line. */
+export function nameIn(text: string): string {
+  return titleOf(text) ?? text.trim().split("\n", 1)[0] ?? "";
 }
 
 /** Whether a text asks for a space that was drawn by hand. */

@@ -3,12 +3,13 @@ import type { GrammarSlider } from "../../../../wire/generated";
 import type { Grammars } from "../../../document/grammar/grammars-of";
 import { bars, deepest, internodesAt, type Sizes } from "../../../document/grammar/sizes";
 import { stepFor } from "../../../document/grammar/slider-step";
-import { hasChance } from "../../../document/grammar/typed";
+import { hasChance, isName } from "../../../document/grammar/typed";
 import type { Studio } from "../../../studio";
 import { endText } from "../../../words/grammar-problems";
 import { countText } from "../../../words/measure-text";
 import { say } from "../../../words/say";
 import { Slider } from "../../controls/slider";
+import { Refusal } from "./refusal";
 import { SpaceField } from "./space-field";
 
 const NOTHING: Sizes = { sizes: [], ends: null, depth: null };
@@ -24,16 +25,28 @@ interface DepthProps {
 export function DepthTab({ studio, grammars }: DepthProps) {
   const { editing } = grammars;
   const inForce = studio.grammar.inForce.value;
+  const refused = editing.refused.value;
   if (inForce === null) {
-    return <p class="quiet advice">{say("grammars.none")}</p>;
+    return (
+      <>
+        <Refusal studio={studio} editing={editing} />
+        <p class="quiet advice">{say("grammars.none")}</p>
+      </>
+    );
   }
   return (
     <>
-      {inForce.title && <h3 class="grammar-title">{inForce.title}</h3>}
-      <DepthField studio={studio} grammars={grammars} />
-      {inForce.ends !== null && (
+      <Refusal studio={studio} editing={editing} />
+      {refused === null && !editing.isPlanted.value && editing.text.value.trim() !== "" && (
         <p class="advice" role="status">
-          {say("grammars.depth.stopped", { why: endText(inForce.ends) })}
+          {say("grammars.depth.ahead")}
+        </p>
+      )}
+      {inForce.title && isName(inForce.title) && <h3 class="grammar-title">{inForce.title}</h3>}
+      <DepthField studio={studio} grammars={grammars} />
+      {inForce.ends !== null && refused === null && (
+        <p class="advice" role="status">
+          {say("grammars.depth.stopped", { depth: inForce.depth, why: endText(inForce.ends) })}
         </p>
       )}
       {inForce.edited && <p class="quiet advice">{say("grammars.depth.edited")}</p>}

@@ -2,7 +2,7 @@ import type { Grammars } from "../../../document/grammar/grammars-of";
 import type { Studio } from "../../../studio";
 import { companions } from "../../../together/people";
 import { say } from "../../../words/say";
-import { saveGrammar } from "./grammar-file";
+import { offerAside, saveGrammar } from "./grammar-file";
 import { reference } from "./short-reference";
 
 /** What is said and done above the text: whether the plant follows, rules and branches, saving; and who else writes. */
@@ -84,11 +84,5 @@ export function EditorHead({ studio, grammars: { editing, origins } }: { studio:
 /** Theirs goes into the editor; mine can be brought back. */
 function takeTheirs(studio: Studio, editing: Grammars["editing"]): void {
   editing.takeTheirs();
-  const before = editing.setAside.peek();
-  if (before !== null) {
-    studio.toasts.show(say("grammars.taken"), {
-      label: say("grammars.bring-back"),
-      act: () => editing.open(before.text),
-    });
-  }
+  offerAside(studio, editing);
 }

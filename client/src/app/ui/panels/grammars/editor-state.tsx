@@ -5,6 +5,7 @@ import type { Studio } from "../../../studio";
 import { endText, kindText, sentenceOf } from "../../../words/grammar-problems";
 import { countText } from "../../../words/measure-text";
 import { say } from "../../../words/say";
+import { Refusal } from "./refusal";
 
 interface StateProps {
   readonly studio: Studio;
@@ -47,7 +48,8 @@ export function EditorState({ studio, grammars: { editing, origins }, at, goTo }
           <ProblemText problem={here} />
         </p>
       )}
-      {end !== null && (
+      <Refusal studio={studio} editing={editing} />
+      {end !== null && editing.refused.value === null && (
         <p class="grammar-problem" role="status" data-severity="warning">
           {end}
         </p>

@@ -104,53 +104,55 @@ export function GrammarEditor({ studio, grammars }: EditorProps) {
   return (
     <div class="grammar-editor" data-live={editing.live.value}>
       <EditorHead studio={studio} grammars={grammars} />
-      {reference.value && <ShortReference />}
-      <div class="grammar-scroll">
-        <div class="grammar-page">
-          <pre class="grammar-layer" ref={layer} aria-hidden="true">
-            {shown.map(({ from, to, kind, nesting, problem, looked }) => (
-              <span
-                key={from}
-                data-kind={kind}
-                data-nesting={nesting === undefined ? undefined : nesting % 4}
-                data-problem={problem}
-                data-severity={problem === undefined ? undefined : problems[problem]?.severity}
-                data-looked={looked}
-              >
-                {text.slice(from, to)}
-              </span>
-            ))}
-            {"\n"}
-          </pre>
-          <textarea
-            ref={area}
-            class="grammar-area"
-            aria-label={say("grammars.text")}
-            aria-invalid={editing.hasErrors.value}
-            spellcheck={false}
-            autocapitalize="off"
-            autocomplete="off"
-            {...{ autocorrect: "off" }}
-            placeholder={EXAMPLE}
-            onInput={(event) => {
-              const field = event.currentTarget;
-              const meant = asMeant(field.value, field.selectionStart);
-              if (meant.text !== field.value && !event.isComposing) {
-                field.value = meant.text;
-                field.setSelectionRange(meant.caret, meant.caret);
-              }
-              editing.type(field.value);
-              follow();
-            }}
-            onBlur={() => editing.endBout()}
-            onKeyDown={(event) => {
-              // The page's own keys are not for what is typed here.
-              event.stopPropagation();
-              if (event.key === "Escape") {
-                event.currentTarget.blur();
-              }
-            }}
-          />
+      <div class="grammar-read">
+        {reference.value && <ShortReference />}
+        <div class="grammar-scroll">
+          <div class="grammar-page">
+            <pre class="grammar-layer" ref={layer} aria-hidden="true">
+              {shown.map(({ from, to, kind, nesting, problem, looked }) => (
+                <span
+                  key={from}
+                  data-kind={kind}
+                  data-nesting={nesting === undefined ? undefined : nesting % 4}
+                  data-problem={problem}
+                  data-severity={problem === undefined ? undefined : problems[problem]?.severity}
+                  data-looked={looked}
+                >
+                  {text.slice(from, to)}
+                </span>
+              ))}
+              {"\n"}
+            </pre>
+            <textarea
+              ref={area}
+              class="grammar-area"
+              aria-label={say("grammars.text")}
+              aria-invalid={editing.hasErrors.value}
+              spellcheck={false}
+              autocapitalize="off"
+              autocomplete="off"
+              {...{ autocorrect: "off" }}
+              placeholder={EXAMPLE}
+              onInput={(event) => {
+                const field = event.currentTarget;
+                const meant = asMeant(field.value, field.selectionStart);
+                if (meant.text !== field.value && !event.isComposing) {
+                  field.value = meant.text;
+                  field.setSelectionRange(meant.caret, meant.caret);
+                }
+                editing.type(field.value);
+                follow();
+              }}
+              onBlur={() => editing.endBout()}
+              onKeyDown={(event) => {
+                // The page's own keys are not for what is typed here.
+                event.stopPropagation();
+                if (event.key === "Escape") {
+                  event.currentTarget.blur();
+                }
+              }}
+            />
+          </div>
         </div>
       </div>
       <EditorState studio={studio} grammars={grammars} at={at} goTo={goTo} />

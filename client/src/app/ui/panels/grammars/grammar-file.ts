@@ -29,15 +29,32 @@ export async function openGrammar(studio: Studio, editing: GrammarEditing, file:
   }
 }
 
-/** Opens a grammar's text; what stood in the editor can be brought back. */
+/** Opens a grammar's text in the editor; what stood there can be brought back. */
 export function openText(studio: Studio, editing: GrammarEditing, text: string): void {
-  editing.open(text);
+  replaceText(studio, editing, text);
   tab.value = "text";
+}
+
+/** Opens a text that was put aside; what stood in the editor can be brought back. */
+export function takeUp(studio: Studio, editing: GrammarEditing, text: string): void {
+  editing.takeUp(text);
+  tab.value = "text";
+  offerAside(studio, editing);
+}
+
+/** Puts a text in the place of the one that stands in the editor, and says so where that is lost to the tree. */
+export function replaceText(studio: Studio, editing: GrammarEditing, text: string): void {
+  editing.open(text);
+  offerAside(studio, editing);
+}
+
+/** Says that a text was put aside, if one was, with a way back to it. */
+export function offerAside(studio: Studio, editing: GrammarEditing): void {
   const before = editing.setAside.peek();
   if (before !== null) {
     studio.toasts.show(say("grammars.taken"), {
       label: say("grammars.bring-back"),
-      act: () => editing.open(before.text),
+      act: () => takeUp(studio, editing, before.text),
     });
   }
 }

@@ -7,7 +7,8 @@ import type { Studio } from "../../../studio";
 import { SHIPPED_GRAMMARS } from "../../../words/grammars";
 import { softly } from "../../../words/joints";
 import { language, say } from "../../../words/say";
-import { ACCEPTED, openGrammar, openText } from "./grammar-file";
+import { DraftList } from "./draft-list";
+import { ACCEPTED, openGrammar, openText, replaceText } from "./grammar-file";
 
 /** A plant to begin with: the least that branches. */
 const BEGINNING = `title: My plant
@@ -66,6 +67,7 @@ export function GrammarGrid({ studio, grammars: { editing } }: GrammarsProps) {
           </button>
         )}
       </div>
+      <DraftList studio={studio} editing={editing} />
       {all === null && <p class="quiet advice">{say("grammars.looking")}</p>}
       <ul class="grammar-grid">
         {all?.map((one) => (
@@ -75,7 +77,7 @@ export function GrammarGrid({ studio, grammars: { editing } }: GrammarsProps) {
               class="grammar-card"
               data-grammar={one.name}
               aria-pressed={one.text === inForce}
-              onClick={() => editing.open(one.text)}
+              onClick={() => replaceText(studio, editing, one.text)}
             >
               <img src={one.picture} alt="" loading="lazy" decoding="async" draggable={false} />
               <b>{softly(titleIn(one))}</b>
