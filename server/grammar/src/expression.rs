@@ -117,6 +117,13 @@ impl Parser<'_> {
                     return Err(Lost);
                 }
             }
+            for (name, sign) in [("&", "&&"), ("|", "||")] {
+                if rest.starts_with(name) && !rest.starts_with(sign) {
+                    let values: [(_, &dyn Display); 2] = [("name", &name), ("sign", &sign)];
+                    self.report.error(Span::new(self.at, self.at + 1), wording::BITS, values);
+                    return Err(Lost);
+                }
+            }
             if least <= 1 && rest.starts_with('?') {
                 self.at += 1;
                 let yes = self.binding(scope, 1)?;

@@ -115,6 +115,36 @@ const FUNCTIONS: &[(&str, &Wording, Option<&str>)] = &[
     ("double", wording::C_CAST, None),
 ];
 
+/// Words of L-Py for what the turtle does, and the signs that stand for them here.
+const TURTLE_WORDS: &[(&str, &str)] = &[
+    ("Left", "+"),
+    ("Right", "-"),
+    ("Up", "^"),
+    ("Down", "&"),
+    ("RollL", "\\"),
+    ("RollR", "/"),
+    ("TurnAround", "|"),
+    ("RollToVert", "$"),
+    ("MoveTo", "@M"),
+    ("SetHead", "@R"),
+    ("SetWidth", "_"),
+    ("IncWidth", "_"),
+    ("DecWidth", "!"),
+    ("SetColor", ";"),
+    ("IncColor", ";"),
+    ("DecColor", ","),
+    ("Sphere", "@O"),
+    ("Cut", "%"),
+    ("Tropism", "@Tp"),
+    ("Elasticity", "@Ts"),
+];
+
+/// The word of L-Py that a string goes on with, if nobody has declared it as a name, and what to write instead.
+pub(crate) fn turtle_word(rest: &str) -> Option<(&'static str, &'static str)> {
+    let length = rest.find(|c: char| !c.is_alphanumeric()).unwrap_or(rest.len());
+    TURTLE_WORDS.iter().find(|row| row.0 == &rest[..length]).copied()
+}
+
 /// What is said of a function of another language, and what to write instead where that depends on it.
 pub(crate) fn function(name: &str) -> Option<(&'static Wording, Option<&'static str>)> {
     FUNCTIONS.iter().find(|row| row.0 == name).map(|&(_, wording, sign)| (wording, sign))

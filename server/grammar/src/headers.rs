@@ -49,6 +49,8 @@ pub(crate) const HEADERS: &[(&str, bool, Header)] = &[
     ("about", true, Header::About),
     ("author", true, Header::Author),
     ("scale", true, Header::Scale),
+    // As pfg and older files of cpfg have it.
+    ("angle increment", true, Header::Angle),
     ("angle", true, Header::Angle),
     ("derivation length", true, Header::Depth),
     ("depth", true, Header::Depth),

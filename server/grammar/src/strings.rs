@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use crate::{
     expression::{Expr, Lost},
+    foreign::turtle_word,
     grammar::Module,
     parser::{Parser, Scope},
     reading::MOST_PARAMETERS,
@@ -48,7 +49,14 @@ impl Parser<'_> {
                 };
                 &rest[..1 + letter.len_utf8()]
             }
-            Some(c) if c.is_alphabetic() => &rest[..c.len_utf8()],
+            Some(c) if c.is_alphabetic() => {
+                if let Some((word, sign)) = turtle_word(rest) {
+                    let values: [(_, &dyn Display); 2] = [("name", &word), ("sign", &sign)];
+                    self.report.error(Span::new(start, start + word.len()), wording::TURTLE_WORD, values);
+                    return Err(Lost);
+                }
+                &rest[..c.len_utf8()]
+            }
             Some(c) if self.symbols.number(&rest[..c.len_utf8()]).is_some() => &rest[..c.len_utf8()],
             Some(c) => {
                 let row = match c {

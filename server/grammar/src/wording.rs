@@ -101,6 +101,9 @@ wordings! {
     NO_RULE_TAKES: "parameter-count.rules", "no rule takes `{name}` with {count} parameters";
 
     PYTHON_OPERATOR: "python.operator", "`{name}` is Python" => "write {sign}";
+    BITS: "python.bits", "`{name}` joins bits in Python and C" => "write {sign}";
+    TURTLE_WORD: "python.turtle", "`{name}` is a word of L-Py for what the turtle does"
+        => "write {sign}, or module {name} for a module of your own";
     PYTHON_FUNCTION: "python.function", "`{name}` is Python, which is not run here"
         => "a grammar has no functions of its own; func: defines curves";
     PYTHON_IMPORT: "python.import", "`{name}` is Python, which is not run here" => "nothing is imported";

@@ -46,6 +46,11 @@ export const GERMAN = {
   "parameter-count.brackets": ["Klammern haben keine Parameter"],
   "parameter-count.rules": ["keine Regel nimmt `{name}` mit {count} Parametern"],
   "python.operator": ["`{name}` ist Python", "schreibe {sign}"],
+  "python.bits": ["`{name}` verknüpft in Python und C Bits", "schreibe {sign}"],
+  "python.turtle": [
+    "`{name}` ist ein Wort von L-Py für das, was die Schildkröte tut",
+    "schreibe {sign}, oder module {name} für ein eigenes Modul",
+  ],
   "python.function": [
     "`{name}` ist Python, das hier nicht ausgeführt wird",
     "eine Grammatik hat keine eigenen Funktionen; func: legt Kurven fest",

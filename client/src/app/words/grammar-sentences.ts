@@ -46,6 +46,11 @@ export const SENTENCES = {
   "parameter-count.brackets": ["brackets have no parameters", null],
   "parameter-count.rules": ["no rule takes `{name}` with {count} parameters", null],
   "python.operator": ["`{name}` is Python", "write {sign}"],
+  "python.bits": ["`{name}` joins bits in Python and C", "write {sign}"],
+  "python.turtle": [
+    "`{name}` is a word of L-Py for what the turtle does",
+    "write {sign}, or module {name} for a module of your own",
+  ],
   "python.function": [
     "`{name}` is Python, which is not run here",
     "a grammar has no functions of its own; func: defines curves",

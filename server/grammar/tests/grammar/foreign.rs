@@ -33,6 +33,9 @@ const CONSTRUCTS: &[(&str, &str, &str)] = &[
     ("A(x) : x > 2 and x < 4 --> F(x)", "python", "`and`"),
     ("A(x) : not x --> F(x)", "python", "`not`"),
     ("x = True", "python", "`True`"),
+    ("A(x) : x > 2 & x < 4 --> F(x)", "python", "`&`"),
+    ("A(x) : x > 2 | x < 4 --> F(x)", "python", "`|`"),
+    ("A(x) --> F(x)Left(60)A(x)", "python", "`Left`"),
     // C, as files of cpfg and L+C have it.
     ("#include <math.h>", "c", "`#include`"),
     ("int steps = 3;", "c", "`int`"),

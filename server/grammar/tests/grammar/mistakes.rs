@@ -271,6 +271,11 @@ fn files_of_both_worlds_are_read() {
         Apex(x) --> nF(x, 0.2)[/(90)&(30)Apex(x*r)]Leaf(x)\ninterpretation:\nmaximum depth: 2\nLeaf(x) --> [_(x)F(x**2)]\nendlsystem\n\
         ###### INITIALISED BY L-PY ######\n__lpy_code_version__ = 1.1\n";
     assert_eq!(told(lpy), []);
+    let pfg =
+        "Lsystem: 1\nderivation length: 3\nangle increment: 30\naxiom: F\nF --> F[+F]F[-F]F\nendlsystem\n";
+    assert_eq!(told(pfg), []);
+    // A word of L-Py that is declared is a module like any other.
+    assert_eq!(told("module Left\naxiom: Left(1)\nLeft(x) --> F(x)Left(x+1)\n"), []);
 }
 
 #[test]

@@ -120,6 +120,7 @@ export const HEADERS = [
   ["about", true, "text"],
   ["author", true, "text"],
   ["scale", true, "numbers"],
+  ["angle increment", true, "numbers"],
   ["angle", true, "numbers"],
   ["derivation length", true, "numbers"],
   ["depth", true, "numbers"],
