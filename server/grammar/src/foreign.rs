@@ -158,6 +158,23 @@ pub(crate) fn foreign(line: &str) -> Option<Foreign<'_>> {
         let length = 1 + line[1..].find(|c: char| !c.is_alphanumeric()).unwrap_or(line.len() - 1);
         return Some(Foreign::new(wording::C_DIRECTIVE, &line[..length], 0, length));
     }
+    if let Some(name) =
+        ["==>", "::>", "::=", "=>"].into_iter().find(|arrow| line.contains(arrow) && !line.contains(ARROW))
+    {
+        return Some(Foreign::new(
+            wording::NO_RULE_XL,
+            name,
+            line.find(name).unwrap_or_default(),
+            name.len(),
+        ));
+    }
+    let is_label = word.len() > 1 && word.starts_with('p') && word[1..].bytes().all(|c| c.is_ascii_digit());
+    if matches!(word, "ω" | "omega") || is_label && behind.trim_start().starts_with(':') {
+        return Some(Foreign::new(wording::NO_RULE_BOOK, word, 0, word_length));
+    }
+    if word == "angle" && behind.trim_start().starts_with("factor") {
+        return Some(Foreign::new(wording::ANGLE_FACTOR, "angle factor", 0, word_length));
+    }
     if let Some((before, successor)) = line.split_once(ARROW) {
         let predecessor = before.split(':').next().unwrap_or(before);
         if let Some(at) = predecessor.find("<<").or_else(|| predecessor.find(">>")) {

@@ -65,6 +65,8 @@ impl Pen for NoPen {
 struct Surface {
     /// Surfaces within it that have begun.
     within: u32,
+    /// Branches within it that have begun.
+    branches: u32,
     /// Where it began.
     from: DVec3,
     /// The farthest place that the turtle has been at since.
@@ -266,10 +268,16 @@ impl Reading {
         let Some(action) = action else { return Ok(()) };
         match action {
             Action::Push => {
+                self.surface.iter_mut().for_each(|surface| surface.branches += 1);
                 self.turtle.push(tag.key);
                 pen.push()?;
             }
             Action::Pop => {
+                // A surface ends with the branch in which it began.
+                match &mut self.surface {
+                    Some(surface) if surface.branches > 0 => surface.branches -= 1,
+                    surface => *surface = None,
+                }
                 pen.pop()?;
                 self.turtle.pop();
             }
@@ -281,7 +289,9 @@ impl Reading {
                 let State { place, up, .. } = self.turtle.state;
                 match &mut self.surface {
                     Some(surface) => surface.within += 1,
-                    none => *none = Some(Surface { within: 0, from: place, farthest: place, up }),
+                    none => {
+                        *none = Some(Surface { within: 0, branches: 0, from: place, farthest: place, up })
+                    }
                 }
             }
             Action::EndPolygon => match &mut self.surface {

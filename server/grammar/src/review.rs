@@ -18,6 +18,8 @@ pub(crate) fn review(grammar: &Grammar, report: &mut Report) {
         weights(rules, report);
     }
     modules(grammar, report);
+    surfaces(grammar, report);
+    stages(grammar, report);
     angles(grammar, report);
     if let Err((place, error)) = Program::build(grammar, &[]) {
         report.add(place, Severity::Error, error.wording, error.values);
@@ -117,6 +119,39 @@ fn modules(grammar: &Grammar, report: &mut Report) {
             None => wording::DOES_NOTHING,
         };
         report.warn(module.place, wording, [("name", &name)]);
+    }
+}
+
+/// Strings in which surfaces begin that do not end.
+fn surfaces(grammar: &Grammar, report: &mut Report) {
+    let is = |module: &&Module, wanted| turtle(module.symbol).is_some_and(|row| row.action == wanted);
+    let strings = all_rules(grammar).map(|rule| &rule.successor).chain([&grammar.axiom]);
+    for string in strings {
+        let begun = string.iter().filter(|module| is(module, Action::BeginPolygon)).count();
+        let ended = string.iter().filter(|module| is(module, Action::EndPolygon)).count();
+        let first =
+            string.iter().find(|module| is(module, Action::BeginPolygon) || is(module, Action::EndPolygon));
+        if let Some(first) = first.filter(|_| begun != ended) {
+            report.warn(first.place, wording::OPEN_SURFACE, []);
+        }
+    }
+}
+
+/// What the homomorphism makes and has a rule for, which it does not come to.
+fn stages(grammar: &Grammar, report: &mut Report) {
+    if grammar.homomorphism_depth != 1 {
+        return;
+    }
+    let has_rule = |module: &&Module| grammar.homomorphism.iter().any(|rule| rule.symbol == module.symbol);
+    for rule in &grammar.homomorphism {
+        // A module that is read as itself and more would go on for ever.
+        let found = rule.successor.iter().filter(|module| module.symbol != rule.symbol).find(has_rule);
+        if let Some(module) = found {
+            let name = grammar.symbols.name(module.symbol);
+            let values: [(_, &dyn Display); 3] =
+                [("name", &name), ("depth", &grammar.homomorphism_depth), ("deeper", &2)];
+            report.warn(module.place, wording::TOO_SHALLOW, values);
+        }
     }
 }
 

@@ -1,7 +1,8 @@
 //! Words as wood: what the turtle draws becomes nodes and axes, and what goes on growing becomes buds.
 
 use espalier_plant::{
-    DormantBuds, KeyTable, Organ, OrganKind, Organs, Stance, Wood, WoodAxis, WoodNode, organs::MOST_ORGANS,
+    DormantBuds, KeyTable, Organ, OrganKind, Organs, Stance, Wood, WoodAxis, WoodNode,
+    organs::{MOST_ORGANS, shortest_sides},
     wood::SHORTEST,
 };
 use glam::{DVec3, Vec3};
@@ -513,7 +514,7 @@ impl Pen for Carpenter {
             return Ok(());
         };
         let length = length.filter(|length| *length > 0.0).map(|length| length as f32);
-        organs.push((node, Organ::new(kind, heading, stance, length)));
+        organs.push((node, Organ::new(kind, heading, shortest_sides(heading), stance, length)));
         Ok(())
     }
 }

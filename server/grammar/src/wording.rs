@@ -182,6 +182,9 @@ wordings! {
         => "contexts look at the word before the step: A < B > C";
     HEADER: "header", "`{name}` begins no header by itself" => "write derivation length: 10";
 
+    NO_RULE_XL: "no-rule.xl", "`{name}` is an arrow of another language, XL (GroIMP) or Fractint" => "rules have the arrow -->: A --> F";
+    NO_RULE_BOOK: "no-rule.book", "`{name}` stands in books before a line" => "write axiom: for ω, and leave labels of rules out";
+    ANGLE_FACTOR: "no-rule.angle", "`{name}` is a header of another program" => "write angle: and 360 divided by its number";
     NO_RULE: "no-rule.line", "it is neither a rule nor a header" => "a rule is written A --> F";
     NO_RULE_ARROW: "no-rule.arrow", "it is neither a rule nor a header" => "rules have the arrow -->";
     NO_COLON: "no-rule.colon", "`{name}` is a header, and its colon is missing" => "write {name}: {rest}";
@@ -190,7 +193,7 @@ wordings! {
     NO_PARAMETER_NAME: "no-name.parameter", "a predecessor has names as parameters"
         => "compare in the condition: A(x) : x == 1 --> F";
     NO_MODULE: "no-symbol.here", "`{name}` is no module" => "names are letters, or declared: module Leaf";
-    NO_MODULE_NUMBER: "no-symbol.number", "`{name}` is no module" => "numbers stand in parentheses: F(2)";
+    NO_MODULE_NUMBER: "no-symbol.number", "`{name}` is no module" => "numbers stand in parentheses: F(2); names of modules are letters";
     NO_MODULE_OPERATOR: "no-symbol.operator", "`{name}` is no module" => "only parameters are computed: F(2*x)";
     NO_TURTLE_SYMBOL: "no-symbol.turtle", "`{name}` is no symbol that the turtle knows here"
         => "docs/grammars.md lists the names that begin so";
@@ -248,6 +251,10 @@ wordings! {
     ENDS_BROKEN: "ends.broken", "the wood of this step does not fit that of the one before";
     ENDS_COUNTED: "ends.counted", "what is deeper is too large to be counted";
 
+    OPEN_SURFACE: "does-nothing.surface", "surfaces begin and end unequally often here: within one no wood is drawn"
+        => "end each with its brace";
+    TOO_SHALLOW: "does-nothing.stage", "`{name}` is read as it is: the homomorphism goes {depth} deep"
+        => "write maximum depth: {deeper} below homomorphism:";
     NEVER_FIRES: "never-fires", "this rule never fires: that of line {line} takes every such module"
         => "put the rule with a condition or context first, or give both a probability";
     DOES_NOTHING: "does-nothing.module", "`{name}` is never rewritten and draws nothing";

@@ -5,7 +5,9 @@ mod frames;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use espalier_plant::{AxisId, Carried, DormantBuds, Internode, KeyTable, MetamerId, Plant, Wood};
+use espalier_plant::{
+    AxisId, Carried, DormantBuds, Internode, KeyTable, MetamerId, Organ, Organs, Plant, Wood,
+};
 use glam::{Quat, Vec3};
 
 use self::frames::{Before, frame, normals};
@@ -430,8 +432,9 @@ impl<'a> Writer<'a> {
             if plant.given_radius(row) != node.radius {
                 radii.push((row, node.radius));
             }
-            if plant.given_organs(row) != bears {
-                organs.push((row, bears.cloned()));
+            let bears = bears.map(|bears| self.organs_on(plant, number, row, bears));
+            if plant.given_organs(row) != bears.as_ref() {
+                organs.push((row, bears));
             }
         }
         radii.sort_unstable_by_key(|&(row, _)| row);
@@ -439,6 +442,16 @@ impl<'a> Writer<'a> {
         organs.sort_unstable_by_key(|&(row, _)| row);
         step.give_organs(&organs)?;
         Ok(())
+    }
+
+    /// Organs as the row of a node bears them, turned as the wood is.
+    fn organs_on(&self, plant: &Plant, number: usize, row: MetamerId, organs: &Organs) -> Organs {
+        let nodes = &self.wood().nodes;
+        let base = nodes[number].parent.map_or(Vec3::ZERO, |parent| nodes[parent as usize].end);
+        let drawn = (nodes[number].end - base).normalize_or(Vec3::Y);
+        let (heading, normal) = (plant.heading(row), plant.metamers().normal(row));
+        let carried = |organ: &Organ| organ.carried(drawn, self.turns[number], heading, normal);
+        organs.iter().map(carried).collect()
     }
 
     fn extend(

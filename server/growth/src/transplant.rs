@@ -2,10 +2,10 @@
 //! would have laid down.
 
 use espalier_plant::{
-    AxisId, BrokenPlant, DormantBuds, Edit, Given, GivenRadii, Internode, MetamerId, Plant, PlantParts, Wood,
-    given::GivenColumn,
+    AxisId, BrokenPlant, DormantBuds, Edit, Given, GivenRadii, Internode, MetamerId, Organs, Plant,
+    PlantParts, Wood, given::GivenColumn,
 };
-use glam::Vec3;
+use glam::{Quat, Vec3};
 
 use crate::{
     direction::{across, transport, turn},
@@ -317,6 +317,15 @@ impl Rooting<'_> {
         }
     }
 
+    /// Organs as a row bears them.
+    fn organs_on(&self, row: u32, organs: &Organs) -> Organs {
+        let parts = &self.parts;
+        let base = parts.end[parts.parent[row as usize] as usize];
+        let heading = (parts.end[row as usize] - base).normalize_or(Vec3::Y);
+        let normal = parts.normal[row as usize];
+        organs.iter().map(|organ| organ.carried(heading, Quat::IDENTITY, heading, normal)).collect()
+    }
+
     /// Each step gives radii, widths and the tips of what was shed to what is born in it.
     fn record_time(&mut self) {
         let Wood { nodes, widths, scars, .. } = self.wood;
@@ -352,7 +361,8 @@ impl Rooting<'_> {
         }
         self.parts.given_radii =
             (0..nodes.len()).filter_map(|row| Some((row as u32, radius(row)?))).collect();
-        self.parts.given_organs.clone_from(&self.wood.organs);
+        self.parts.given_organs =
+            self.wood.organs.iter().map(|(row, organs)| (*row, self.organs_on(*row, organs))).collect();
         self.parts.widths.clone_from(widths);
         self.parts.now = self.parts.ends.len() as u32 - 1;
     }

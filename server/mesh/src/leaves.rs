@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use espalier_plant::{MetamerId, Organ, OrganKind, Plant, Stance};
+use espalier_plant::{MetamerId, Organ, OrganKind, Plant, Stance, organs};
 use glam::Vec3;
 
-use crate::{foliage, style::Style};
+use crate::{foliage, ring_table, style::Style};
 
 /// The angle in radians between one row's leaves and the next row's.
 const GOLDEN_ANGLE: f64 = 2.399_963_23;
@@ -28,42 +28,43 @@ pub struct Leaf {
 }
 
 /// The leaves that a metamer bears in the present.
-pub fn of(plant: &Plant, id: MetamerId, style: &Style) -> impl Iterator<Item = Leaf> {
+pub fn of(plant: &Plant, id: MetamerId, style: &Style) -> impl Iterator<Item = Leaf> + use<> {
     let to = plant.metamers().end(id);
     let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
     of_between(plant, id, style, [from, to])
 }
 
 /// The same, where the metamer is drawn between other places.
-pub fn of_between<'a>(
-    plant: &'a Plant,
+pub fn of_between(
+    plant: &Plant,
     id: MetamerId,
     style: &Style,
     [from, to]: [Vec3; 2],
-) -> impl Iterator<Item = Leaf> + use<'a> {
+) -> impl Iterator<Item = Leaf> + use<> {
     let size = style.options().leaf_size;
-    let organs = plant.given_organs(id).filter(|_| plant.is_alive(id));
-    let given = organs.into_iter().flat_map(move |organs| {
-        let leaves = organs.iter().filter(|organ| organ.kind == OrganKind::Leaf);
-        given_on_metamer(id.raw(), 0, from, to, leaves, size)
-    });
-    let count = if organs.is_some() { 0 } else { foliage::leaves(plant, id, style) };
+    let organs = ring_table::told(plant, id).filter(|_| plant.is_alive(id));
+    let is_given = organs.is_some();
+    let leaves = organs.map(|organs| organs.to_vec()).unwrap_or_default().into_iter();
+    let leaves = leaves.filter(|organ| organ.kind == OrganKind::Leaf);
+    let given = given_on_metamer(id.raw(), 0, from, to, leaves, size);
+    let count = if is_given { 0 } else { foliage::leaves(plant, id, style) };
     on_metamer(id.raw(), 0, from, to, count, size).chain(given)
 }
 
 /// Organs of one kind that the metamer in `row`, which runs from `from` to `to`, is given (LF5); none on one without
 /// length. Those without a length of their own are as long as by LF2.
-pub fn given_on_metamer<'a>(
+pub fn given_on_metamer(
     row: u32,
     salt: u32,
     from: Vec3,
     to: Vec3,
-    organs: impl Iterator<Item = &'a Organ>,
+    organs: impl Iterator<Item = Organ>,
     size: f32,
 ) -> impl Iterator<Item = Leaf> {
     let heading = (to - from).try_normalize();
     (0..).zip(organs).filter_map(move |(k, organ)| {
-        let Stance { direction, normal } = organ.stance(heading?);
+        let heading = heading?;
+        let Stance { direction, normal } = organ.stance(heading, organs::shortest_sides(heading));
         let random = own_number(row, salt, k);
         let size = organ.length().unwrap_or(size * (0.75 + 0.5 * random));
         Some(Leaf { base: to, direction, normal, size, random })
@@ -175,7 +176,7 @@ mod tests {
         for (i, number) in (0u32..24).map(|i| (i, i.wrapping_mul(0x9e37_79b9) & 0x3fff_ffff)) {
             let (from, to) = (Vec3::Z, Vec3::Z + Vec3::from_array(headings[i as usize % headings.len()]));
             let organ = Organ::from_number(number).expect("a leaf");
-            for leaf in given_on_metamer(7, 0, from, to, [organ].iter(), 1.0) {
+            for leaf in given_on_metamer(7, 0, from, to, [organ].into_iter(), 1.0) {
                 let [from, to, direction, normal] =
                     [from, to, leaf.direction, leaf.normal].map(|place| place.to_array());
                 assert_eq!(leaf.base.to_array(), to, "organs stand at the end");

@@ -9,15 +9,18 @@
 
 mod changes;
 mod detail;
+mod organs;
 
 use std::ops::Range;
 
-use espalier_plant::{AxisId, Columns, Condition, GivenOrgans, MetamerId, Organs, Plant, Widths, reserve};
+use espalier_plant::{AxisId, Columns, Condition, MetamerId, Organs, Plant, Widths, reserve};
 use glam::Vec3;
 
+use self::organs::ToldOrgans;
 pub use self::{
     changes::Changes,
     detail::{Detail, seen},
+    organs::told,
 };
 use crate::{
     foliage,
@@ -49,7 +52,7 @@ pub struct RingTable {
     /// Codes of radii as they were sent, if width constraints held; empty otherwise.
     radii: Vec<u16>,
     /// Organs given as they were sent.
-    organs: GivenOrgans,
+    organs: ToldOrgans,
     /// For each number of steps of growth, how many rows had been born by then.
     births: Vec<u32>,
     /// What tips look like.
@@ -116,7 +119,7 @@ impl RingTable {
     }
 
     fn organs_of(&self, row: usize) -> Option<&Organs> {
-        self.organs.of(row)?.as_ref()
+        self.organs.of(row)
     }
 
     /// Exposure to light, 0 to 255.
@@ -319,7 +322,7 @@ impl RingTable {
     /// Marks rows that are given other organs.
     fn mark_other_organs(&self, pass: &Pass<'_>, first: usize, differing: &mut [u8]) {
         for (row, differs) in (first..).zip(differing) {
-            *differs |= u8::from(self.organs_of(row) != pass.organs(row));
+            *differs |= u8::from(self.organs.is_stale(pass.plant, row));
         }
     }
 
@@ -342,8 +345,7 @@ impl RingTable {
             let organs = pass.organs(row);
             let held_leaves = leaves(held_tips, self.organs_of(row), former);
             let leaves = leaves(tips, organs, style);
-            if pass.bears && self.organs_of(row) != organs {
-                self.organs.replace(row, organs.cloned());
+            if pass.bears && self.organs.follow(pass.plant, row) {
                 pass.changes.organs.push(row as u32);
                 changes = true;
             }
@@ -396,7 +398,7 @@ impl RingTable {
         self.looks.extend(new.condition.iter().copied().map(seen));
         if pass.bears {
             for row in rows.clone() {
-                self.organs.replace(row, pass.organs(row).cloned());
+                self.organs.follow(pass.plant, row);
             }
         }
         self.leaves += self.all_leaves(rows.clone(), pass.style);

@@ -1,13 +1,15 @@
 //! Leaves, flowers and fruits that a metamer is given one by one, each with its direction and length.
 //!
-//! They stand at the metamer's node. Directions are relative to the metamer, so that they turn with it.
+//! They stand at the metamer's node. In a plant they are counted from the metamer's own normal, so that they turn with it
+//! however it is carried; drawings and clients, which do not know how a metamer is rolled, count from the shortest turn
+//! of the upright.
 
 use std::{
     f64::consts::{PI, TAU},
     sync::Arc,
 };
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Quat, Vec3};
 
 /// The most organs of a metamer: four bits say how many leaves it bears.
 pub const MOST_ORGANS: usize = 15;
@@ -39,7 +41,7 @@ impl OrganKind {
     pub const ALL: [Self; 3] = [Self::Leaf, Self::Flower, Self::Fruit];
 }
 
-/// One organ (`LF5`).
+/// One organ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Organ {
     /// What it is.
@@ -63,9 +65,11 @@ pub struct Stance {
     pub normal: Vec3,
 }
 
-/// The two unit vectors across a unit heading from which azimuths of organs are counted: X and Z, turned as the
-/// shortest turn from Y to the heading does.
-pub fn across(heading: Vec3) -> [Vec3; 2] {
+/// Two unit vectors across a heading from which azimuths of organs are counted, the second after the first.
+pub type Sides = [Vec3; 2];
+
+/// X and Z, turned as the shortest turn from Y to a unit heading does.
+pub fn shortest_sides(heading: Vec3) -> Sides {
     if heading.y < STRAIGHT_DOWN {
         let side = Vec3::X.reject_from_normalized(heading).normalize();
         return [side, side.cross(heading)];
@@ -76,41 +80,60 @@ pub fn across(heading: Vec3) -> [Vec3; 2] {
     [side, side.cross(heading)]
 }
 
-/// The vectors of a direction so far around a heading and away from it: the direction, across it towards the heading,
-/// and across both.
-fn frame(heading: Vec3, azimuth: f64, inclination: f64) -> [Vec3; 3] {
-    let [u, w] = across(heading);
-    let [(sin, cos), (away_sin, away_cos)] = [azimuth, inclination].map(libm::sincos);
-    let [sin, cos, away_sin, away_cos] = [sin, cos, away_sin, away_cos].map(|number| number as f32);
-    let aside = cos * u + sin * w;
-    [away_cos * heading + away_sin * aside, away_sin * heading - away_cos * aside, cos * w - sin * u]
+/// The normal of a metamer with a unit heading, and what follows it.
+pub fn own_sides(heading: Vec3, normal: Vec3) -> Sides {
+    let side = normal.reject_from_normalized(heading).normalize_or(heading.any_orthonormal_vector());
+    [side, side.cross(heading)]
 }
 
 impl Organ {
     /// An organ on a metamer with a unit heading, with a length in internodes if it has one of its own.
-    pub fn new(kind: OrganKind, heading: Vec3, stance: &Stance, length: Option<f32>) -> Self {
+    pub fn new(kind: OrganKind, heading: Vec3, sides: Sides, stance: &Stance, length: Option<f32>) -> Self {
+        let length = length.map_or(0, encode);
+        Self { kind, azimuth: 0, inclination: 0, roll: 0, length }.standing(heading, sides, stance)
+    }
+
+    /// The same organ in another stance.
+    fn standing(self, heading: Vec3, sides: Sides, stance: &Stance) -> Self {
         let Stance { direction, normal } = *stance;
-        let [u, w] = across(heading);
+        let [u, w] = sides;
         let part = |of: Vec3, along: Vec3| f64::from(of.dot(along));
         let turn = libm::atan2(part(direction, w), part(direction, u)) / TAU;
         let away = libm::acos(part(direction, heading).clamp(-1.0, 1.0)) / PI;
         let [azimuth, inclination] = [(turn * 256.0), (away * 255.0)].map(|steps| libm::round(steps) as i32);
         let (azimuth, inclination) = (azimuth.rem_euclid(256) as u8, inclination as u8);
-        let organ = Self { kind, azimuth, inclination, roll: 0, length: length.map_or(0, encode) };
-        let [_, upper, side] = organ.frame(heading);
+        let organ = Self { azimuth, inclination, ..self };
+        let [_, upper, side] = organ.frame(heading, sides);
         let roll = libm::atan2(part(normal, side), part(normal, upper)) / TAU * f64::from(ROLLS);
         Self { roll: (libm::round(roll) as i32).rem_euclid(ROLLS as i32) as u8, ..organ }
     }
 
-    fn frame(&self, heading: Vec3) -> [Vec3; 3] {
-        frame(heading, f64::from(self.azimuth) / 256.0 * TAU, f64::from(self.inclination) / 255.0 * PI)
+    /// The direction, across it towards the heading, and across both.
+    fn frame(&self, heading: Vec3, [u, w]: Sides) -> [Vec3; 3] {
+        let angles = [f64::from(self.azimuth) / 256.0 * TAU, f64::from(self.inclination) / 255.0 * PI];
+        let [(sin, cos), (away_sin, away_cos)] = angles.map(libm::sincos);
+        let [sin, cos, away_sin, away_cos] = [sin, cos, away_sin, away_cos].map(|number| number as f32);
+        let aside = cos * u + sin * w;
+        [away_cos * heading + away_sin * aside, away_sin * heading - away_cos * aside, cos * w - sin * u]
     }
 
     /// How it stands on a metamer with a unit heading.
-    pub fn stance(&self, heading: Vec3) -> Stance {
-        let [direction, upper, side] = self.frame(heading);
+    pub fn stance(&self, heading: Vec3, sides: Sides) -> Stance {
+        let [direction, upper, side] = self.frame(heading, sides);
         let (sin, cos) = libm::sincos(f64::from(self.roll) / f64::from(ROLLS) * TAU);
         Stance { direction, normal: cos as f32 * upper + sin as f32 * side }
+    }
+
+    /// The same stance on the same metamer, counted from other sides.
+    pub fn seen_from(self, heading: Vec3, from: Sides, to: Sides) -> Self {
+        self.standing(heading, to, &self.stance(heading, from))
+    }
+
+    /// The organ as a metamer bears it that a motion has turned from one heading to another: counted from its own normal.
+    pub fn carried(self, drawn: Vec3, turn: Quat, heading: Vec3, normal: Vec3) -> Self {
+        let Stance { direction, normal: upper } = self.stance(drawn, shortest_sides(drawn));
+        let stance = Stance { direction: turn * direction, normal: turn * upper };
+        self.standing(heading, own_sides(heading, normal), &stance)
     }
 
     /// Its length in internodes, if it has one of its own.
@@ -148,13 +171,15 @@ mod tests {
     fn organs_stand_as_they_were_set() {
         let down = Vec3::new(0.002, -1.0, 0.001).normalize();
         for heading in [Vec3::Y, Vec3::NEG_Y, down, Vec3::X, Vec3::new(0.3, 0.9, -0.2).normalize()] {
+            let sides = shortest_sides(heading);
             for direction in [Vec3::Y, Vec3::Z, Vec3::new(-0.5, 0.1, 0.8).normalize(), -heading, heading] {
                 for around in [Vec3::X, Vec3::new(0.2, -0.7, 0.4)] {
                     let Some(normal) = around.reject_from_normalized(direction).try_normalize() else {
                         continue;
                     };
-                    let organ = Organ::new(OrganKind::Leaf, heading, &Stance { direction, normal }, None);
-                    let found = organ.stance(heading);
+                    let organ =
+                        Organ::new(OrganKind::Leaf, heading, sides, &Stance { direction, normal }, None);
+                    let found = organ.stance(heading, sides);
                     assert!(found.direction.dot(direction) > 0.9995, "{heading} {direction} {found:?}");
                     assert!(found.normal.dot(normal) > 0.995, "{heading} {normal} {found:?}");
                     assert!(found.normal.dot(found.direction).abs() < 1e-4, "{heading} {found:?}");
@@ -169,14 +194,16 @@ mod tests {
     #[test]
     fn no_roll_looks_along_the_metamer() {
         let organ = Organ { kind: OrganKind::Leaf, azimuth: 64, inclination: 128, roll: 0, length: 0 };
-        let Stance { direction, normal } = organ.stance(Vec3::Y);
+        let Stance { direction, normal } = organ.stance(Vec3::Y, shortest_sides(Vec3::Y));
         assert!(direction.dot(Vec3::Z) > 0.999 && normal.dot(Vec3::Y) > 0.999, "{direction} {normal}");
     }
 
     #[test]
     fn lengths_are_kept_to_two_percent() {
         let stance = Stance { direction: Vec3::X, normal: Vec3::Y };
-        let kept = |length| Organ::new(OrganKind::Fruit, Vec3::Y, &stance, Some(length)).length();
+        let kept = |length| {
+            Organ::new(OrganKind::Fruit, Vec3::Y, shortest_sides(Vec3::Y), &stance, Some(length)).length()
+        };
         for (length, wanted) in [
             (0.02f32, 0.02f32),
             (0.1, 0.1),

@@ -18,7 +18,8 @@ pub struct Wood {
     pub widths: Vec<(u32, f32)>,
     /// Tips of twigs that were shed, which nodes carry for them: nodes in ascending order, and how many.
     pub scars: Vec<(u32, u32)>,
-    /// Organs that nodes bear in place of those that grow on such wood: nodes in ascending order, seeds left out.
+    /// Organs that nodes bear in place of those that grow on such wood: nodes in ascending order, seeds left out. They are
+    /// counted from the [sides](crate::organs::shortest_sides) of the shortest turn, for not all nodes have a normal.
     pub organs: Vec<(u32, Organs)>,
     /// Which dormant buds there are.
     pub buds: DormantBuds,

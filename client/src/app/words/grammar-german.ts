@@ -192,6 +192,15 @@ export const GERMAN = {
     "Kontexte sehen auf die Folge vor dem Schritt: A < B > C",
   ],
   header: ["mit `{name}` allein beginnt keine Kopfzeile", "schreibe derivation length: 10"],
+  "no-rule.xl": [
+    "`{name}` ist ein Pfeil einer anderen Sprache, XL (GroIMP) oder Fractint",
+    "Regeln haben den Pfeil -->: A --> F",
+  ],
+  "no-rule.book": ["`{name}` steht in Büchern vor einer Zeile", "schreibe axiom: für ω, und lass Namen von Regeln weg"],
+  "no-rule.angle": [
+    "`{name}` ist eine Kopfzeile eines anderen Programms",
+    "schreibe angle: und 360 geteilt durch die Zahl",
+  ],
   "no-rule.line": ["das ist weder eine Regel noch eine Kopfzeile", "eine Regel schreibt man A --> F"],
   "no-rule.arrow": ["das ist weder eine Regel noch eine Kopfzeile", "Regeln haben den Pfeil -->"],
   "no-rule.colon": ["`{name}` ist eine Kopfzeile, und ihr Doppelpunkt fehlt", "schreibe {name}: {rest}"],
@@ -199,7 +208,7 @@ export const GERMAN = {
   "no-name.here": ["hier fehlt ein Name"],
   "no-name.parameter": ["links sind die Parameter Namen", "vergleiche in der Bedingung: A(x) : x == 1 --> F"],
   "no-symbol.here": ["`{name}` ist kein Modul", "Namen sind Buchstaben, oder erklärt: module Leaf"],
-  "no-symbol.number": ["`{name}` ist kein Modul", "Zahlen stehen in Klammern: F(2)"],
+  "no-symbol.number": ["`{name}` ist kein Modul", "Zahlen stehen in Klammern: F(2); Namen von Modulen sind Buchstaben"],
   "no-symbol.operator": ["`{name}` ist kein Modul", "gerechnet wird nur in Parametern: F(2*x)"],
   "no-symbol.turtle": [
     "`{name}` ist kein Zeichen, das die Schildkröte hier kennt",
@@ -261,6 +270,14 @@ export const GERMAN = {
   "ends.world": ["das Holz ragte aus der Welt, die {most} Internodien von ihrer Mitte endet"],
   "ends.broken": ["das Holz dieses Schritts passt nicht zu dem des vorigen"],
   "ends.counted": ["was tiefer ist, ist zu groß, um gezählt zu werden"],
+  "does-nothing.surface": [
+    "Flächen beginnen und enden hier nicht gleich oft: In einer wird kein Holz gezeichnet",
+    "beende jede mit ihrer Klammer",
+  ],
+  "does-nothing.stage": [
+    "`{name}` wird gelesen, wie es ist: Der Homomorphismus geht {depth} tief",
+    "schreibe maximum depth: {deeper} unter homomorphism:",
+  ],
   "never-fires": [
     "diese Regel kommt nie an die Reihe: die in Zeile {line} nimmt jedes solche Modul",
     "setze die Regel mit Bedingung oder Kontext nach oben, oder gib beiden eine Wahrscheinlichkeit",

@@ -162,6 +162,12 @@ export const SENTENCES = {
     "contexts look at the word before the step: A < B > C",
   ],
   header: ["`{name}` begins no header by itself", "write derivation length: 10"],
+  "no-rule.xl": [
+    "`{name}` is an arrow of another language, XL (GroIMP) or Fractint",
+    "rules have the arrow -->: A --> F",
+  ],
+  "no-rule.book": ["`{name}` stands in books before a line", "write axiom: for ω, and leave labels of rules out"],
+  "no-rule.angle": ["`{name}` is a header of another program", "write angle: and 360 divided by its number"],
   "no-rule.line": ["it is neither a rule nor a header", "a rule is written A --> F"],
   "no-rule.arrow": ["it is neither a rule nor a header", "rules have the arrow -->"],
   "no-rule.colon": ["`{name}` is a header, and its colon is missing", "write {name}: {rest}"],
@@ -169,7 +175,7 @@ export const SENTENCES = {
   "no-name.here": ["a name is missing here", null],
   "no-name.parameter": ["a predecessor has names as parameters", "compare in the condition: A(x) : x == 1 --> F"],
   "no-symbol.here": ["`{name}` is no module", "names are letters, or declared: module Leaf"],
-  "no-symbol.number": ["`{name}` is no module", "numbers stand in parentheses: F(2)"],
+  "no-symbol.number": ["`{name}` is no module", "numbers stand in parentheses: F(2); names of modules are letters"],
   "no-symbol.operator": ["`{name}` is no module", "only parameters are computed: F(2*x)"],
   "no-symbol.turtle": [
     "`{name}` is no symbol that the turtle knows here",
@@ -230,6 +236,14 @@ export const SENTENCES = {
   "ends.world": ["the wood would leave the world, which ends {most} internodes from its middle", null],
   "ends.broken": ["the wood of this step does not fit that of the one before", null],
   "ends.counted": ["what is deeper is too large to be counted", null],
+  "does-nothing.surface": [
+    "surfaces begin and end unequally often here: within one no wood is drawn",
+    "end each with its brace",
+  ],
+  "does-nothing.stage": [
+    "`{name}` is read as it is: the homomorphism goes {depth} deep",
+    "write maximum depth: {deeper} below homomorphism:",
+  ],
   "never-fires": [
     "this rule never fires: that of line {line} takes every such module",
     "put the rule with a condition or context first, or give both a probability",

@@ -60,6 +60,7 @@ void main() {
   vec3 eye = towardsEye(base);
   float hang = u${name}Form.y;
   vec3 axis = ornamentAxis(place.direction, hang, more);
+  float stalk = own.stance < 0.0 ? u${name}Form.w : 0.0;
   float mirror = more.x > 0.5 ? 1.0 : -1.0;
   float across = card.x * u${name}Form.x * (1.0 + 2.0 * MARGIN);
   float along = card.y * (1.0 + 2.0 * MARGIN) - MARGIN;
@@ -74,7 +75,7 @@ void main() {
     vec3 lengthwise = cross(n, side);
     vec3 turnedSide = cos(spin) * side + sin(spin) * lengthwise;
     side = turnedSide;
-    world = base + size * (axis * u${name}Form.w + side * across + cross(n, side) * (along - 0.5));
+    world = base + size * (axis * stalk + side * across + cross(n, side) * (along - 0.5));
   } else {
     vec3 across_ = cross(axis, eye);
     // Seen along its axis it turns further, for it is as thick as it is broad.
@@ -82,7 +83,7 @@ void main() {
     side = normalize(across_ + 1e-4 * place.normal);
     n = normalize(cross(side, lengthwise));
     n *= dot(n, eye) < 0.0 ? -1.0 : 1.0;
-    world = base + size * (axis * u${name}Form.w + lengthwise * along + side * across);
+    world = base + size * (axis * stalk + lengthwise * along + side * across);
   }
   vWorld = world;
   vNormal = n;

@@ -226,6 +226,8 @@ pub(crate) struct Ornament {
     /// Unit vector along which it hangs or stands.
     pub axis: Vec3,
     pub size: f32,
+    /// How far it stands off, in its own size.
+    pub stalk: f32,
     /// A number from 0 to 1 of its own.
     pub random: f32,
 }
@@ -234,7 +236,7 @@ impl Ornament {
     /// Adds it: a disc, or crossed cards, so many that it looks as thick as it is broad.
     pub(crate) fn add(&self, cards: &mut Cards, nature: &OrnamentNature, hue: Vec3) {
         let own = own_numbers(self.random);
-        let foot = self.base + self.axis * (nature.stalk * self.size);
+        let foot = self.base + self.axis * (self.stalk * self.size);
         let (u, w) = self.axis.any_orthonormal_pair();
         let tile = Tile::of(own.x);
         let turned = |angle: f32| {
@@ -425,7 +427,8 @@ mod tests {
         let flowers = FlowerKind::ALL.iter().filter_map(|kind| kind.nature());
         for nature in flowers.chain(FruitKind::ALL.iter().filter_map(|kind| kind.nature())) {
             let mut cards = Cards::default();
-            let ornament = Ornament { base: Vec3::ZERO, axis: -Vec3::Y, size: 1.0, random: 0.7 };
+            let ornament =
+                Ornament { base: Vec3::ZERO, axis: -Vec3::Y, size: 1.0, stalk: nature.stalk, random: 0.7 };
             ornament.add(&mut cards, &nature, Vec3::ONE);
             holds(&cards, "ornament");
             tangents_follow(&cards);

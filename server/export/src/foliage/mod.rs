@@ -9,8 +9,9 @@ use std::ops::ControlFlow;
 use espalier_mesh::{
     Bodies, Style, foliage,
     leaves::{self, Leaf},
+    ring_table::told,
 };
-use espalier_plant::{MetamerId, OrganKind, Plant, Widths};
+use espalier_plant::{MetamerId, Organ, OrganKind, Plant, Widths};
 use espalier_settings::Appearance;
 use glam::Vec3;
 
@@ -116,15 +117,25 @@ impl<'a> Foliage<'a> {
 
     /// Adds the flowers of a metamer.
     pub(crate) fn add_flowers(&self, cards: &mut Cards, id: MetamerId) {
-        ornaments::add_flowers(cards, &self.bearer(id), &self.look.flowers);
+        let organs = told(self.plant, id);
+        ornaments::add_flowers(
+            cards,
+            &self.bearer(id, organs.as_deref().unwrap_or_default()),
+            &self.look.flowers,
+        );
     }
 
     /// Adds the fruits of a metamer.
     pub(crate) fn add_fruits(&self, cards: &mut Cards, id: MetamerId) {
-        ornaments::add_fruits(cards, &self.bearer(id), &self.look.fruits);
+        let organs = told(self.plant, id);
+        ornaments::add_fruits(
+            cards,
+            &self.bearer(id, organs.as_deref().unwrap_or_default()),
+            &self.look.fruits,
+        );
     }
 
-    fn bearer(&self, id: MetamerId) -> Bearer<'_> {
+    fn bearer<'b>(&self, id: MetamerId, organs: &'b [Organ]) -> Bearer<'b> {
         Bearer {
             row: id.raw(),
             ends: self.ends(id),
@@ -132,7 +143,7 @@ impl<'a> Foliage<'a> {
             is_leafy: self.is_leafy(id),
             is_tip: !self.goes_on[id.index()],
             vigor: Shoot::of(self.plant, id).vigor,
-            organs: self.plant.given_organs(id).map_or(&[], |organs| organs),
+            organs,
         }
     }
 }

@@ -70,23 +70,26 @@ impl Bearer<'_> {
         nature: &OrnamentNature,
         (size, tint): (f32, Vec3),
     ) -> impl Iterator<Item = (Ornament, Vec3)> {
-        let given = self.organs.iter().filter(|organ| organ.kind == placing.organ);
+        let given = self.organs.iter().copied().filter(|organ| organ.kind == placing.organ);
         // Those that it is given stand in place of others.
         let is_given = given.clone().next().is_some();
         let count = if !is_given && self.bears(placing) { nature.together } else { 0 };
-        let ([from, to], radius, hang) = (self.ends, self.radius, nature.hang);
+        let ([from, to], radius, hang, stalk) = (self.ends, self.radius, nature.hang, nature.stalk);
         let heading = (to - from).normalize_or(Vec3::Y);
-        let lengths = given.clone().map(|organ| organ.length());
+        let lengths = given.clone().map(|organ| Some(organ.length()));
         let by_rule = leaves::on_metamer(self.row, placing.salt, from, to, count, 1.0);
         let by_rule = by_rule.map(|leaf| (leaf, None));
         let given = leaves::given_on_metamer(self.row, placing.salt, from, to, given, 1.0).zip(lengths);
         by_rule.chain(given).map(move |(leaf, length)| {
             let aside = leaf.direction.reject_from_normalized(heading).normalize_or(leaf.direction);
             let own = own_numbers(leaf.random).truncate();
+            // What is given stands on its wood.
+            let stalk = if length.is_some() { 0.0 } else { stalk };
             let ornament = Ornament {
+                stalk,
                 base: leaf.base + 0.9 * radius * aside,
                 axis: axis(leaf.direction, hang, own),
-                size: length.unwrap_or(size * varied(leaf.random)),
+                size: length.flatten().unwrap_or(size * varied(leaf.random)),
                 random: leaf.random,
             };
             (ornament, hue(tint, own))

@@ -36,6 +36,11 @@ const CONSTRUCTS: &[(&str, &str, &str)] = &[
     ("A(x) : x > 2 & x < 4 --> F(x)", "python", "`&`"),
     ("A(x) : x > 2 | x < 4 --> F(x)", "python", "`|`"),
     ("A(x) --> F(x)Left(60)A(x)", "python", "`Left`"),
+    ("A(x) ==> F(x)", "no-rule", "`==>`"),
+    ("F => FF", "no-rule", "`=>`"),
+    ("ω : F", "no-rule", "`ω`"),
+    ("p1 : A(x) --> F(x)", "no-rule", "`p1`"),
+    ("angle factor: 16", "no-rule", "`angle factor`"),
     // C, as files of cpfg and L+C have it.
     ("#include <math.h>", "c", "`#include`"),
     ("int steps = 3;", "c", "`int`"),

@@ -246,6 +246,8 @@ fn what_does_nothing_is_a_warning() {
         ("axiom: FQ\nF --> F", ("does-nothing", 1, 9, 1)),
         ("axiom: F~a\nF --> F", ("surface-as-leaf", 1, 9, 2)),
         ("axiom: F@o\nF --> F", ("not-drawn", 1, 9, 2)),
+        ("axiom: F{.f.F\nF --> F", ("does-nothing", 1, 9, 1)),
+        ("axiom: AB\nA --> A\nB --> B\nhomomorphism:\nA --> F(1)B\nB --> F(2)", ("does-nothing", 5, 11, 1)),
         ("axiom: F;\nF --> F", ("not-drawn", 1, 9, 1)),
         ("axiom: F+F\nF --> F", ("no-angle", 1, 9, 1)),
         ("axiom: A\nA --> F\nA --> G", ("never-fires", 3, 1, 7)),

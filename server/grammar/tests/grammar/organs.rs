@@ -1,7 +1,10 @@
 //! Leaves, flowers and fruits stand where the grammar says.
 
 use espalier_grammar::Drawn;
-use espalier_plant::{MetamerId, Organ, OrganKind, organs::MOST_ORGANS};
+use espalier_plant::{
+    MetamerId, Organ, OrganKind,
+    organs::{MOST_ORGANS, shortest_sides},
+};
 use glam::Vec3;
 
 use crate::trees::{drawn, planted};
@@ -21,7 +24,7 @@ fn stances(drawn: &Drawn) -> Vec<(u32, OrganKind, Vec3, Vec3, Option<f32>)> {
     let all = organs(drawn).into_iter().flat_map(|(node, organs)| {
         let heading = heading(drawn, node);
         organs.into_iter().map(move |organ| {
-            let stance = organ.stance(heading);
+            let stance = organ.stance(heading, shortest_sides(heading));
             (node, organ.kind, stance.direction, stance.normal, organ.length())
         })
     });
@@ -90,4 +93,14 @@ fn what_stands_on_no_wood_or_is_too_much_is_counted() {
     let crowd = "~l".repeat(MOST_ORGANS + 2);
     let found = drawn(&format!("axiom: ~l~fF{crowd}"), 0);
     assert_eq!((found.unborne, organs(&found)[0].1.len()), (4, MOST_ORGANS));
+}
+
+#[test]
+fn a_surface_ends_with_the_branch_in_which_it_began() {
+    let found = drawn("axiom: F(2)[{.f(1).]F(3)[+F(2)]", 0);
+    let whole = drawn("axiom: F(2)F(3)[+F(2)]", 0);
+    assert_eq!(found.wood.nodes.len(), whole.wood.nodes.len());
+    assert_eq!(stances(&found), [], "a surface that does not end is none");
+    let within = drawn("axiom: F[&(90){.[+(30)f(1).]f(2).}]F", 0);
+    assert_eq!((stances(&within).len(), within.wood.nodes.len()), (1, 3), "branches lie within surfaces");
 }

@@ -1,5 +1,8 @@
 //! Leaves, flowers and fruits of grammars: they come and go with depth, deeds and time, and are written down.
 
+use espalier_mesh::ring_table::told;
+use espalier_plant::{Stance, organs::shortest_sides};
+
 use super::*;
 
 /// A bud keeps two leaves as long as it is the tip; each node bears a flower.
@@ -65,4 +68,52 @@ fn what_grows_on_bears_what_grows_on_such_wood() {
     apply(&mut document, &set(TEXT, 2));
     apply(&mut document, &set("axiom: A\nA --> F[+(30)F]A\n", 2));
     assert!(organs(&document).iter().all(Option::is_none));
+}
+
+/// Where the only leaf of a document points, and its upper side, as clients place it.
+fn stance(document: &Document) -> Stance {
+    let plant = document.plant();
+    let leaves = living(document).into_iter().filter_map(|row| {
+        let id = MetamerId::new(row as usize);
+        let organs = told(plant, id)?;
+        let heading = plant.heading(id);
+        organs.first().map(|leaf| leaf.stance(heading, shortest_sides(heading)))
+    });
+    let all: Vec<Stance> = leaves.collect();
+    assert_eq!(all.len(), 1);
+    all[0]
+}
+
+#[test]
+fn organs_turn_with_their_wood() {
+    let text = "axiom: F(2)[+(90)F(2)[-(90)~l(3)]]F(2)A\nA --> FA\n";
+    let before = {
+        let mut document = Document::new(7);
+        apply(&mut document, &set(text, 1));
+        stance(&document)
+    };
+    assert!(before.direction.dot(Vec3::Y) > 0.999, "{before:?}");
+    // Half a turn about the trunk, one about the branch itself, and something between.
+    for rotation in [
+        Quat::from_xyzw(0.0, 1.0, 0.0, 0.0),
+        Quat::from_xyzw(1.0, 0.0, 0.0, 0.0),
+        Quat::from_xyzw(0.48, 0.36, 0.0, 0.8),
+    ] {
+        let mut document = Document::new(7);
+        apply(&mut document, &set(text, 1));
+        let branch = living(&document)
+            .into_iter()
+            .find(|&row| document.plant().heading(MetamerId::new(row as usize)).y.abs() < 0.1)
+            .expect("the branch is level");
+        let turn = Action::TurnBranch { row: branch, rotation: UnitRotation::nearest(rotation) };
+        apply(&mut document, &in_gesture(1, turn));
+        let wanted = [rotation * before.direction, rotation * before.normal];
+        for _ in 0..2 {
+            let found = stance(&document);
+            assert!(found.direction.dot(wanted[0]) > 0.999, "{rotation} {found:?} {wanted:?}");
+            assert!(found.normal.dot(wanted[1]) > 0.99, "{rotation} {found:?} {wanted:?}");
+            // So it stays when the grammar goes on.
+            apply(&mut document, &derive(1));
+        }
+    }
 }
