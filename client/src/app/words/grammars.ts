@@ -161,7 +161,7 @@ export const SHIPPED_GRAMMARS: Readonly<Record<string, readonly [title: string, 
   ],
   "stochastic-twins": [
     "Kraut nach Zufall",
-    "Der Zufall entscheidet, nach welcher Seite sich eine Linie verzweigt: Jeder Startwert gibt eine andere Pflanze derselben Art.",
+    "Der Zufall entscheidet, nach welchen Seiten sich eine Linie verzweigt: drei Pflanzen einer Art, und andere mit jedem Startwert.",
   ],
   signal: [
     "Signale",
