@@ -56,7 +56,7 @@ pub struct Rewritten {
     /// The rows at which drawings, and not others, have ended what went on from them, each with the axis that went on from
     /// it last, in order: what goes on from there again may do so.
     pub ends: Vec<(u32, u32)>,
-    /// How many metamers moved.
+    /// How many metamers moved, and of how many that stay organs are others.
     pub moved: usize,
 }
 
@@ -103,7 +103,7 @@ impl Rewriting<'_> {
         step.place(carried)?;
         step.prune(&writer.cuts);
         writer.find_buds(step);
-        writer.bear(step)?;
+        let moved = moved + writer.bear(step)?;
         Ok(Rewritten { rows: writer.rows(), ends: writer.ends_of_axes(), moved })
     }
 
@@ -392,11 +392,11 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Lets everything new be born, parents first.
-    fn bear(&mut self, step: &mut Recording<'_>) -> Result<(), EditError> {
+    /// Lets everything new be born, parents first; returns of how many metamers that stay organs are others.
+    fn bear(&mut self, step: &mut Recording<'_>) -> Result<usize, EditError> {
         let wood = self.wood();
         let mut axes: Vec<Option<AxisId>> = vec![None; wood.axes.len()];
-        let (mut radii, mut organs) = (Vec::new(), Vec::new());
+        let (mut radii, mut organs, mut others) = (Vec::new(), Vec::new(), 0);
         let mut borne = wood.organs.iter().peekable();
         // Where the axes that nodes bear begin among all of them, and room for the directions of those of one.
         let (mut from, mut directions) = (0, Vec::new());
@@ -434,6 +434,7 @@ impl<'a> Writer<'a> {
             }
             let bears = bears.map(|bears| self.organs_on(plant, number, row, bears));
             if plant.given_organs(row) != bears.as_ref() {
+                others += usize::from(matches!(self.fates[number], Fate::Stays(_)));
                 organs.push((row, bears));
             }
         }
@@ -441,7 +442,7 @@ impl<'a> Writer<'a> {
         step.give_radii(&radii)?;
         organs.sort_unstable_by_key(|&(row, _)| row);
         step.give_organs(&organs)?;
-        Ok(())
+        Ok(others)
     }
 
     /// Organs as the row of a node bears them, turned as the wood is.

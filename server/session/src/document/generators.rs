@@ -137,7 +137,7 @@ impl Generators {
         self.grammars.give_up();
     }
 
-    /// Metamers that the last step of a grammar has moved.
+    /// Metamers that the last step of a grammar has moved, or given other organs.
     pub(super) fn moved(&self) -> usize {
         self.grammars.moved
     }

@@ -28,7 +28,7 @@ pub(in crate::document) struct Grammars {
     pub was_again: bool,
     /// Why the last step could not be written.
     pub refusal: Option<WriteError>,
-    /// Metamers that the last step moved.
+    /// Metamers that the last step moved, or gave other organs.
     pub moved: usize,
 }
 

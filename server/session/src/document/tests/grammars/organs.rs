@@ -117,3 +117,14 @@ fn organs_turn_with_their_wood() {
         }
     }
 }
+
+#[test]
+fn organs_that_change_count_among_what_histories_keep() {
+    // Nothing moves; each step gives all leaves another length.
+    let text = "axiom: F(40)L(1)\nL(x) --> L(x+1)\nhomomorphism:\nL(x) --> ~l(x)\n";
+    let mut document = Document::new(7);
+    apply(&mut document, &set(text, 1));
+    apply(&mut document, &derive(3));
+    let kept: Vec<u32> = document.history.operations.iter().map(|operation| operation.places).collect();
+    assert_eq!(kept, [1, 3]);
+}
