@@ -1,5 +1,7 @@
+import { readFile } from "node:fs/promises";
 import { expect, test } from "vitest";
 import { leafAzimuth } from "../../../client/src/scene/foliage/leaves";
+import { organAzimuth, organStance } from "../../../client/src/scene/foliage/organs";
 import { LEAF_PLACE } from "../../../client/src/scene/glsl/leaf";
 import { perform } from "../gallery/performance";
 import type { Picture } from "./picture";
@@ -37,16 +39,30 @@ precision highp float;
 ${LEAF_PLACE}
 in vec3 from;
 in vec3 to;
-in vec2 turn;
+in vec3 turn;
 out vec3 base;
 out vec3 direction;
 out vec3 normal;
 void main() {
-  Leaf leaf = leafAt(from, to, turn.x, turn.y);
+  Leaf leaf = leafAt(from, to, turn.x, turn.y, turn.z);
   base = leaf.base;
   direction = leaf.direction;
   normal = leaf.normal;
 }`;
+
+/** The stance of what stands by rule. */
+const BY_RULE = -1;
+
+/** Organs on many headings, as the server places them. */
+const ORGANS = new URL("../../../server/mesh/golden/organs.json", import.meta.url);
+
+interface PlacedOrgan {
+  readonly organ: number;
+  readonly from: readonly number[];
+  readonly to: readonly number[];
+  readonly direction: readonly number[];
+  readonly normal: readonly number[];
+}
 
 /** Expected numbers come from a separate program that follows the rules in double precision. */
 test("LF1, LF2, LF4: the graphics card places leaves by the rules", async () => {
@@ -58,11 +74,29 @@ test("LF1, LF2, LF4: the graphics card places leaves by the rules", async () => 
       ...to,
       leafAzimuth(row, k, count),
       (k + 1) / count,
+      BY_RULE,
     ]);
     const placed = await page.evaluate(place, { vertex: VERTEX, inputs });
     for (const [i, { expected, of }] of leaves.entries()) {
       for (const [j, value] of expected.entries()) {
         expect(placed[9 * i + j], `number ${j} of row ${of[0]}`).toBeCloseTo(value, 3);
+      }
+    }
+  } finally {
+    await browser.close();
+  }
+});
+
+test("LF5: the graphics card places organs as the server does", async () => {
+  const organs: PlacedOrgan[] = JSON.parse(await readFile(ORGANS, "utf8"));
+  const browser = await theBrowser();
+  try {
+    const page = await browser.newPage();
+    const inputs = organs.map(({ organ, from, to }) => [...from, ...to, organAzimuth(organ), 1, organStance(organ)]);
+    const placed = await page.evaluate(place, { vertex: VERTEX, inputs });
+    for (const [i, { to, direction, normal, organ }] of organs.entries()) {
+      for (const [j, value] of [...to, ...direction, ...normal].entries()) {
+        expect(placed[9 * i + j], `number ${j} of organ ${organ}`).toBeCloseTo(value, 3);
       }
     }
   } finally {
@@ -145,10 +179,10 @@ function place({ vertex, inputs }: { vertex: string; inputs: number[][] }): numb
   gl.useProgram(program);
   gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
   gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(inputs.flat()), gl.STATIC_DRAW);
-  for (const [name, size, offset] of [["from", 3, 0] as const, ["to", 3, 12] as const, ["turn", 2, 24] as const]) {
+  for (const [name, size, offset] of [["from", 3, 0] as const, ["to", 3, 12] as const, ["turn", 3, 24] as const]) {
     const at = gl.getAttribLocation(program, name);
     gl.enableVertexAttribArray(at);
-    gl.vertexAttribPointer(at, size, gl.FLOAT, false, 32, offset);
+    gl.vertexAttribPointer(at, size, gl.FLOAT, false, 36, offset);
   }
   gl.bindBuffer(gl.ARRAY_BUFFER, null);
   const out = gl.createBuffer();
