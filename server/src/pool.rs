@@ -381,10 +381,15 @@ mod tests {
         assert_eq!(pool.block_on(rayon::current_num_threads), 3);
         let alone = pool.run(Class::Growing, somebody(), |_| rayon::current_num_threads()).await;
         assert_eq!(alone, Ok(3), "what is alone has all threads");
-        let (_open, _held) = hold(&pool);
-        while pool.0.shared.lock().turns.is_idle() {
-            tokio::task::yield_now().await;
-        }
+        // What was done may still count as being done, so a worker says itself that it is held.
+        let (begun, has_begun) = oneshot::channel();
+        let (_open, gate) = mpsc::channel::<()>();
+        let holding = pool.clone();
+        let _held = tokio::spawn(async move {
+            let work = move |_: &Turn<'_>| begun.send(()).is_ok() && gate.recv().is_ok();
+            holding.run(Class::Growing, somebody(), work).await
+        });
+        assert_eq!(has_begun.await, Ok(()));
         let beside = pool.run(Class::Drawing, somebody(), |_| rayon::current_num_threads()).await;
         assert_eq!(beside, Ok(1));
     }
