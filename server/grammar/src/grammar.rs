@@ -52,7 +52,7 @@ pub(crate) struct Heading {
     pub widths: Option<Radii>,
 }
 
-/// Which leaves, flowers and fruits a plant bears.
+/// Which leaves a plant bears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Leaves {
     /// Those that the grammar puts there, and no others.

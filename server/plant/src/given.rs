@@ -2,7 +2,7 @@
 //! scan, organs of a grammar.
 //!
 //! A radius given is wood like any other for what bears it ([`crate::widths`]), and a width constraint on the same
-//! metamer goes before. Where organs are given, those are all that the metamer bears ([`crate::organs`]).
+//! metamer goes before. Where organs are given, their leaves are all that the metamer bears ([`crate::organs`]).
 
 use std::fmt::Debug;
 

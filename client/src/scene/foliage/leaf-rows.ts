@@ -20,7 +20,7 @@ export interface LeafMaterials {
   readonly leafDepth: ShaderMaterial;
 }
 
-/** All leaves as instances of one card, placed by the rules LF1 to LF4. */
+/** All leaves as instances of one card, placed by the rules LF1 to LF5. */
 export class LeafRows {
   /** Drawn into the picture. */
   readonly mesh: Mesh;

@@ -5,7 +5,7 @@ import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";
 import { itemsOf } from "./items";
 import { DEPTH_COLOUR } from "./shadow";
 
-/** Where rules LF1–LF4 put a leaf, from where its metamer is drawn. */
+/** Where rules LF1–LF5 put a leaf, from where its metamer is drawn. */
 export const LEAF_PLACE = /* glsl */ `
 struct Leaf {
   vec3 base;

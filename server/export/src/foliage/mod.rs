@@ -4,8 +4,6 @@ pub(crate) mod cards;
 pub(crate) mod leaf_look;
 pub(crate) mod ornaments;
 
-use std::ops::ControlFlow;
-
 use espalier_mesh::{
     Bodies, Style, foliage,
     leaves::{self, Leaf},
@@ -150,13 +148,11 @@ impl<'a> Foliage<'a> {
 
 /// A look that shows flowers and fruits which metamers of the plant are given.
 fn with_given(plant: &Plant, look: &Appearance) -> Appearance {
-    let mut organs = plant.organs().rows().filter_map(|(_, organs)| organs.as_ref());
-    let kinds = organs.try_fold([false; 2], |[flower, fruit], organs| {
-        let has = |kind| organs.iter().any(|organ| organ.kind == kind);
-        let kinds = [flower || has(OrganKind::Flower), fruit || has(OrganKind::Fruit)];
-        if kinds == [true; 2] { ControlFlow::Break(kinds) } else { ControlFlow::Continue(kinds) }
-    });
-    let (ControlFlow::Break([flowers, fruits]) | ControlFlow::Continue([flowers, fruits])) = kinds;
+    let has = |kind| {
+        let mut all = plant.organs().rows().filter_map(|(_, organs)| organs.as_ref());
+        all.any(|organs| organs.iter().any(|organ| organ.kind == kind))
+    };
+    let [flowers, fruits] = [OrganKind::Flower, OrganKind::Fruit].map(has);
     Appearance {
         flowers: if flowers { look.flowers.with_given() } else { look.flowers },
         fruits: if fruits { look.fruits.with_given() } else { look.fruits },

@@ -25,8 +25,7 @@ impl Scene {
         Recording::run(self, grow)
     }
 
-    /// Records one edit, in which nothing grows older.
-    /// Records an edit as a step of its own.
+    /// Records an edit as a step of its own, in which nothing grows older.
     pub fn record_edit<T>(&mut self, edit: impl FnOnce(&mut Recording<'_>) -> T) -> T {
         self.plant.begin_edit();
         Recording::run(self, edit)
