@@ -1,4 +1,4 @@
-import { useRef } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import type { Hint } from "../../../wire/generated";
 import type { Studio } from "../../studio";
 import { type Key, say } from "../../words/say";
@@ -19,6 +19,11 @@ const REASONS = {
 export function VainMark({ studio }: { studio: Studio }) {
   const mark = useRef<HTMLParagraphElement>(null);
   const hint = studio.drawnInVain.shown.value;
+  useEffect(() => {
+    if (hint !== null) {
+      studio.drawnInVain.seen();
+    }
+  }, [studio, hint]);
   useAnimationFrames(hint !== null, () => {
     const element = mark.current;
     const at = hint && studio.stage.projector()?.(hint.position);
