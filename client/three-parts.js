@@ -1,5 +1,5 @@
-// Parts of three.js's renderer that a scene without lights, fog, backgrounds, headsets and materials of three.js's own
-// does not use, each with the methods that the renderer calls all the same. `three-plugin.ts` puts them in place.
+// Parts of three.js that a scene without lights, fog, backgrounds, headsets, clipping planes, textures of six sides and
+// materials of three.js's own does not use, each with the methods that the renderer calls all the same. `three-plugin.ts` puts them in place.
 import { Color } from "three/src/math/Color.js";
 
 export const ShaderChunk = {};
@@ -17,6 +17,20 @@ export function WebGLBackground(_renderer, _environments, state, _objects, alpha
     addToRenderList() {},
     dispose() {},
   };
+}
+
+/** What a sampler of six sides or of layers would have until it gets its own. */
+export const CubeTexture = Object;
+export const CubeDepthTexture = Object;
+
+/** The view of several cameras at once. */
+export const FrustumArray = Object;
+
+/** What a mesh would have that is made without a material. */
+export const MeshBasicMaterial = Object;
+
+export function WebGLClipping() {
+  return { uniform: { value: null }, numPlanes: 0, numIntersection: 0, init: () => false };
 }
 
 export function WebGLEnvironments() {
