@@ -83,3 +83,53 @@ test.each<[string, Screen]>([
   await guest.swipe([way({ x: seed.x, y: seed.y - 100 }, { x: seed.x + 80, y: seed.y - 180 })]);
   await guest.until("he draws on", (facts) => facts.sent > sent && facts.sent === facts.acknowledged);
 });
+
+test.each([
+  ["tablet", { ...LANDSCAPE, detail: 0.3 }],
+  ["phone", { ...PHONE, detail: 0.5 }],
+] as const)(
+  "RP1, CT5: on a %s who may only comment sees the step that a comment is of, and moves nobody",
+  async (name, screen) => {
+    const owner = await workshop.open(ownersLink(workshop.server, "Ann"), { ...LANDSCAPE, detail: 0.3 });
+    const link = await guestsLink(owner, `Birch of the ${name}`, "Bo", "commenter");
+    const seed = await seedling(owner);
+    await owner.swipe([way(seed, { x: seed.x, y: seed.y - 150 })]);
+    const { present: early } = await owner.untilQuiet();
+    await press(owner, "Comments");
+    await owner.press(owner.page.getByRole("button", { name: "Comment on the whole tree" }));
+    await owner.page.getByLabel("What you want to say").fill("To slender so far");
+    await owner.press(owner.page.getByRole("button", { name: "Send" }));
+    const said = owner.page.locator(".comment-text");
+    await said.waitFor();
+    await owner.swipe([way({ x: seed.x, y: seed.y - 140 }, { x: seed.x + 60, y: seed.y - 260 })]);
+    const { present: late } = await owner.untilQuiet();
+    expect(late).toBeGreaterThan(early);
+
+    const guest = await workshop.open(link, screen);
+    const { page } = guest;
+    await guest.until("the tree of now is there", ({ present }) => present === late);
+    const faces = owner.page.getByRole("button", { name: "Bo (May comment)", exact: false });
+    await faces.waitFor();
+    await press(guest, "Comments");
+    await guest.press(page.locator(".comment-threads button").first());
+    expect(await page.getByRole("button", { name: /for everyone/ }).count(), "time is not theirs to move").toBe(0);
+    await guest.press(page.getByRole("button", { name: `See step ${early}` }));
+    await page.locator(".replay").waitFor();
+    await guest.until("the tree of then is there", ({ present }) => present === early);
+    await page.locator(".comment-text").waitFor();
+    await guest.show(`comment-look-${name}`);
+    expect(await owner.untilQuiet(), "nobody is moved").toMatchObject({ present: late });
+    await guest.press(page.locator(".replay").getByRole("button", { name: "Back to the tree" }));
+    await guest.until("they are back", ({ present }) => present === late);
+    await page.locator(".comment-text", { hasText: "To slender so far" }).waitFor();
+
+    // One's own words are changed, and only by whoever wrote them.
+    expect(await page.getByRole("button", { name: "Change", exact: true }).count()).toBe(0);
+    await owner.press(owner.page.getByRole("button", { name: "Change", exact: true }));
+    await owner.page.getByLabel("What you want to say").fill("Too slender so far");
+    await owner.show(`comment-edit-${name}`);
+    await owner.press(owner.page.getByRole("button", { name: "Save the words" }));
+    await page.locator(".comment-text", { hasText: "Too slender so far" }).waitFor();
+    await page.locator(".comment-head", { hasText: "changed" }).waitFor();
+  },
+);

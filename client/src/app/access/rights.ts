@@ -4,7 +4,7 @@ import { kept } from "../page/settings";
 import { ask } from "../requests/request";
 
 /** What a role may do, as the server's table says. */
-function may(role: Role, action: keyof typeof LEAST_ROLES): boolean {
+export function may(role: Role, action: keyof typeof LEAST_ROLES): boolean {
   return ROLES.indexOf(role) >= ROLES.indexOf(LEAST_ROLES[action]);
 }
 

@@ -2,6 +2,9 @@ import type { NewComment, NewThread, Thread } from "../../wire/generated";
 import { newClientKey } from "../connection/client-record";
 import { ask } from "../requests/request";
 
+/** So long its words can be changed, in milliseconds (`CT5`). */
+export const CHANGED_WITHIN = 15 * 60_000;
+
 /** Threads in one answer. */
 const PAGE = 200;
 
@@ -33,6 +36,10 @@ export function answerIn(tree: string, thread: number, comment: NewComment): Pro
 
 export function resolveThread(tree: string, thread: number, resolved: boolean): Promise<Thread> {
   return ask<Thread>("PATCH", `${pathOf(tree)}/${thread}`, { resolved });
+}
+
+export function editComment(tree: string, thread: number, comment: number, text: string): Promise<Thread> {
+  return ask<Thread>("PATCH", `${pathOf(tree)}/${thread}/comments/${comment}`, { text });
 }
 
 export async function deleteComment(tree: string, thread: number, comment: number): Promise<void> {

@@ -2,6 +2,15 @@ import { signal } from "@preact/signals";
 import type { Pin } from "../../wire/generated";
 import type { Conversation } from "./conversation";
 
+/** A step that is looked at in a copy of the session that nobody else sees, for the sake of a comment. */
+export interface LookBack {
+  readonly session: string;
+  readonly thread: number;
+  readonly step: number;
+  /** Shows the view that the comment has. */
+  readonly show: () => void;
+}
+
 /** What the server tells of comments on the tree; what is said is read when somebody looks (`CT`). */
 export class Comments {
   /** Where threads are pinned now, by their numbers. */
@@ -12,6 +21,8 @@ export class Comments {
   readonly open = signal<number | null>(null);
   /** What is said, once the code that reads it is there. */
   readonly conversation = signal<Conversation | null>(null);
+  /** What the copy of the session that the page is in was opened for; null where it is played. */
+  lookBack: LookBack | null = null;
 
   place(pins: readonly Pin[]): void {
     const all = new Map(this.pins.peek());

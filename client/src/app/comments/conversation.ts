@@ -192,6 +192,14 @@ export class Conversation {
     }
   }
 
+  /** Changes one's own words; true once the server has them. */
+  async edit(thread: Thread, comment: number, text: string): Promise<boolean> {
+    const tree = this.tree.peek();
+    return (
+      tree !== null && this.#try(async () => this.#take(await api.editComment(tree, thread.thread, comment, text)))
+    );
+  }
+
   async delete(thread: Thread, comment: number): Promise<void> {
     const tree = this.tree.peek();
     if (tree !== null && (await this.#try(() => api.deleteComment(tree, thread.thread, comment)))) {
@@ -211,6 +219,22 @@ export class Conversation {
     const known = DRAW_MODES.find((one) => one === mode);
     if (known) {
       drawMode.value = known;
+    }
+  }
+
+  /** Shows the step that somebody saw as well, in a copy of the session, so that nobody else is moved. */
+  lookBack({ thread }: Thread, bookmark: Bookmark): void {
+    const { link, comments, time } = this.#studio;
+    const session = link.session.peek();
+    const look = { thread, step: bookmark.step, show: () => this.visit(bookmark) };
+    if (link.replaying.peek()) {
+      time.to(look.step);
+      look.show();
+    } else if (session !== null) {
+      comments.lookBack = { session, ...look };
+      link.replay(true);
+      // What is open is forgotten with the session that is left.
+      comments.open.value = thread;
     }
   }
 

@@ -48,6 +48,13 @@ export const COMMENTS = {
   "comments.sketch.done": ["Done drawing", "Fertig gezeichnet"],
   "comments.sketch.clear": ["Erase", "Löschen"],
   "comments.go": ["Go to the view", "Zur Ansicht"],
+  "comments.look": ["See step {step}", "Schritt {step} ansehen"],
+  "comments.look.title": [
+    "Shows the tree as it was then, to you alone; for everybody else it stays as it is",
+    "Zeigt den Baum, wie er da war, dir allein; für alle anderen bleibt er, wie er ist",
+  ],
+  "comments.edit": ["Change", "Ändern"],
+  "comments.edit.save": ["Save the words", "Text speichern"],
   "comments.go.step": ["Go to step {step}, for everyone", "Zu Schritt {step}, für alle"],
   "comments.delete": ["Delete", "Löschen"],
   "comments.delete.ask": ["The comment is deleted for everyone.", "Der Kommentar wird für alle gelöscht."],

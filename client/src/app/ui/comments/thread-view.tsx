@@ -1,6 +1,6 @@
 import { useState } from "preact/hooks";
-import type { Comment, Mention, Pin, Thread } from "../../../wire/generated";
-import { pictureAddress } from "../../comments/comment-api";
+import { type Comment, MAX_COMMENT_CHARACTERS, type Mention, type Pin, type Thread } from "../../../wire/generated";
+import { CHANGED_WITHIN, pictureAddress } from "../../comments/comment-api";
 import type { Conversation } from "../../comments/conversation";
 import { isSameName, mentionedIn, piecesOf } from "../../comments/mentions";
 import type { Studio } from "../../studio";
@@ -96,6 +96,7 @@ interface CommentViewProps extends ThreadViewProps {
 
 function CommentView({ studio, conversation, thread, comment }: CommentViewProps) {
   const [asks, setAsks] = useState(false);
+  const [edits, setEdits] = useState(false);
   const { author, text, written_at, edited_at, bookmark, mentions } = comment;
   const tree = conversation.tree.value;
   const now = studio.time.timeline.value;
@@ -106,6 +107,8 @@ function CommentView({ studio, conversation, thread, comment }: CommentViewProps
   const named = mentionedIn(text, names);
   const others = names.filter((name) => !named.includes(name));
   const mayDelete = studio.rights.mayComment && (comment.own || studio.rights.mayGovern);
+  const mayEdit =
+    studio.rights.mayComment && comment.own && Date.now() - new Date(written_at).valueOf() < CHANGED_WITHIN;
   return (
     <li data-own={comment.own}>
       <p class="comment-head">
@@ -120,9 +123,21 @@ function CommentView({ studio, conversation, thread, comment }: CommentViewProps
           {say("comments.for")} {others.join(", ")}
         </p>
       )}
-      <p class="comment-text">
-        <Words text={text} mentions={mentions} />
-      </p>
+      {edits ? (
+        <EditWords
+          text={text}
+          onSave={async (words) => {
+            if (words === text || (await conversation.edit(thread, comment.comment, words))) {
+              setEdits(false);
+            }
+          }}
+          onKeep={() => setEdits(false)}
+        />
+      ) : (
+        <p class="comment-text">
+          <Words text={text} mentions={mentions} />
+        </p>
+      )}
       {comment.picture && tree !== null && (
         <img
           src={pictureAddress(tree, thread.thread, comment.comment)}
@@ -136,6 +151,16 @@ function CommentView({ studio, conversation, thread, comment }: CommentViewProps
             {say("comments.go")}
           </button>
         )}
+        {isOtherStep && bookmark.step <= now.last_step && (
+          <button
+            type="button"
+            class="small"
+            title={say("comments.look.title")}
+            onClick={() => conversation.lookBack(thread, bookmark)}
+          >
+            {say("comments.look", { step: bookmark.step })}
+          </button>
+        )}
         {isOtherStep && studio.rights.mayChange.value && bookmark.step <= now.last_step && (
           <button
             type="button"
@@ -146,6 +171,11 @@ function CommentView({ studio, conversation, thread, comment }: CommentViewProps
             }}
           >
             {say("comments.go.step", { step: bookmark.step })}
+          </button>
+        )}
+        {mayEdit && !edits && (
+          <button type="button" class="small" onClick={() => setEdits(true)}>
+            {say("comments.edit")}
           </button>
         )}
         {mayDelete && !asks && (
@@ -163,5 +193,45 @@ function CommentView({ studio, conversation, thread, comment }: CommentViewProps
         />
       )}
     </li>
+  );
+}
+
+interface EditWordsProps {
+  readonly text: string;
+  readonly onSave: (text: string) => Promise<void>;
+  readonly onKeep: () => void;
+}
+
+/** One's own words, to be changed. */
+function EditWords({ text, onSave, onKeep }: EditWordsProps) {
+  const [words, setWords] = useState(text);
+  const [saving, setSaving] = useState(false);
+  return (
+    <form
+      class="stack comment-compose"
+      onSubmit={(event) => {
+        event.preventDefault();
+        setSaving(true);
+        void onSave(words.trim()).finally(() => setSaving(false));
+      }}
+    >
+      <label class="field">
+        <span>{say("comments.text")}</span>
+        <textarea
+          rows={3}
+          maxLength={MAX_COMMENT_CHARACTERS}
+          value={words}
+          onInput={({ currentTarget }) => setWords(currentTarget.value)}
+        />
+      </label>
+      <div class="actions">
+        <button type="button" class="small" onClick={onKeep}>
+          {say("comments.cancel")}
+        </button>
+        <button type="submit" class="primary" disabled={saving || words.trim() === ""}>
+          {say("comments.edit.save")}
+        </button>
+      </div>
+    </form>
   );
 }

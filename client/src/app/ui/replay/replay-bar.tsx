@@ -26,11 +26,16 @@ export function ReplayBar({ studio }: { studio: Studio }) {
   // Once the tree as it stands is there, it is played without being asked for.
   const isThere = timeline !== null && studio.rows.value > 0;
   useEffect(() => {
-    if (isThere && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
+    const look = studio.comments.lookBack;
+    if (isThere && look) {
+      studio.time.to(look.step);
+      look.show();
+    } else if (isThere && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
       player.play();
     }
     return () => player.pause();
-  }, [player, isThere]);
+  }, [studio, player, isThere]);
+  useEffect(() => () => comeBack(studio), [studio]);
   useKeys(player);
   const playing = player.playing.value;
   const speed = numberText(player.speed.value, player.speed.value < 1 ? 0.1 : 1);
@@ -87,6 +92,15 @@ export function ReplayBar({ studio }: { studio: Studio }) {
       </section>
     </>
   );
+}
+
+/** Who looked at a step for the sake of a comment sees that comment again. */
+function comeBack({ comments, link }: Studio): void {
+  const look = comments.lookBack;
+  comments.lookBack = null;
+  if (look !== null && look.session === link.session.peek()) {
+    comments.open.value = look.thread;
+  }
 }
 
 /** What is done at the step that is seen, and who did it. */

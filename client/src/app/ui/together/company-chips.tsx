@@ -1,3 +1,4 @@
+import { may } from "../../access/rights";
 import type { Studio } from "../../studio";
 import { type Companion, companions } from "../../together/people";
 import { language, say } from "../../words/say";
@@ -14,7 +15,9 @@ export function CompanyChips({ studio }: { studio: Studio }) {
   }
   const followed = all.find(({ device }) => device.device === together.followed.value);
   const people = [...new Map(all.map((one) => [one.person.person, one])).values()];
-  const names = new Intl.ListFormat(language.value).format(people.map(({ name }) => name));
+  const names = new Intl.ListFormat(language.value).format(
+    people.map(({ name, person }) => `${name} (${say(`together.role.${person.role}`)})`),
+  );
   return (
     <>
       <button
@@ -46,9 +49,16 @@ export function CompanyChips({ studio }: { studio: Studio }) {
 
 /** Somebody by the first letter of their name, in their colour. */
 function Badge({ one: { person, name, colour } }: { one: Companion }) {
+  // Who may draw has a full badge, who may only look or comment a hollow one.
+  const mayDraw = may(person.role, "EditSession");
   const isHere = person.devices.some(({ state }) => state === "here");
   return (
-    <span class="person-badge" style={{ "--person": colour }} data-state={isHere ? "here" : "away"}>
+    <span
+      class="person-badge"
+      style={{ "--person": colour }}
+      data-state={isHere ? "here" : "away"}
+      data-draws={mayDraw}
+    >
       {[...name][0]?.toUpperCase()}
     </span>
   );
