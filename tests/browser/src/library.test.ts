@@ -1,3 +1,4 @@
+import { text } from "node:stream/consumers";
 import { expect, test } from "vitest";
 import { PHONE, SMALL } from "./screens";
 import { until } from "./server";
@@ -256,4 +257,22 @@ test("all that can be done with chosen trees is in sight at the foot of a phone"
   const before = await copies();
   await bar.getByRole("button", { name: "Duplicate" }).tap();
   await expect.poll(copies).toBe(before + 1);
+});
+
+test("a tree of the library is downloaded from its menu, and the one on the page stays", async () => {
+  const { tablet, address, metamers } = await grown(PHONE);
+  await saveAs(tablet, "Larch");
+  await grow(tablet, address);
+  await open(tablet, "Library");
+  await choose(tablet, "Larch", "Download…");
+  const card = tablet.page.getByRole("dialog", { name: "Download this tree" });
+  await card.getByRole("radio", { name: "Skeleton (JSON)" }).check();
+  await tablet.show("library-download");
+  const saved = tablet.page.waitForEvent("download");
+  await tablet.press(card.getByRole("button", { name: "Download file" }));
+  const file = await saved;
+  expect(file.suggestedFilename()).toMatch(/^Larch\..*json$/);
+  const { metamers: rows } = JSON.parse(await text(await file.createReadStream()));
+  expect(rows.filter((row: { parent: number | null }) => row.parent !== null).length, "as it was saved").toBe(metamers);
+  expect(tablet.page.url()).toBe(address);
 });

@@ -30,13 +30,21 @@ export class Exports {
     this.#options = options;
   }
 
-  /** The tree as a file that the server writes, named by its ending. */
-  async file(ending: string, name: string, options: ReadonlyMap<string, string> = new Map()): Promise<void> {
+  /** The tree on the page, or another one of the library, as a file that the server writes, named by its ending. */
+  async file(
+    ending: string,
+    name: string,
+    options: ReadonlyMap<string, string> = new Map(),
+    saved: { readonly id: string; readonly version: number } | null = null,
+  ): Promise<void> {
     const session = this.#options.session();
-    if (session !== null) {
+    const place = saved
+      ? `trees/${encodeURIComponent(saved.id)}/versions/${saved.version}`
+      : session !== null && `sessions/${encodeURIComponent(session)}`;
+    if (place) {
       await this.#give(this.transfer, name, ending, () =>
         this.transfer.run(async (stop, tell) =>
-          (await import("./served-file")).servedFile(session, ending, options, stop, tell),
+          (await import("./served-file")).servedFile(`/api/v1/${place}`, ending, options, stop, tell),
         ),
       );
     }

@@ -40,7 +40,9 @@ afterEach(() => {
 async function told(length: string | null): Promise<Progress[]> {
   const finish = server(length);
   const all: Progress[] = [];
-  const file = servedFile("a", "usda", new Map(), new AbortController().signal, (progress) => all.push(progress));
+  const file = servedFile("/api/v1/sessions/a", "usda", new Map(), new AbortController().signal, (progress) =>
+    all.push(progress),
+  );
   await vi.advanceTimersByTimeAsync(1100);
   finish();
   expect((await file).size).toBe(2000);

@@ -7,15 +7,14 @@ import type { Progress } from "../requests/transfer";
 /** How often the server is asked how far a file is. */
 const EVERY = 500;
 
-/** The file with an ending that the server makes of the tree in a session. */
+/** The file with an ending that the server makes of the tree at a place of its API: a session, or a version of a tree. */
 export async function servedFile(
-  session: string,
+  place: string,
   ending: string,
   options: ReadonlyMap<string, string>,
   stop: AbortSignal,
   tell: (progress: Progress) => void,
 ): Promise<Blob> {
-  const place = `/api/v1/sessions/${encodeURIComponent(session)}`;
   const ticket = newClientKey();
   let isMaking = true;
   const watch = setInterval(

@@ -45,6 +45,8 @@ export class Layout {
   readonly subject = signal<SavedTree | null>(null);
   /** The tree of the library that is shared; null for the one on the page. */
   readonly shared = signal<SavedTree | null>(null);
+  /** The tree of the library that is downloaded; null for the one on the page. */
+  readonly taken = signal<SavedTree | null>(null);
   /** What the trees that are ordered are to be like; null where what was ordered is only looked at. */
   readonly pattern = signal<Pattern | null>(null);
   readonly panel = signal<PanelName | null>(null);

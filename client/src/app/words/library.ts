@@ -39,6 +39,7 @@ export const LIBRARY = {
   "library.note": ["Edit note", "Notiz bearbeiten"],
   "library.note-of": ["Note on {name}", "Notiz zu {name}"],
   "library.versions": ["Versions ({count})", "Versionen ({count})"],
+  "library.download": ["Download…", "Herunterladen…"],
   "library.duplicate": ["Duplicate", "Duplizieren"],
   "library.copy-of": ["{name} (copy)", "{name} (Kopie)"],
   "library.mark": ["Make it a template", "Zur Vorlage machen"],

@@ -1,5 +1,5 @@
-import { useMemo, useState } from "preact/hooks";
-import { DEFAULT_APPEARANCE, DEFAULT_PARAMETERS, MAX_NAME_CHARACTERS } from "../../../wire/generated";
+import { useEffect, useMemo, useState } from "preact/hooks";
+import { DEFAULT_APPEARANCE, DEFAULT_PARAMETERS, MAX_NAME_CHARACTERS, type SavedTree } from "../../../wire/generated";
 import { cameraOptions } from "../../library/export-camera";
 import { type ExportChoice, optionsOf } from "../../library/export-choice";
 import { amountOf, bytesExpected } from "../../library/export-size";
@@ -9,13 +9,107 @@ import { say } from "../../words/say";
 import { Segments } from "../controls/segments";
 import { isWorthShowing } from "../timeline/has-timeline";
 import { ExportOptions, useFormats } from "./export-options";
+import { BackBar } from "./library/back-bar";
 import { usualName } from "./name-field";
 
 /** Pixels along the longer side of a picture for a large screen. */
 const LARGE = 3840;
 
-/** Names and gives the tree as a file: a picture of the view, or what the server writes. */
+/** Names and gives the tree on the page, or one of the library, as a file. */
 export function DownloadSheet({ studio }: { studio: Studio }) {
+  const { taken } = studio.layout;
+  const tree = taken.value;
+  useEffect(
+    () => () => {
+      taken.value = null;
+    },
+    [taken],
+  );
+  return tree === null ? <OnPage studio={studio} /> : <OfLibrary studio={studio} tree={tree} />;
+}
+
+/** A tree of the library, without opening it: what the server writes. */
+function OfLibrary({ studio, tree }: { studio: Studio; tree: SavedTree }) {
+  const [name, setName] = useState(tree.name);
+  const [formats, askAgain] = useFormats();
+  const choice = studio.settings.exportChoice.value;
+  const choose = (part: Partial<ExportChoice>) => {
+    studio.settings.exportChoice.value = { ...choice, ...part };
+  };
+  const format = formats?.find(({ ending }) => ending === choice.format) ?? formats?.[0];
+  const download = (event: Event) => {
+    event.preventDefault();
+    if (format) {
+      // How far it is stands beside the tree, where it can be given up.
+      studio.layout.sheet.value = null;
+      void studio.exports.file(format.ending, name, optionsOf(choice, format), tree);
+    }
+  };
+  return (
+    <form class="stack" onSubmit={download}>
+      <BackBar studio={studio} title={tree.name} />
+      <Named name={name} onName={setName} />
+      {formats && format && (
+        <>
+          <Segments
+            legend={say("sheets.download.format")}
+            name="format"
+            values={formats.map(({ ending }) => ending)}
+            chosen={format.ending}
+            text={(ending) => say(formats.find((format) => format.ending === ending)?.label ?? "exports.picture")}
+            onChoose={(format) => choose({ format })}
+          />
+          <p class="quiet">{say(format.text)}</p>
+          <ExportOptions format={format} choice={choice} choose={choose} />
+        </>
+      )}
+      {formats === null && <Lost askAgain={askAgain} />}
+      <div class="actions">
+        <button type="submit" class="primary" disabled={format === undefined}>
+          {say("sheets.download.act")}
+        </button>
+      </div>
+    </form>
+  );
+}
+
+interface NamedProps {
+  readonly name: string;
+  readonly onName: (name: string) => void;
+}
+
+/** What the file is called. */
+function Named({ name, onName }: NamedProps) {
+  return (
+    <label class="field">
+      <span>{say("sheets.save.name")}</span>
+      <input
+        type="text"
+        value={name}
+        maxLength={MAX_NAME_CHARACTERS}
+        autocomplete="off"
+        enterkeyhint="done"
+        onFocus={(event) => event.currentTarget.select()}
+        onInput={(event) => onName(event.currentTarget.value)}
+      />
+    </label>
+  );
+}
+
+/** The server does not say what it writes. */
+function Lost({ askAgain }: { readonly askAgain: () => void }) {
+  return (
+    <p class="quiet">
+      {say("exports.lost")}{" "}
+      <button type="button" onClick={askAgain}>
+        {say("exports.again")}
+      </button>
+    </p>
+  );
+}
+
+/** The tree on the page: a picture of the view, or what the server writes. */
+function OnPage({ studio }: { studio: Studio }) {
   // What the tree is called may be known later than the sheet is opened; what somebody has typed stays.
   const [typed, setName] = useState<string | null>(null);
   const [usual] = useState(() => usualName(studio));
@@ -51,18 +145,7 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
 
   return (
     <form class="stack" onSubmit={download}>
-      <label class="field">
-        <span>{say("sheets.save.name")}</span>
-        <input
-          type="text"
-          value={name}
-          maxLength={MAX_NAME_CHARACTERS}
-          autocomplete="off"
-          enterkeyhint="done"
-          onFocus={(event) => event.currentTarget.select()}
-          onInput={(event) => setName(event.currentTarget.value)}
-        />
-      </label>
+      <Named name={name} onName={setName} />
       <Segments
         legend={say("sheets.download.format")}
         name="format"
@@ -72,14 +155,7 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
         onChoose={(format) => choose({ format })}
       />
       <p class="quiet">{say(format?.text ?? "exports.picture.text")}</p>
-      {formats === null && (
-        <p class="quiet">
-          {say("exports.lost")}{" "}
-          <button type="button" onClick={askAgain}>
-            {say("exports.again")}
-          </button>
-        </p>
-      )}
+      {formats === null && <Lost askAgain={askAgain} />}
       {format ? (
         <ExportOptions format={format} choice={choice} choose={choose} sees={screen !== null} />
       ) : (

@@ -76,6 +76,13 @@ export function TreeCard({ desk, tree }: TreeCardProps) {
       label: say(isTemplate ? "library.unmark" : "library.mark"),
       act: () => void section.mark([tree], !isTemplate),
     }),
+    {
+      label: say("library.download"),
+      act: () => {
+        studio.layout.taken.value = tree;
+        studio.layout.sheet.value = "download";
+      },
+    },
     ...only(rights.mayOrder, {
       label: say("library.variations"),
       act: () => {
