@@ -25,9 +25,10 @@ pub const HEADER_BYTES: usize = 8;
 /// The most bytes a body may unpack to (`FR2`).
 pub const MAX_BODY_BYTES: usize = 64 * 1024 * 1024;
 
-const VERSION: u8 = 2;
+const VERSION: u8 = 3;
 const CODEC_RAW: u8 = 0;
 const CODEC_DEFLATE: u8 = 1;
+const CODEC_PACKED: u8 = 2;
 /// The flag of a frame made for one client from the current state.
 pub(crate) const FLAG_CATCH_UP: u8 = 1;
 /// Bodies shorter than this travel raw: the compressor's overhead would eat the gain.
@@ -113,13 +114,13 @@ pub enum FrameError {
     #[error("the frame is cut short")]
     Truncated,
     /// Another version of the format.
-    #[error("frame version {0} is not 2")]
+    #[error("frame version {0} is not 3")]
     Version(u8),
     /// Another kind of frame than was asked for.
     #[error("frame kind {0} is not the one expected")]
     Kind(u8),
-    /// A codec other than raw or deflate.
-    #[error("codec {0} is neither 0, raw, nor 1, deflate")]
+    /// A codec that there is not, or not for frames of this kind.
+    #[error("codec {0} is neither 0, raw, nor 1, deflate, nor 2 in a mesh delta")]
     Codec(u8),
     /// A flag that has no meaning yet.
     #[error("reserved flags {0:#04x} are set")]
@@ -147,17 +148,51 @@ pub(crate) fn seal(kind: FrameKind, header: Header, body: &[u8]) -> Vec<u8> {
         Some(packed) if packed.len() < body.len() => (CODEC_DEFLATE, packed.as_slice()),
         _ => (CODEC_RAW, body),
     };
-    let mut out = Vec::with_capacity(HEADER_BYTES + 10 + payload.len());
-    out.extend_from_slice(&[VERSION, kind.code(), codec, header.flags]);
-    out.extend_from_slice(&header.epoch.to_le_bytes());
-    varint::write(&mut out, header.sequence);
+    let mut out = Vec::with_capacity(raw_length(header, payload.len()));
+    begin(kind, codec, header, &mut out);
     varint::write(&mut out, body.len() as u32);
     out.extend_from_slice(payload);
     out
 }
 
-/// The header and the unpacked body of a frame of this kind.
-pub(crate) fn open(bytes: &[u8], wanted: FrameKind) -> Result<(Header, Cow<'_, [u8]>), FrameError> {
+/// A frame whose body is packed by models.
+pub(crate) fn seal_packed(kind: FrameKind, header: Header, packed: &[u8]) -> Vec<u8> {
+    let mut out = Vec::with_capacity(raw_length(header, packed.len()));
+    begin(kind, CODEC_PACKED, header, &mut out);
+    varint::write(&mut out, packed.len() as u32);
+    out.extend_from_slice(packed);
+    out
+}
+
+fn begin(kind: FrameKind, codec: u8, header: Header, out: &mut Vec<u8>) {
+    out.extend_from_slice(&[VERSION, kind.code(), codec, header.flags]);
+    out.extend_from_slice(&header.epoch.to_le_bytes());
+    varint::write(out, header.sequence);
+}
+
+fn raw_length(header: Header, body: usize) -> usize {
+    HEADER_BYTES + varint::length(header.sequence) + varint::length(body as u32) + body
+}
+
+/// The body of a frame, as far as the envelope opens it.
+#[derive(Debug)]
+pub(crate) enum Body<'a> {
+    /// Numbers and bytes.
+    Plain(Cow<'a, [u8]>),
+    /// Packed by models; in mesh deltas alone.
+    Packed(&'a [u8]),
+}
+
+/// The header and the unpacked body of a frame that is not packed by models.
+pub(crate) fn open_plain(bytes: &[u8], wanted: FrameKind) -> Result<(Header, Cow<'_, [u8]>), FrameError> {
+    match open(bytes, wanted)? {
+        (header, Body::Plain(body)) => Ok((header, body)),
+        (_, Body::Packed(_)) => Err(FrameError::Codec(CODEC_PACKED)),
+    }
+}
+
+/// The header and the body of a frame of this kind.
+pub(crate) fn open(bytes: &[u8], wanted: FrameKind) -> Result<(Header, Body<'_>), FrameError> {
     let (header, mut payload) = bytes.split_at_checked(HEADER_BYTES).ok_or(FrameError::Truncated)?;
     let &[version, kind, codec, flags, a, b, c, d] = header else { return Err(FrameError::Truncated) };
     if version != VERSION {
@@ -170,7 +205,12 @@ pub(crate) fn open(bytes: &[u8], wanted: FrameKind) -> Result<(Header, Cow<'_, [
         return Err(FrameError::Flags(flags));
     }
     let sequence = varint::read(&mut payload).ok_or(FrameError::Truncated)?;
+    let header = Header { flags, epoch: u32::from_le_bytes([a, b, c, d]), sequence };
     let length = varint::read(&mut payload).ok_or(FrameError::Truncated)? as usize;
+    if codec == CODEC_PACKED {
+        let is_whole = payload.len() == length;
+        return if is_whole { Ok((header, Body::Packed(payload))) } else { Err(FrameError::Length) };
+    }
     if length > MAX_BODY_BYTES {
         return Err(FrameError::Length);
     }
@@ -182,7 +222,7 @@ pub(crate) fn open(bytes: &[u8], wanted: FrameKind) -> Result<(Header, Cow<'_, [
     if body.len() != length {
         return Err(FrameError::Length);
     }
-    Ok((Header { flags, epoch: u32::from_le_bytes([a, b, c, d]), sequence }, body))
+    Ok((header, Body::Plain(body)))
 }
 
 /// A long body is deflated in halves, side by side: the first ends at a whole byte, the second does not look back.
@@ -272,7 +312,7 @@ mod tests {
             let header = Header { flags: 0, epoch: 1, sequence: 2 };
             let sealed = seal(FrameKind::MeshDelta, header, &body);
             assert_eq!(sealed[2], CODEC_DEFLATE);
-            let (_, opened) = open(&sealed, FrameKind::MeshDelta).expect("it was sealed");
+            let (_, opened) = open_plain(&sealed, FrameKind::MeshDelta).expect("it was sealed");
             assert!(*opened == body, "{length} bytes, {bits} bits");
         }
     }

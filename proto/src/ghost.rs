@@ -2,7 +2,10 @@
 
 use crate::{
     envelope::{self, FrameError, FrameKind, Header},
-    frame::{ChunkChange, read_changes, write_changes},
+    frame::{
+        ChunkChange,
+        layout::{read_changes, write_changes},
+    },
 };
 
 /// What one client asked for with `predict`; without changes there is no ghost any more.
@@ -20,12 +23,14 @@ impl GhostFrame {
     /// The frame as bytes.
     pub fn encode(&self) -> Vec<u8> {
         let header = Header { flags: 0, epoch: self.epoch, sequence: self.sequence };
-        envelope::seal(FrameKind::Ghost, header, &write_changes(&self.changes, self.sequence))
+        let mut body = Vec::new();
+        write_changes(&self.changes, self.sequence, &mut body);
+        envelope::seal(FrameKind::Ghost, header, &body)
     }
 
     /// Reads a frame; any bytes at all give a frame or an error.
     pub fn decode(bytes: &[u8]) -> Result<Self, FrameError> {
-        let (Header { epoch, sequence, .. }, body) = envelope::open(bytes, FrameKind::Ghost)?;
-        Ok(Self { epoch, sequence, changes: read_changes(&body, sequence)? })
+        let (Header { epoch, sequence, .. }, body) = envelope::open_plain(bytes, FrameKind::Ghost)?;
+        Ok(Self { epoch, sequence, changes: read_changes(&mut &*body, sequence)? })
     }
 }

@@ -21,6 +21,7 @@ pub mod http_problem;
 pub mod library;
 pub mod mesh;
 pub mod obstacle;
+pub mod packing;
 pub mod permission;
 pub mod place;
 pub mod presence;

@@ -84,7 +84,7 @@ impl PresenceFrame {
 
     /// Reads a frame; any bytes at all give a frame of finite numbers or an error.
     pub fn decode(bytes: &[u8]) -> Result<Self, FrameError> {
-        let (Header { epoch, sequence, .. }, body) = envelope::open(bytes, FrameKind::Presence)?;
+        let (Header { epoch, sequence, .. }, body) = envelope::open_plain(bytes, FrameKind::Presence)?;
         let mut body = &*body;
         let count = read_varint(&mut body)?;
         let devices = (0..count).map(|_| DeviceNews::read(&mut body)).collect::<Result<_, _>>()?;

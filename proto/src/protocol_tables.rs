@@ -1,4 +1,4 @@
-//! The tables of `PROTOCOL.md` that are written from the tables of settings.
+//! The tables of `PROTOCOL.md` that are written from those of this crate and of the settings.
 
 use std::fmt::Write;
 
@@ -6,7 +6,10 @@ use espalier_settings::{Appearance, Kind, ParameterValues, Setting};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::reason::Reason;
+use crate::{
+    packing::{Field, LEVELS, Shape},
+    reason::Reason,
+};
 
 /// A table has no place in the document.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -17,7 +20,8 @@ const END: &str = "<!-- end of the table -->";
 
 /// The document with every table between its markers written anew.
 pub fn with_tables(document: &str) -> Result<String, MissingMarker> {
-    let document = with_table(document, "parameters", &parameters())?;
+    let document = with_table(document, "fields", &fields())?;
+    let document = with_table(&document, "parameters", &parameters())?;
     let document = with_table(&document, "looks", &looks())?;
     with_table(&document, "reasons", &reasons())
 }
@@ -27,6 +31,19 @@ fn with_table(document: &str, name: &str, table: &str) -> Result<String, Missing
     let parts = document.split_once(&begin).and_then(|(before, rest)| Some((before, rest.split_once(END)?)));
     let (before, (_, after)) = parts.ok_or_else(|| MissingMarker(begin.clone()))?;
     Ok(format!("{before}{begin}\n\n{table}\n{END}{after}"))
+}
+
+fn fields() -> String {
+    let rows = Field::ALL.iter().enumerate().map(|(number, field)| {
+        let shape = match field.shape() {
+            Shape::Number => "number",
+            Shape::Byte => "byte",
+        };
+        format!("| {number} | {} | {shape} |\n", field.name())
+    });
+    let levels: Vec<_> = LEVELS.iter().map(u16::to_string).collect();
+    let rows: String = rows.collect();
+    format!("Levels: {}.\n\n| line | field | told as |\n|---|---|---|\n{rows}", levels.join(", "))
 }
 
 fn parameters() -> String {
@@ -104,7 +121,7 @@ mod tests {
         let marked =
             |name: &str| format!("<!-- table of {name}, written by generate-types -->\nformer rows\n{END}");
         let document = format!("before\n{}\nbetween\n{}\nafter", marked("parameters"), marked("looks"));
-        let document = format!("{document}\n{}", marked("reasons"));
+        let document = format!("{document}\n{}\n{}", marked("reasons"), marked("fields"));
         let written = with_tables(&document).expect("all have a place");
         assert!(written.starts_with("before\n<!--") && written.contains("-->\nafter\n<!--"));
         assert!(!written.contains("former rows") && written.contains("\nbetween\n"));
@@ -113,12 +130,13 @@ mod tests {
             written.contains("| `background.backdrop` | 226, 222, 214 | three whole numbers, 0 to 255 |")
         );
         assert!(written.contains("| `nothing-to-undo` | `refused` | There is nothing to undo. |"));
+        assert!(written.contains("| 0 | change, the first | number |"));
         assert_eq!(with_tables(&written), Ok(written.clone()));
     }
 
     #[test]
     fn a_missing_marker_is_named() {
         let error = with_tables("nothing").expect_err("no marker");
-        assert!(error.to_string().contains("table of parameters"), "{error}");
+        assert!(error.to_string().contains("table of fields"), "{error}");
     }
 }

@@ -9,6 +9,11 @@ pub fn write(out: &mut Vec<u8>, mut value: u32) {
     out.push(value as u8);
 }
 
+/// How many bytes [`write`] appends.
+pub fn length(value: u32) -> usize {
+    (value | 1).ilog2() as usize / 7 + 1
+}
+
 /// Reads one value and advances `bytes`; `None` if it is cut short or larger than 32 bits.
 pub fn read(bytes: &mut &[u8]) -> Option<u32> {
     let mut value = 0u32;

@@ -117,8 +117,21 @@ fn headed(body: &[u8]) -> Vec<u8> {
     headed_as_long_as(body.len() as u32, body)
 }
 
+/// The same in front of what models have packed.
+fn packed(body: &[u8]) -> Vec<u8> {
+    packed_as(0, body)
+}
+
+fn packed_as(sequence: u32, body: &[u8]) -> Vec<u8> {
+    let mut bytes = vec![3, 1, 2, 0, 0, 0, 0, 0];
+    varint::write(&mut bytes, sequence);
+    varint::write(&mut bytes, body.len() as u32);
+    bytes.extend_from_slice(body);
+    bytes
+}
+
 fn headed_as_long_as(length: u32, body: &[u8]) -> Vec<u8> {
-    let mut bytes = vec![2, 1, 0, 0, 0, 0, 0, 0, 0];
+    let mut bytes = vec![3, 1, 0, 0, 0, 0, 0, 0, 0];
     varint::write(&mut bytes, length);
     bytes.extend_from_slice(body);
     bytes
@@ -135,13 +148,34 @@ proptest! {
     #[test]
     fn arbitrary_bytes_never_panic(bytes in vec(any::<u8>(), 0..600)) {
         // Few random bytes have a valid header; those that do not must say so.
-        if bytes.get(..4) != Some(&[1, 1, 0, 0]) && bytes.get(..4) != Some(&[1, 1, 0, 1]) {
-            prop_assert!(Frame::decode(&bytes).is_err() || bytes.get(2) == Some(&1));
+        if bytes.get(..2) != Some(&[3, 1]) {
+            prop_assert!(Frame::decode(&bytes).is_err());
         }
         let body = headed(&bytes);
         if let Ok(frame) = Frame::decode(&body) {
             prop_assert_eq!(Frame::decode(&frame.encode()), Ok(frame));
         }
+    }
+
+    #[test]
+    fn fr9_any_packed_bytes_are_a_frame_or_an_error(bytes in vec(any::<u8>(), 0..600)) {
+        if let Ok(frame) = Frame::decode(&packed(&bytes)) {
+            prop_assert_eq!(Frame::decode(&frame.encode()), Ok(frame));
+        }
+    }
+
+    #[test]
+    fn fr9_a_packed_body_ends_where_it_says(mut frame in frame(), more in 1u8..) {
+        frame.catch_up = false;
+        let bytes = frame.encode();
+        prop_assume!(bytes[2] == 2);
+        let mut rest = &bytes[HEADER_BYTES..];
+        prop_assert_eq!(varint::read(&mut rest), Some(frame.sequence));
+        varint::read(&mut rest);
+        let sequence = frame.sequence;
+        let longer = [rest, &[0, 0, 0, 0, more]].concat();
+        let longer = Frame::decode(&packed_as(sequence, &longer));
+        prop_assert_eq!(longer, Err(FrameError::Length));
     }
 
     #[test]
@@ -202,10 +236,10 @@ fn fr1_what_is_reserved_is_refused() {
         Frame::decode(&bytes)
     };
     assert!(Frame::decode(&valid).is_ok());
-    assert_eq!(with(0, 3), Err(FrameError::Version(3)));
+    assert_eq!(with(0, 2), Err(FrameError::Version(2)));
     assert_eq!(with(1, 0), Err(FrameError::Kind(0)));
     assert_eq!(with(1, 2), Err(FrameError::Kind(2)), "a bend frame is no mesh delta");
-    assert_eq!(with(2, 2), Err(FrameError::Codec(2)));
+    assert_eq!(with(2, 3), Err(FrameError::Codec(3)));
     assert_eq!(with(3, 3), Err(FrameError::Flags(3)));
     assert_eq!(Frame::decode(&headed(&[9, 0, 0])), Err(FrameError::Body));
     assert_eq!(Frame::decode(&headed(&[4, 0, 0, 7, 1, 0, 0])), Err(FrameError::Body));
@@ -231,6 +265,8 @@ fn fr1_flags_belong_to_mesh_deltas_alone() {
     assert!(GhostFrame::decode(&bytes).is_ok());
     bytes[3] = 1;
     assert_eq!(GhostFrame::decode(&bytes), Err(FrameError::Flags(1)));
+    bytes[2..4].copy_from_slice(&[2, 0]);
+    assert_eq!(GhostFrame::decode(&bytes), Err(FrameError::Codec(2)), "so does packing by models");
 }
 
 #[test]

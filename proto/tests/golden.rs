@@ -25,6 +25,11 @@ fn sapling() -> Rows {
 }
 
 fn raw() -> Frame {
+    Frame { catch_up: true, ..packed() }
+}
+
+/// The same where somebody draws, packed by models.
+fn packed() -> Frame {
     let rows = sapling();
     Frame {
         epoch: 7,
@@ -258,6 +263,12 @@ fn check_presence(name: &str, frame: &PresenceFrame) {
 fn a_short_body_travels_raw() {
     assert_eq!(raw().encode()[2], 0);
     check("raw", &raw());
+}
+
+#[test]
+fn fr9_a_short_change_is_packed_by_models() {
+    assert_eq!(packed().encode()[2], 2);
+    check("packed", &packed());
 }
 
 #[test]

@@ -1,7 +1,8 @@
 import { FrameError } from "./frame-error";
+import type { NumberSource } from "./numbers";
 
-/** Reads little-endian frames byte by byte; every read checks that the bytes are there. */
-export class ByteReader {
+/** Reads little-endian frames byte by byte, whatever they are about; every read checks that the bytes are there. */
+export class ByteReader implements NumberSource {
   private at = 0;
 
   constructor(private readonly bytes: Uint8Array) {}
@@ -36,6 +37,14 @@ export class ByteReader {
       scale *= 128;
     }
     throw new FrameError("A number in the frame has more than 32 bits.");
+  }
+
+  number(): number {
+    return this.varint();
+  }
+
+  change(): number | null {
+    return this.done ? null : this.byte();
   }
 
   /** The signed integer that zigzag mapped to an unsigned one (FR3). */

@@ -11,9 +11,13 @@ export interface OpenedFrame {
   readonly sequence: number;
   readonly flags: number;
   readonly body: Uint8Array;
+  /** Whether the body is still packed by models (FR9). */
+  readonly isPacked: boolean;
 }
 
-const VERSION = 2;
+const VERSION = 3;
+/** The codec of bodies that are packed by models: in mesh deltas alone. */
+const PACKED = 2;
 /** The only flag, and only mesh deltas have it. */
 const CATCH_UP = 1;
 
@@ -34,14 +38,18 @@ export async function openFrame(bytes: ArrayBuffer, wanted: Kind): Promise<Opene
     number,
     number,
   ];
-  if (version !== VERSION) throw new FrameError(`Frame version ${version} is not 2.`);
+  if (version !== VERSION) throw new FrameError(`Frame version ${version} is not ${VERSION}.`);
   if (kind !== wanted) throw new FrameError(`Frame kind ${kind} is not ${wanted}.`);
   const known = wanted === FrameKind.MeshDelta ? CATCH_UP : 0;
   if ((flags & ~known) !== 0) throw new FrameError(`Reserved flags 0x${flags.toString(16)} are set.`);
-  const [sequence, length] = [rest.varint(), rest.varint()];
+  const opened = { epoch: header.getUint32(4, true), sequence: rest.varint(), flags };
+  const payload = () => new Uint8Array(bytes, bytes.byteLength - rest.left);
+  const length = rest.varint();
+  if (codec === PACKED && wanted === FrameKind.MeshDelta) {
+    return { ...opened, body: await unpack(0, payload(), length), isPacked: true };
+  }
   if (length > MAX_BODY_BYTES) throw new FrameError("The body is larger than 64 MiB.");
-  const body = await unpack(codec, new Uint8Array(bytes, bytes.byteLength - rest.left), length);
-  return { epoch: header.getUint32(4, true), sequence, flags, body };
+  return { ...opened, body: await unpack(codec, payload(), length), isPacked: false };
 }
 
 async function unpack(codec: number, payload: Uint8Array<ArrayBuffer>, length: number): Promise<Uint8Array> {
@@ -50,5 +58,5 @@ async function unpack(codec: number, payload: Uint8Array<ArrayBuffer>, length: n
     return payload;
   }
   if (codec === 1) return inflateRaw(payload, length);
-  throw new FrameError(`Codec ${codec} is neither 0, raw, nor 1, deflate.`);
+  throw new FrameError(`Codec ${codec} is neither 0, raw, nor 1, deflate, nor 2 in a mesh delta.`);
 }

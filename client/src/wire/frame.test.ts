@@ -1,7 +1,9 @@
+import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import { randoms } from "../../test/randoms";
 import { decodeBend } from "./bend-frame";
 import { decodeFrame, FrameError } from "./frame";
+import { FrameKind } from "./generated";
 import { decodeServerFrame } from "./server-frame";
 
 function varint(value: number): number[] {
@@ -9,7 +11,7 @@ function varint(value: number): number[] {
 }
 
 function headed(body: number[], header: { codec?: number; flags?: number; length?: number } = {}): ArrayBuffer {
-  const start = [2, 1, header.codec ?? 0, header.flags ?? 0, 0, 0, 0, 0, 0];
+  const start = [3, 1, header.codec ?? 0, header.flags ?? 0, 0, 0, 0, 0, 0];
   return new Uint8Array([...start, ...varint(header.length ?? body.length), ...body]).buffer;
 }
 
@@ -51,9 +53,10 @@ describe("a frame", () => {
       bytes[at] = value;
       return bytes.buffer;
     };
-    await refused(with_(0, 3), /version 3 is not 2/);
+    await refused(with_(0, 2), /version 2 is not 3/);
     await refused(with_(1, 7), /kind 7/);
-    await refused(with_(2, 2), /Codec 2/);
+    await refused(with_(2, 3), /Codec 3/);
+    await refused(headed([1, 0], { codec: 2, length: 3 }), /length/);
     await refused(with_(3, 2), /flags 0x2/);
     await refused(headed([5, 0]), /Change 5 is unknown/);
     await refused(headed([4, 0, 0, 9, 1, 0, 0]), /Column 9/);
@@ -101,6 +104,20 @@ describe("a frame", () => {
     expect(frame.changes[0]).toMatchObject({ column: "born", values: Uint32Array.of(130, 130, 134) });
   });
 
+  it("FR9: ends where its last change says, if it is packed", async () => {
+    const golden = readFileSync(new URL("../../../proto/golden/packed.bin", import.meta.url));
+    const packed = new Uint8Array(golden);
+    expect(packed[2]).toBe(2);
+    expect((await decodeFrame(packed.buffer)).changes).toHaveLength(1);
+    // The header's length is one byte here.
+    const body = [...packed.slice(10)];
+    await refused(headed([...body, 0, 0, 0, 0, 1], { codec: 2 }), /follows the end/);
+    // Zeros without end mean something, but are not there.
+    await refused(headed([0xff], { codec: 2 }), /cut short|32 bits|unknown|count/);
+    packed[1] = FrameKind.Ghost;
+    await expect(decodeServerFrame(packed.buffer)).rejects.toThrow(/Codec 2/);
+  });
+
   it("is a frame or a FrameError, whatever the bytes", async () => {
     const random = randoms(20260);
     let frames = 0;
@@ -108,10 +125,10 @@ describe("a frame", () => {
       const body = Array.from({ length: Math.floor(random() * 40) }, () =>
         Math.floor(random() * (round % 2 ? 256 : 6)),
       );
-      const codec = random() < 0.1 ? 1 : 0;
+      const codec = random() < 0.1 ? 1 + Math.round(random()) : 0;
       try {
         await decodeFrame(headed(body, { codec, flags: Math.floor(random() * 2.1) }));
-        frames += 1;
+        if (codec === 0) frames += 1;
       } catch (error) {
         expect(error).toBeInstanceOf(FrameError);
       }

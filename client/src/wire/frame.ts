@@ -2,6 +2,9 @@ import { ByteReader } from "./bytes";
 import { openFrame } from "./envelope";
 import { FrameError } from "./frame-error";
 import { CHUNK_ROWS, FrameKind } from "./generated";
+import { Field } from "./generated-models";
+import type { FieldNumber, NumberSource } from "./numbers";
+import { Unpacker } from "./unpacker";
 
 export { FrameError } from "./frame-error";
 
@@ -50,153 +53,228 @@ const MOST_ORGANS = 15;
 /** The parent of a row that goes on where the row before it ends. */
 const NEXT = 2;
 
-/** Reads a mesh delta; any bytes at all give a frame or a `FrameError` (FR1–FR3). */
+/** Reads a mesh delta; any bytes at all give a frame or a `FrameError` (FR1–FR3, FR9). */
 export async function decodeFrame(bytes: ArrayBuffer): Promise<Frame> {
-  const { epoch, sequence, flags, body } = await openFrame(bytes, FrameKind.MeshDelta);
-  return { epoch, sequence, catchUp: (flags & CATCH_UP) !== 0, changes: readChanges(body, sequence) };
+  const { epoch, sequence, flags, body, isPacked } = await openFrame(bytes, FrameKind.MeshDelta);
+  const changes = isPacked ? unpackChanges(body, sequence) : readChanges(body, sequence);
+  return { epoch, sequence, catchUp: (flags & CATCH_UP) !== 0, changes };
 }
 
 /** A body that is a list of changes, of a frame with this sequence. */
 export function readChanges(body: Uint8Array, sequence: number): ChunkChange[] {
-  const reader = new ByteReader(body);
-  const changes: ChunkChange[] = [];
-  while (!reader.done) changes.push(readChange(reader, sequence));
+  return changesOf(new ByteReader(body), sequence);
+}
+
+function unpackChanges(body: Uint8Array, sequence: number): ChunkChange[] {
+  const unpacker = new Unpacker(body);
+  const changes = changesOf(unpacker, sequence);
+  unpacker.end();
   return changes;
 }
 
-function readChange(reader: ByteReader, sequence: number): ChunkChange {
-  const kind = reader.byte();
-  if (kind < 1 || kind > 4) throw new FrameError(`Change ${kind} is unknown.`);
-  const first = reader.varint();
-  if (kind === 1) return { change: "truncate", rows: first };
-  const chunk = first;
-  const generation = (sequence - reader.varint()) >>> 0;
-  if (kind === 2) return { change: "replace", chunk, generation, rows: readRows(reader) };
+/** What the kind of the next change depends on: the kind of the last. */
+const AFTER = [
+  Field.FirstChange,
+  Field.ChangeAfterTruncate,
+  Field.ChangeAfterReplace,
+  Field.ChangeAfterAppend,
+  Field.ChangeAfterPatch,
+] as const;
+
+function changesOf(source: NumberSource, sequence: number): ChunkChange[] {
+  const changes: ChunkChange[] = [];
+  let chunk: number | null = null;
+  let last = 0;
+  for (;;) {
+    const kind = source.change(AFTER[last]!);
+    if (kind === null) return changes;
+    if (kind < 1 || kind > 4) throw new FrameError(`Change ${kind} is unknown.`);
+    last = kind;
+    if (kind === 1) {
+      changes.push({ change: "truncate", rows: source.number(Field.Truncate) });
+      continue;
+    }
+    // Each as the difference to the one before it.
+    chunk = chunk === null ? source.number(Field.FirstChunk) : (chunk + zigzag(source, Field.Chunk)) >>> 0;
+    const generation = (sequence - source.number(Field.Age)) >>> 0;
+    changes.push(readChange(source, kind, chunk, generation));
+  }
+}
+
+function readChange(source: NumberSource, kind: number, chunk: number, generation: number): ChunkChange {
+  if (kind === 2) return { change: "replace", chunk, generation, rows: readRows(source) };
   if (kind === 3) {
-    const start = reader.varint();
-    const rows = readRows(reader);
+    const start = source.number(Field.Start);
+    const rows = readRows(source);
     if (start + rows.parent.length > CHUNK_ROWS) throw new FrameError("An append runs past the end of its chunk.");
     return { change: "append", chunk, generation, start, rows };
   }
-  const column = reader.byte();
-  const rows = readGaps(reader, readCount(reader));
-  return { change: "patch", chunk, generation, rows, ...readValues(reader, column, rows.length) };
+  const column = source.number(Field.Column);
+  const rows = readGaps(source, PATCHED[column] ?? OTHERS);
+  return { change: "patch", chunk, generation, rows, ...readValues(source, column, rows) };
 }
 
-function readCount(reader: ByteReader): number {
-  const count = reader.varint();
+/** Fields of the rows that a patch names: how many, and rows skipped before the first, behind none, behind some. */
+type Patched = readonly [count: FieldNumber, first: FieldNumber, afterNone: FieldNumber, other: FieldNumber];
+
+const OTHERS: Patched = [Field.OtherCount, Field.OtherGap, Field.OtherGap, Field.OtherGap];
+const PATCHED: readonly Patched[] = [
+  OTHERS,
+  OTHERS,
+  [Field.RadiusCount, Field.FirstRadiusGap, Field.RadiusGapAfterNone, Field.RadiusGap],
+  [Field.FoliageCount, Field.FirstFoliageGap, Field.FoliageGapAfterNone, Field.FoliageGap],
+  [Field.LightCount, Field.FirstLightGap, Field.LightGapAfterNone, Field.LightGap],
+];
+
+/** Fields of values that stand one after the other: of the first, of one right behind the row before, of any other. */
+type Fields = readonly [first: FieldNumber, beside: FieldNumber, other: FieldNumber];
+
+const RADII: Fields = [Field.FirstRadius, Field.Radius, Field.Radius];
+const FOLIAGE: Fields = [Field.FirstFoliage, Field.Foliage, Field.Foliage];
+const LIGHT: Fields = [Field.FirstLight, Field.Light, Field.Light];
+const BORN: Fields = [Field.FirstBorn, Field.Born, Field.Born];
+const NEW_RADII: Fields = [Field.FirstNewRadius, Field.NewRadiusBeside, Field.NewRadius];
+const NEW_FOLIAGE: Fields = [Field.FirstNewFoliage, Field.NewFoliageBeside, Field.NewFoliage];
+const NEW_LIGHT: Fields = [Field.FirstNewLight, Field.NewLightBeside, Field.NewLight];
+const NEW_NUMBERS: Fields = [Field.NewNumber, Field.NewNumber, Field.NewNumber];
+
+/** The field of the value at a place; of whole rows, each stands right behind the one before. */
+function fieldAt(fields: Fields, i: number, rows: Uint8Array | null): FieldNumber {
+  if (i === 0) return fields[0];
+  return rows !== null && rows[i]! - rows[i - 1]! > 1 ? fields[2] : fields[1];
+}
+
+/** The signed integer that zigzag mapped to an unsigned one (FR3). */
+function zigzag(source: NumberSource, field: FieldNumber): number {
+  const value = source.number(field);
+  return (value >>> 1) ^ -(value & 1);
+}
+
+function readCount(source: NumberSource, field: FieldNumber): number {
+  const count = source.number(field);
   if (count < 1 || count > CHUNK_ROWS) throw new FrameError(`A count of ${count} is not 1 to ${CHUNK_ROWS}.`);
   return count;
 }
 
-function readGaps(reader: ByteReader, count: number): Uint8Array {
-  const rows = new Uint8Array(count);
+function readGaps(source: NumberSource, [count, first, afterNone, other]: Patched): Uint8Array {
+  const rows = new Uint8Array(readCount(source, count));
   let next = 0;
-  for (let i = 0; i < count; i += 1) {
-    const row = next + reader.varint();
+  let field = first;
+  for (let i = 0; i < rows.length; i += 1) {
+    const skipped = source.number(field);
+    const row = next + skipped;
     if (row >= CHUNK_ROWS) throw new FrameError("A patch runs past the end of its chunk.");
     rows[i] = row;
+    field = skipped === 0 ? afterNone : other;
     next = row + 1;
   }
   return rows;
 }
 
-function readRows(reader: ByteReader): Rows {
-  const count = readCount(reader);
-  const parent = readVarints(reader, count);
+function readRows(source: NumberSource): Rows {
+  const count = readCount(source, Field.Count);
+  const parent = new Uint32Array(count);
+  for (let i = 0; i < count; i += 1) parent[i] = source.number(i === 0 ? Field.FirstParent : Field.Parent);
   return {
     parent,
-    position: likeBefore(parent, readPositions(reader, count)),
-    radius: readRadii(reader, count),
-    foliage: readBytes(reader, count),
-    light: readBytes(reader, count),
-    born: readBirths(reader, count),
+    position: readRowPositions(source, parent),
+    radius: readRadii(source, RADII, count, null),
+    foliage: readBytes(source, FOLIAGE, count, null),
+    light: readBytes(source, LIGHT, count, null),
+    born: readBirths(source, BORN, count),
   };
 }
 
-function readValues(reader: ByteReader, column: number, count: number): Values {
+function readValues(source: NumberSource, column: number, rows: Uint8Array): Values {
+  const count = rows.length;
   switch (column) {
     case 0:
-      return { column: "parent", values: readVarints(reader, count) };
+      return { column: "parent", values: Uint32Array.from(rows, () => source.number(Field.NewNumber)) };
     case 1:
-      return { column: "position", values: readPositions(reader, count) };
+      return { column: "position", values: readNewPositions(source, count) };
     case 2:
-      return { column: "radius", values: readRadii(reader, count) };
+      return { column: "radius", values: readRadii(source, NEW_RADII, count, rows) };
     case 3:
-      return { column: "foliage", values: readBytes(reader, count) };
+      return { column: "foliage", values: readBytes(source, NEW_FOLIAGE, count, rows) };
     case 4:
-      return { column: "light", values: readBytes(reader, count) };
+      return { column: "light", values: readBytes(source, NEW_LIGHT, count, rows) };
     case 5:
-      return { column: "born", values: readBirths(reader, count) };
+      return { column: "born", values: readBirths(source, NEW_NUMBERS, count) };
     case 6:
-      return { column: "organs", values: Array.from({ length: count }, () => readOrgans(reader)) };
+      return { column: "organs", values: Array.from(rows, () => readOrgans(source)) };
     default:
       throw new FrameError(`Column ${column} is unknown.`);
   }
 }
 
-function readOrgans(reader: ByteReader): Uint32Array | null {
-  const count = reader.byte() - 1;
+function readOrgans(source: NumberSource): Uint32Array | null {
+  const count = source.byte(Field.Organs) - 1;
   if (count < 0) return null;
+  if (count > MOST_ORGANS) throw new FrameError("Organs cannot be read.");
   const organs = new Uint32Array(count);
   for (let i = 0; i < count; i += 1) {
-    const [a, b, c, d] = reader.take(4) as unknown as [number, number, number, number];
-    organs[i] = (a | (b << 8) | (c << 16) | (d << 24)) >>> 0;
+    for (let place = 0; place < 32; place += 8) organs[i] = organs[i]! | (source.byte(Field.Organ) << place);
   }
-  if (count > MOST_ORGANS || organs.some((organ) => organ >>> 30 === 3)) throw new FrameError("Organs cannot be read.");
+  if (organs.some((organ) => organ >>> 30 === 3)) throw new FrameError("Organs cannot be read.");
   return organs;
 }
 
-function readVarints(reader: ByteReader, count: number): Uint32Array {
-  const values = new Uint32Array(count);
-  for (let i = 0; i < count; i += 1) values[i] = reader.varint();
-  return values;
-}
-
-/** A row that goes on where the row before it ends travels as the difference to how that one went. */
-function likeBefore(parent: Uint32Array, values: Int32Array): Int32Array {
-  for (let i = 1; i < parent.length; i += 1) {
-    if (parent[i] !== NEXT) continue;
-    for (let axis = 3 * i; axis < 3 * i + 3; axis += 1) values[axis] = values[axis]! + values[axis - 3]!;
-  }
-  return values;
-}
-
 /** Each travels as the difference to the one before it, modulo 256. */
-function readBytes(reader: ByteReader, count: number): Uint8Array {
-  const values = reader.take(count);
-  for (let i = 1; i < count; i += 1) values[i] = values[i]! + values[i - 1]!;
+function readBytes(source: NumberSource, fields: Fields, count: number, rows: Uint8Array | null): Uint8Array {
+  const values = new Uint8Array(count);
+  let byte = 0;
+  for (let i = 0; i < count; i += 1) {
+    byte = (byte + source.byte(fieldAt(fields, i, rows))) & 0xff;
+    values[i] = byte;
+  }
   return values;
 }
 
 /** Each travels as the difference to the one before it. */
-function readBirths(reader: ByteReader, count: number): Uint32Array {
+function readBirths(source: NumberSource, fields: Fields, count: number): Uint32Array {
   const values = new Uint32Array(count);
   let born = 0;
   for (let i = 0; i < count; i += 1) {
-    born = (born + reader.varint()) >>> 0;
+    born = (born + source.number(fieldAt(fields, i, null))) >>> 0;
     values[i] = born;
   }
   return values;
 }
 
 /** Each travels as the difference to the one before it. */
-function readRadii(reader: ByteReader, count: number): Uint16Array {
+function readRadii(source: NumberSource, fields: Fields, count: number, rows: Uint8Array | null): Uint16Array {
   const values = new Uint16Array(count);
   let code = 0;
   for (let i = 0; i < count; i += 1) {
-    code += reader.zigzag();
+    code += zigzag(source, fieldAt(fields, i, rows));
     if (code < 0 || code > 0xffff) throw new FrameError(`A radius code of ${code} has not 16 bits.`);
     values[i] = code;
   }
   return values;
 }
 
-/** All x, then all y, then all z on the wire; interleaved here. */
-function readPositions(reader: ByteReader, count: number): Int32Array {
+/**
+ * All x, then all y, then all z on the wire; interleaved here. A row that goes on where the row before it ends travels as
+ * the difference to how that one went.
+ */
+function readRowPositions(source: NumberSource, parent: Uint32Array): Int32Array {
+  const values = new Int32Array(3 * parent.length);
+  for (let axis = 0; axis < 3; axis += 1) {
+    for (let i = 0; i < parent.length; i += 1) {
+      const goesOn = i > 0 && parent[i] === NEXT;
+      const [up, aside] = goesOn ? [Field.OnUp, Field.OnAside] : [Field.Up, Field.Aside];
+      const before = goesOn ? values[3 * (i - 1) + axis]! : 0;
+      values[3 * i + axis] = before + zigzag(source, axis === 1 ? up : aside);
+    }
+  }
+  return values;
+}
+
+/** The same of a patch, where none is told by another. */
+function readNewPositions(source: NumberSource, count: number): Int32Array {
   const values = new Int32Array(3 * count);
   for (let axis = 0; axis < 3; axis += 1) {
-    for (let i = 0; i < count; i += 1) values[3 * i + axis] = reader.zigzag();
+    for (let i = 0; i < count; i += 1) values[3 * i + axis] = zigzag(source, Field.NewPosition);
   }
   return values;
 }

@@ -1,4 +1,4 @@
-//! Writes `client/src/wire/generated.ts`, `generated-tables.ts` beside it, the tables of `PROTOCOL.md` and
+//! Writes `client/src/wire/generated.ts`, `generated-tables.ts` and `generated-models.ts` beside it, the tables of `PROTOCOL.md` and
 //! `protocol.schema.json`; with `--check` only says whether they are current.
 
 use std::{fs, path::Path, process::ExitCode};
@@ -20,11 +20,12 @@ fn bring_up_to_date(home: &Path, is_check: bool) -> Result<(), String> {
     let wire = home.join("../client/src/wire");
     let types = (wire.join("generated.ts"), typescript::declarations());
     let settings = (wire.join("generated-tables.ts"), typescript::tables());
+    let models = (wire.join("generated-models.ts"), typescript::models());
     let document = home.join("PROTOCOL.md");
     let read = |path: &Path| fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()));
     let with_tables = protocol_tables::with_tables(&read(&document)?).map_err(|error| error.to_string())?;
     let schema = (home.join("protocol.schema.json"), schema::document());
-    for (path, wanted) in [types, settings, (document, with_tables), schema] {
+    for (path, wanted) in [types, settings, models, (document, with_tables), schema] {
         if read(&path).is_ok_and(|found| found == wanted) {
             continue;
         }

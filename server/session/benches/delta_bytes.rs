@@ -1,17 +1,22 @@
 //! What a session of 235 strokes sends to somebody who is in step with it: bytes of mesh deltas for each new metamer, by
 //! what they are about. A clock of its own runs with the strokes, so it prints the same on every machine.
+//!
+//! With `-- --learn` it draws other trees instead, and writes what is usual in their frames into
+//! `proto/priors.txt`, from which frames are packed (`FR9`).
 
-use std::fmt::Debug;
+use std::{fmt::Debug, path::Path};
 
+use espalier_growth::species::{self, Species};
 use espalier_plant::MetamerId;
 use espalier_proto::{
-    ChunkChange, ClientMessage, Frame, FrameKind,
+    Action, ChunkChange, ClientMessage, Frame, FrameKind,
     access::Role,
     frame::{Column, HEADER_BYTES},
+    packing::Tally,
     varint,
     version::PROTOCOL_VERSION,
 };
-use espalier_session::{ClientId, Entrant, Input, Output, Session, Work};
+use espalier_session::{ClientId, Entrant, Input, Output, Session, Work, script};
 use glam::Vec3;
 use serde_json::{Value, json};
 
@@ -30,8 +35,31 @@ const LENGTHS: [f32; 4] = [12.0, 8.0, 18.0, 10.0];
 /// How fast a hand is, in internodes a second.
 const SPEED: f32 = 20.0;
 
-fn main() {
-    let mut studio = Studio::open();
+/// The seed of the tree that is measured.
+const MEASURED: u32 = 7;
+/// Others, to learn from: so many of the species, each with a seed of its own.
+const LEARNED: usize = 8;
+
+fn main() -> std::io::Result<()> {
+    if !std::env::args().any(|argument| argument == "--learn") {
+        draw(None, MEASURED);
+        return Ok(());
+    }
+    let mut tally = Tally::default();
+    for (number, species) in species::all().iter().take(LEARNED).enumerate() {
+        tally.add(&draw(Some(species), MEASURED + 1 + number as u32).tally);
+    }
+    let priors = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../proto/priors.txt");
+    std::fs::write(priors, tally.priors())
+}
+
+fn draw(species: Option<&Species>, seed: u32) -> Sent {
+    let mut studio = Studio::open(seed);
+    // What a picker sets, without the growth to its age.
+    for action in species.map(script).iter().flatten().filter(|action| !matches!(action, Action::Grow { .. }))
+    {
+        studio.command(&json!(action));
+    }
     studio.command(&json!({ "kind": "grow", "steps": 6 }));
     studio.pass(2_000);
     let before = studio.sent.clone();
@@ -45,6 +73,7 @@ fn main() {
     }
     studio.pass(5_000);
     studio.sent.report(&before);
+    studio.sent
 }
 
 /// Bytes, by what they are about.
@@ -60,6 +89,7 @@ struct Sent {
     /// Of each column: values, and bytes before deflating with what says which rows they are of.
     patched: [(u64, u64); 6],
     other: u64,
+    tally: Tally,
 }
 
 impl Sent {
@@ -68,9 +98,10 @@ impl Sent {
         self.frames += 1;
         self.bytes += bytes.len() as u64;
         self.bodies += (bytes.len() - header_of(bytes)) as u64;
+        frame.count_into(&mut self.tally);
         for change in frame.changes {
             let alone = Frame { changes: vec![change.clone()], ..Frame { changes: Vec::new(), ..frame } };
-            let length = u64::from(unpacked(&alone.encode()));
+            let length = alone.body().len() as u64;
             match change {
                 ChunkChange::Append { rows, .. } => {
                     self.appended += length;
@@ -114,13 +145,6 @@ fn header_of(frame: &[u8]) -> usize {
     frame.len() - rest.len()
 }
 
-/// The length of a frame's body before it was deflated.
-fn unpacked(frame: &[u8]) -> u32 {
-    let mut rest = &frame[HEADER_BYTES..];
-    let [_sequence, length] = [(); 2].map(|()| varint::read(&mut rest).expect("a varint"));
-    length
-}
-
 /// A session in which one person draws.
 struct Studio {
     session: Session,
@@ -136,8 +160,8 @@ struct Studio {
 const HAND: ClientId = ClientId(1);
 
 impl Studio {
-    fn open() -> Self {
-        let session = Session::restore("bench", 1, None, 7, []).expect("a seedling");
+    fn open(seed: u32) -> Self {
+        let session = Session::restore("bench", 1, None, seed, []).expect("a seedling");
         let mut studio = Self {
             session,
             now: 0,

@@ -34,7 +34,7 @@ const SLICE_COMMANDS: u32 = 64;
 /// While somebody draws or something grows, older wood is shown anew no more often than this, in milliseconds (`FL5`).
 const LOOKS_MS: u64 = 500;
 /// Whoever has drawn draws on as long as no more time than this goes by, in milliseconds.
-pub(crate) const PAUSE_MS: u64 = 1000;
+pub(crate) const PAUSE_MS: u64 = 3000;
 
 /// What a slice of work is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

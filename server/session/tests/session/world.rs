@@ -425,8 +425,8 @@ impl World {
 
     /// A client's rows show the plants; all clients have the very same rows.
     pub fn assert_mirrored(&mut self, id: u64) {
-        // Where somebody has just drawn rows may be behind for a second (`FL5`).
-        self.pass(1_100);
+        // Where somebody has just drawn rows may be behind for three seconds (`FL5`).
+        self.pass(3_100);
         let stranger = self.join("stranger");
         self.settle();
         let Peer { mirror: complete, .. } = self.leave(stranger);
