@@ -16,10 +16,11 @@ def cloud(path):
     vertex = points.metadata["_ply_raw"]["vertex"]["data"]
     labels, metamers = numpy.unique(vertex["label"]), numpy.unique(vertex["metamer"])
     normals = numpy.stack([vertex[axis] for axis in ("nx", "ny", "nz")], axis=-1)
-    assert set(labels) <= {0, 1}, f"{path}: labels {labels}"
+    assert set(labels) <= {0, 1, 2, 3}, f"{path}: labels {labels}"
     assert numpy.allclose(numpy.linalg.norm(normals, axis=1), 1, atol=1e-3), f"{path}: a normal is no unit vector"
-    wood = int((vertex["label"] == 0).sum())
-    print(f"{path}: {len(vertex)} points, {wood} of wood, of {len(metamers)} metamers")
+    wood, *borne = [int((vertex["label"] == label).sum()) for label in range(4)]
+    parts = "".join(f", {count} of {what}" for count, what in zip(borne, ("leaves", "flowers", "fruits")) if count)
+    print(f"{path}: {len(vertex)} points, {wood} of wood{parts}, of {len(metamers)} metamers")
 
 
 def cylinders(path):

@@ -1,4 +1,4 @@
-//! A point cloud of wood and leaves, as a scanner without noise would see it, with what each point lies on.
+//! A point cloud of wood, leaves, flowers and fruits, as a scanner without noise would see it, with what each point lies on.
 
 use std::f64::consts::{PI, TAU};
 
@@ -16,7 +16,9 @@ use crate::{
 
 const WOOD: u8 = 0;
 const LEAF: u8 = 1;
-/// Parts of each side of a triangle of a leaf's card; whether the leaf is there is asked in the middle of each.
+const FLOWER: u8 = 2;
+const FRUIT: u8 = 3;
+/// Parts of each side of a triangle of a card; whether anything is there is asked in the middle of each.
 const PARTS: u16 = 4;
 
 /// How a plant is sampled.
@@ -28,7 +30,7 @@ pub struct Sampling {
     pub seed: u32,
 }
 
-/// So many points, spread evenly over the area of wood and leaves, in metres, Z up; see `docs/formats.md`. A plant
+/// So many points, spread evenly over the area of wood and all that it bears, in metres, Z up; see `docs/formats.md`. A plant
 /// without wood has none.
 ///
 /// # Errors
@@ -42,8 +44,9 @@ pub fn ply(
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
     let structure = Structure::of(plant, style, metres_per_internode)?;
-    let (foliage, painted) = (Foliage::of(plant, style, looks, 0), Painted::leaf(looks.leaves.shape));
-    let patches = || patches(&structure, &foliage, &painted);
+    let foliage = Foliage::of(plant, style, looks, 0);
+    let kinds = Kind::all(&foliage);
+    let patches = || patches(&structure, &foliage, &kinds);
     let total: f64 = patches().map(|patch| patch.area).sum();
     let points = if total > 0.0 { points } else { 0 };
     out.write_all(head(points).as_bytes())?;
@@ -69,7 +72,8 @@ pub fn ply(
 
 fn head(points: u32) -> String {
     let mut head = format!(
-        "ply\nformat binary_little_endian 1.0\ncomment Espalier: label {WOOD} is wood, {LEAF} a leaf\n"
+        "ply\nformat binary_little_endian 1.0\n\
+         comment Espalier: label {WOOD} is wood, {LEAF} a leaf, {FLOWER} a flower, {FRUIT} a fruit\n"
     );
     head += &format!("element vertex {points}\n");
     for property in ["x", "y", "z", "nx", "ny", "nz"] {
@@ -96,16 +100,54 @@ enum Form {
 fn patches<'a>(
     structure: &'a Structure<'_>,
     foliage: &'a Foliage<'_>,
-    painted: &'a Painted,
+    kinds: &'a [Kind],
 ) -> impl Iterator<Item = Patch> + use<'a> {
     let wood = structure.metamers.iter().filter_map(|&id| mantle(structure, id));
-    wood.chain(living(structure.plant).flat_map(|id| blades(id, foliage, painted)))
+    let borne = move |id| kinds.iter().flat_map(move |kind| kind.patches(id, foliage));
+    wood.chain(living(structure.plant).flat_map(borne))
 }
 
-/// What is leaf of the cards on a metamer.
-fn blades(metamer: MetamerId, foliage: &Foliage<'_>, painted: &Painted) -> Vec<Patch> {
-    let mut cards = Cards::default();
-    foliage.add_leaves(&mut cards, metamer);
+/// Leaves, flowers or fruits: what they are called, what is there of their cards, and what adds these.
+struct Kind {
+    label: u8,
+    painted: Painted,
+    add: fn(&Foliage<'_>, &mut Cards, MetamerId),
+}
+
+impl Kind {
+    /// Those that a plant has.
+    fn all(foliage: &Foliage<'_>) -> Vec<Self> {
+        let look = foliage.look();
+        let leaves = Self {
+            label: LEAF,
+            painted: Painted::leaf(look.leaves.shape),
+            add: |foliage, cards, id| foliage.add_leaves(cards, id),
+        };
+        let flowers = Painted::flower(look.flowers.kind);
+        let flowers = flowers.map(|painted| Self {
+            label: FLOWER,
+            painted,
+            add: |foliage, cards, id| foliage.add_flowers(cards, id),
+        });
+        let fruits = Painted::fruit(look.fruits.kind);
+        let fruits = fruits.map(|painted| Self {
+            label: FRUIT,
+            painted,
+            add: |foliage, cards, id| foliage.add_fruits(cards, id),
+        });
+        [leaves].into_iter().chain(flowers).chain(fruits).collect()
+    }
+
+    /// What is there of the cards on a metamer.
+    fn patches(&self, metamer: MetamerId, foliage: &Foliage<'_>) -> Vec<Patch> {
+        let mut cards = Cards::default();
+        (self.add)(foliage, &mut cards, metamer);
+        covered(&cards, (metamer, self.label), &self.painted)
+    }
+}
+
+/// What pictures cover of cards.
+fn covered(cards: &Cards, (metamer, label): (MetamerId, u8), painted: &Painted) -> Vec<Patch> {
     let mesh = &cards.mesh;
     let mut patches = Vec::new();
     for &corners in mesh.indices.as_chunks::<3>().0 {
@@ -117,7 +159,7 @@ fn blades(metamer: MetamerId, foliage: &Foliage<'_>, painted: &Painted) -> Vec<P
             let at = |[b, c]: [f64; 2]| places[0] * (1.0 - b - c) + places[1] * b + places[2] * c;
             let [b, c] = [0, 1].map(|i| part.iter().map(|corner| corner[i]).sum::<f64>() as f32 / 3.0);
             if painted.covers(uvs[0] * (1.0 - b - c) + uvs[1] * b + uvs[2] * c) {
-                patches.push(Patch { metamer, label: LEAF, area, form: Form::Triangle(part.map(at)) });
+                patches.push(Patch { metamer, label, area, form: Form::Triangle(part.map(at)) });
             }
         }
     }
@@ -213,7 +255,7 @@ mod tests {
             let all: f64 = triangles
                 .map(|corners| area(corners.map(|corner| cards.mesh.positions[corner as usize].as_dvec3())))
                 .sum();
-            let patches = blades(id, &foliage, &painted);
+            let patches = Kind::all(&foliage)[0].patches(id, &foliage);
             for patch in &patches {
                 let Form::Triangle(corners) = patch.form else { panic!("a leaf is no mantle") };
                 assert!((area(corners) / patch.area - 1.0).abs() < 1e-3, "{shape:?}");

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use espalier_export::{ExportError, Origin, Sampling, in_memory, mtg, ply, qsm_csv, skeleton_json};
 use espalier_plant::{MetamerId, Plant, Widths, wood::as_written};
-use espalier_settings::ParameterValues;
+use espalier_settings::{Appearance, FlowerKind, FlowerLook, FruitKind, FruitLook, ParameterValues, Place};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 use serde_json::Value;
@@ -152,8 +152,12 @@ struct Point {
 }
 
 fn cloud(plant: &Plant, points: u32, seed: u32) -> Vec<Point> {
+    cloud_of(plant, &looks(), points, seed)
+}
+
+fn cloud_of(plant: &Plant, looks: &Appearance, points: u32, seed: u32) -> Vec<Point> {
     let sampling = Sampling { points, seed };
-    let file = in_memory(|out| ply(plant, &style(), &looks(), METRES, sampling, out)).expect("it exports");
+    let file = in_memory(|out| ply(plant, &style(), looks, METRES, sampling, out)).expect("it exports");
     let end = b"end_header\n";
     let at = file.windows(end.len()).position(|window| window == end).expect("a head") + end.len();
     let head = std::str::from_utf8(&file[..at]).expect("text");
@@ -199,6 +203,44 @@ fn points_lie_on_what_they_say_with_normals_outward() {
             assert!(outward.dot(y_up(point.normal)) > 0.0);
         }
     }
+}
+
+#[test]
+fn points_lie_on_flowers_and_fruits_as_well() {
+    let plant = saplings::fork();
+    let living = saplings::living(&plant);
+    let labels = |looks: &Appearance| -> [usize; 4] {
+        let points = cloud_of(&plant, looks, 8000, 3);
+        for point in points.iter().filter(|point| point.label >= 2) {
+            assert!((point.normal.length() - 1.0).abs() < 1e-5);
+            // No longer than its stalk and itself from the internode that bears it.
+            let id = living[point.metamer as usize];
+            let ends = [plant.metamers().parent(id).expect("wood"), id].map(|id| plant.metamers().end(id));
+            let [from, to] = ends.map(|end| end.as_dvec3() * as_written(METRES));
+            let place = y_up(point.place);
+            let along = ((place - from).dot(to - from) / (to - from).length_squared()).clamp(0.0, 1.0);
+            assert!(place.distance(from.lerp(to, along)) < 2.0 * f64::from(METRES), "{place}");
+        }
+        [0, 1, 2, 3].map(|label| points.iter().filter(|point| point.label == label).count())
+    };
+    let bare = looks();
+    let place = Place::Twigs;
+    let flowers = FlowerLook { kind: FlowerKind::Rosette, share: 1.0, place, size: 0.5, ..bare.flowers };
+    let fruits = FruitLook { kind: FruitKind::Round, share: 1.0, place, size: 0.5, ..bare.fruits };
+    let in_flower = Appearance { flowers, ..bare };
+    let [wood, leaves, none, nothing] = labels(&bare);
+    assert!(wood > 0 && leaves > 0 && none == 0 && nothing == 0);
+    let [_, _, blossom, nothing] = labels(&in_flower);
+    assert!(blossom > 100 && nothing == 0, "{blossom} {nothing}");
+    let all = labels(&Appearance { fruits, ..in_flower });
+    assert!(all.iter().all(|&count| count > 100) && all.iter().sum::<usize>() == 8000, "{all:?}");
+    // Twice as long, four times the area, beside the same leaves.
+    let larger = Appearance { flowers: FlowerLook { size: 1.0, ..flowers }, ..bare };
+    let [small, large] = [in_flower, larger].map(|looks| {
+        let [_, leaves, flowers, _] = labels(&looks);
+        flowers as f64 / leaves as f64
+    });
+    assert!((large / small / 4.0 - 1.0).abs() < 0.1, "{small} {large}");
 }
 
 #[test]
