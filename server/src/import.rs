@@ -58,6 +58,8 @@ pub struct Import {
     pub units: Units,
     /// The seed of all randomness, where the file has none.
     pub seed: u32,
+    /// The species that it gets whatever the file says.
+    pub species: Option<&'static Species>,
     /// Parameters that are set whatever the file says, in turn.
     pub parameters: Vec<ParametersPatch>,
     /// The most metamers.
@@ -206,7 +208,7 @@ pub fn document(bytes: &[u8], import: &Import) -> Result<Imported, ImportError> 
         extent: WORLD_EXTENT,
     };
     let file = read_wood(format, bytes, &options)?;
-    let species = file.species.as_deref().and_then(species::find);
+    let species = import.species.or_else(|| file.species.as_deref().and_then(species::find));
     let age = file.wood.nodes.last().map_or(0, |node| node.birth);
     let grown = species.map_or_else(ParameterValues::default, |species| parameters_at(species, age).clone());
     let parameters = grown.patched(&file.parameters).patched(&set);
@@ -231,7 +233,7 @@ fn parameters_at(species: &Species, age: u32) -> &ParameterValues {
 }
 
 /// As much of a name as a sentence tells again.
-fn excerpt(name: &str) -> String {
+pub(crate) fn excerpt(name: &str) -> String {
     const LONGEST: usize = 40;
     name.chars().filter(|&letter| !misleads(letter)).take(LONGEST).collect()
 }
@@ -285,7 +287,8 @@ mod tests {
     const SCAN: &str = include_str!("../../tests/fuzz/seeds/rtwig.csv");
 
     fn import(format: Format, parameters: &[ParametersPatch]) -> Import {
-        Import { format, units: Units::of(1.0), seed: 1, parameters: parameters.to_vec(), metamers: 1000 }
+        let parameters = parameters.to_vec();
+        Import { format, units: Units::of(1.0), seed: 1, species: None, parameters, metamers: 1000 }
     }
 
     fn of_wood(format: WoodFormat, bytes: &[u8]) -> Document {
@@ -355,6 +358,34 @@ mod tests {
         let file = exported(&mut before, exports::Format::Document);
         let same = document(&file, &import(Format::Document, &[]));
         assert!(same.is_ok_and(|same| same.document.plant().hash() == before.plant().hash()));
+    }
+
+    #[test]
+    fn a_scan_gets_the_species_that_is_asked_for() {
+        let read = |format, bytes: &[u8], species: Option<&str>| {
+            let species = species.and_then(species::find);
+            let import = Import { species, ..import(Format::Wood(format), &[]) };
+            document(bytes, &import).unwrap_or_else(|error| panic!("{error}")).document
+        };
+        let plain = read(WoodFormat::Qsm, SCAN.as_bytes(), None);
+        let oak = read(WoodFormat::Qsm, SCAN.as_bytes(), Some("oak"));
+        let known = species::find("oak").unwrap_or_else(|| panic!("it is a species"));
+        assert_eq!(*plain.appearance(), Appearance::default());
+        assert_eq!(*oak.appearance(), known.appearance);
+        let internode_length = oak.parameters().internode_length;
+        assert_eq!(internode_length, plain.parameters().internode_length, "what the file has it keeps");
+        let age = oak.plant().step();
+        let expected = ParameterValues { internode_length, ..parameters_at(known, age).clone() };
+        assert_eq!(oak.parameters(), expected);
+        assert_ne!(oak.parameters(), plain.parameters());
+        // It goes before what the file says.
+        let mut before = Document::new(1);
+        let file = exported(&mut before, exports::Format::Skeleton);
+        let file = String::from_utf8_lossy(&file).replace("\"species\":null", "\"species\":\"cherry\"");
+        let [own, other] = [None, Some("oak")]
+            .map(|species| *read(WoodFormat::Skeleton, file.as_bytes(), species).appearance());
+        assert_eq!(Some(own), species::find("cherry").map(|cherry| cherry.appearance));
+        assert_eq!(other, known.appearance);
     }
 
     #[test]

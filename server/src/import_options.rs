@@ -3,7 +3,9 @@
 use std::{borrow::Cow, str::FromStr};
 
 use clap::Args;
+use espalier_growth::species::{self, Species};
 use espalier_import::Units;
+use espalier_proto::NotAllowed;
 use espalier_reading::{Between, Bounded};
 use espalier_settings::{Kind, ParameterValues, ParametersPatch, Setting};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -12,6 +14,8 @@ use serde::{
     de::{DeserializeSeed, Error},
 };
 use serde_json::Value;
+
+use crate::{import::excerpt, similar::asked_for};
 
 /// How lengths in a file are taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Args)]
@@ -26,6 +30,10 @@ pub struct ImportOptions {
     /// file's pieces, if not given.
     #[arg(long, value_name = "METRES")]
     pub internode_length: Option<InternodeLength>,
+    /// The species whose looks and growth it gets, which a .espalier file knows itself; what a skeleton or graph says, or
+    /// none, if not given.
+    #[arg(long, value_name = "NAME")]
+    pub species: Option<SpeciesName>,
 }
 
 impl ImportOptions {
@@ -41,8 +49,14 @@ impl ImportOptions {
             ("unit", self.unit.map(|Unit(metres)| metres.to_string())),
             ("diameter_unit", self.diameter_unit.map(|Unit(metres)| metres.to_string())),
             ("internode_length", self.internode_length.map(|InternodeLength(metres)| metres.to_string())),
+            ("species", self.species.map(|SpeciesName(slug)| slug.to_owned())),
         ];
         all.into_iter().filter_map(|(name, value)| value.map(|value| (name, value)))
+    }
+
+    /// The species that it gets whatever the file says.
+    pub fn species(&self) -> Option<&'static Species> {
+        self.species.and_then(SpeciesName::species)
     }
 
     /// The parameters that are set.
@@ -138,6 +152,60 @@ impl JsonSchema for InternodeLength {
     }
 }
 
+/// The short name of a species that there is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SpeciesName(&'static str);
+
+impl SpeciesName {
+    /// The species.
+    pub fn species(self) -> Option<&'static Species> {
+        species::find(self.0)
+    }
+
+    fn all() -> impl Iterator<Item = &'static str> + Clone {
+        species::all().iter().map(|species| species.slug)
+    }
+}
+
+impl FromStr for SpeciesName {
+    type Err = String;
+
+    fn from_str(slug: &str) -> Result<Self, String> {
+        if let Some(species) = species::find(slug) {
+            return Ok(Self(species.slug));
+        }
+        Err(format!(
+            "there is no such species{}; `espalier species` lists them",
+            asked_for(slug, Self::all())
+        ))
+    }
+}
+
+impl<'de> Deserialize<'de> for SpeciesName {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let slug = String::deserialize(deserializer)?;
+        slug.parse().map_err(|_| {
+            let found = format!("{}{}", excerpt(&slug), asked_for(&slug, Self::all()));
+            let allowed = "the short name of a species, as GET /api/v1/species lists them";
+            D::Error::custom(NotAllowed::new(found, allowed.to_owned()))
+        })
+    }
+}
+
+impl JsonSchema for SpeciesName {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "SpeciesName".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "string", "description": "The short name of a species." })
+    }
+}
+
 /// A number between bounds that somebody has typed.
 fn from_text<T: FromStr + PartialOrd>(text: &str, Between(least, most): Between<T>) -> Option<T> {
     text.parse().ok().filter(|number| (least..=most).contains(number))
@@ -174,6 +242,14 @@ mod tests {
         for (text, is_allowed) in [("0.005", true), ("1", true), ("0", false), ("1.5", false)] {
             assert_eq!(both::<InternodeLength>(text).is_ok(), is_allowed, "{text}");
         }
+        let typed = |slug: &str| slug.parse::<SpeciesName>();
+        let sent = |slug: &str| serde_json::from_value::<SpeciesName>(slug.into());
+        assert_eq!(sent("oak").ok(), typed("oak").ok());
+        assert_eq!(typed("oak").ok().and_then(SpeciesName::species).map(|oak| oak.slug), Some("oak"));
+        for slug in ["oka", "Oak", ""] {
+            assert!(typed(slug).is_err() && sent(slug).is_err(), "{slug}");
+        }
+        assert!(typed("oka").is_err_and(|said| said.contains("did you mean oak?")));
         for text in ["NaN", "inf", "a metre", ""] {
             assert!(text.parse::<Unit>().is_err() && text.parse::<InternodeLength>().is_err(), "{text}");
         }

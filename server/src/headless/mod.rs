@@ -243,6 +243,7 @@ pub fn import(options: &cli::Import) -> Result<(), HeadlessError> {
         format: options.file.format,
         units: options.options.units(),
         seed: options.seed,
+        species: options.options.species(),
         parameters: [&[options.options.parameters()], &*options.start.parameters].concat(),
         metamers: budget,
     };

@@ -20,7 +20,7 @@ use super::{
 use crate::{
     access::Caller,
     import::{self, Import, Imported},
-    import_options::{ImportOptions, InternodeLength, Unit},
+    import_options::{ImportOptions, InternodeLength, SpeciesName, Unit},
     pool::Class,
     store::{Contents, NewVersion, Saved},
 };
@@ -42,16 +42,19 @@ macro_rules! of_a_file {
             diameter_unit: Option<Unit>,
             /// Metres in one internode.
             internode_length: Option<InternodeLength>,
+            /// The short name of the species whose looks and growth it gets.
+            species: Option<SpeciesName>,
         }
 
         impl $name {
             fn import(&self, metamers: u32) -> Import {
-                let &Self { format, unit, diameter_unit, internode_length, .. } = self;
-                let options = ImportOptions { unit, diameter_unit, internode_length };
+                let &Self { format, unit, diameter_unit, internode_length, species, .. } = self;
+                let options = ImportOptions { unit, diameter_unit, internode_length, species };
                 Import {
                     format,
                     units: options.units(),
                     seed: rand::random(),
+                    species: options.species(),
                     parameters: vec![options.parameters()],
                     metamers,
                 }

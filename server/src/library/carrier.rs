@@ -319,6 +319,7 @@ async fn put_into(
         format: put.file.format,
         units: put.options.units(),
         seed: 1,
+        species: put.options.species(),
         parameters: vec![put.options.parameters()],
         metamers: DEFAULT_METAMER_BUDGET,
     };

@@ -220,6 +220,8 @@ async fn im3_what_is_taken_with_a_doubt_is_said_once() {
     // Diameters in centimetres, taken for metres.
     let thick = send(&format!("{import}&diameter_unit=0.01"), SCAN.to_owned()).await;
     assert_eq!(thick.get("import_notes"), None);
+    let oak = send(&format!("{import}&species=oak"), SCAN.to_owned()).await;
+    assert_eq!((&whole["species"], &oak["species"]), (&Value::Null, &json!("oak")));
     let thick = send(&format!("{import}&diameter_unit=100"), SCAN.to_owned()).await;
     assert_eq!(thick["import_notes"][0]["note"], "thick-trunk");
     let version = send("/api/v1/trees/ash/versions/import?format=csv", SCAN.trim_end().to_owned()).await;
