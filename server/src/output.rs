@@ -33,6 +33,14 @@ pub enum OutputError {
         /// Why not.
         cause: io::Error,
     },
+    /// Nothing can be written into a folder that is not there.
+    #[error("The export {} cannot be written: there is no folder {}.", path.display(), folder.display())]
+    Folder {
+        /// Which file.
+        path: PathBuf,
+        /// The folder that it would be in.
+        folder: PathBuf,
+    },
     /// The result does not fit its format.
     #[error("The export failed: {0}.")]
     Export(ExportError),
@@ -67,10 +75,21 @@ impl Target {
     /// Whether it can be written there, before anything is made.
     ///
     /// # Errors
-    /// A format that is no text is not for a terminal.
+    /// A format that is no text is not for a terminal, and a file needs a folder.
     pub fn check(&self) -> Result<(), OutputError> {
-        let shown = self.is_stdout() && io::stdout().is_terminal();
-        if shown && !self.row.is_text() { Err(OutputError::Terminal(self.row.ending)) } else { Ok(()) }
+        if self.is_stdout() {
+            let is_shown = io::stdout().is_terminal() && !self.row.is_text();
+            return if is_shown { Err(OutputError::Terminal(self.row.ending)) } else { Ok(()) };
+        }
+        let folder = self.folder();
+        if folder.is_dir() {
+            return Ok(());
+        }
+        Err(OutputError::Folder { path: self.path.clone(), folder: folder.to_owned() })
+    }
+
+    fn folder(&self) -> &Path {
+        self.path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."))
     }
 
     /// Makes the file in a place of its own, and moves or copies it when it is whole.
@@ -90,11 +109,11 @@ impl Target {
             let copied = io::copy(&mut file, &mut stdout).and_then(|_| stdout.flush());
             return read_enough(copied).map_err(failed);
         }
-        let folder = self.path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
         let mut file = tempfile::Builder::new();
         #[cfg(unix)]
         file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let file = file.tempfile_in(folder).map_err(failed)?;
+        // What went wrong concerns the folder; the name of the file in it that is moved says nothing to anybody.
+        let file = file.tempfile_in(self.folder()).map_err(|error| failed(error.kind().into()))?;
         let (opened, path) = file.into_parts();
         drop::<File>(made(opened, make, failed)?);
         path.persist(&self.path).map_err(|error| failed(error.error))

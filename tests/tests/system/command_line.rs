@@ -262,13 +262,25 @@ fn a_grammar_is_given_a_space_and_obstacles() {
 }
 
 #[test]
+fn a_folder_that_is_missing_is_named_before_anything_grows() {
+    let scratch = Scratch::new();
+    let folder = scratch.path("none");
+    let out = folder.join("tree.glb");
+    let [folder, out] = [&folder, &out].map(|path| path.to_str().expect("a plain name"));
+    let finished = program::run(&["grow", "--metamers", "50", "--export", out]);
+    assert_eq!(finished.code, 1, "{}", finished.stderr);
+    let said = format!("The export {out} cannot be written: there is no folder {folder}.");
+    assert!(finished.stderr.contains(&said), "{}", finished.stderr);
+}
+
+#[test]
 fn what_a_grammar_writes_leaves_in_every_format_and_sways() {
     let scratch = Scratch::new();
     let path = scratch.path("own.lsys");
     let text = "axiom: A\nA --> F[+(30)FA][-(30)FA]/(90)FA\n";
     fs::write(&path, text).expect("it can be written");
     let path = path.to_str().expect("a plain name");
-    for ending in ["glb", "usda", "obj.zip", "pivots.zip", "mtg", "ply", "joints.csv", "png"] {
+    for ending in ["glb", "usda", "usda.zip", "obj.zip", "pivots.zip", "mtg", "ply", "joints.csv", "png"] {
         let out = scratch.path(&format!("tree.{ending}"));
         let file = out.to_str().expect("a plain name");
         let finished = program::run(&["grow", "--grammar", path, "--depth", "5", "--export", file]);
