@@ -33,7 +33,9 @@ pub enum Format {
     Pivots,
     /// USD as text.
     Usda,
-    /// The same with its textures.
+    /// The same with its textures, in a ZIP file.
+    UsdaZip,
+    /// The same with its textures in one file.
     Usdz,
     /// The skeleton as JSON.
     Skeleton,
@@ -56,7 +58,7 @@ pub enum Format {
 impl Format {
     /// Whether its files are written from beginning to end, so that what is written stays as it is.
     pub fn is_forward(self) -> bool {
-        !matches!(self, Self::Glb | Self::Obj | Self::Pivots | Self::Usdz)
+        !matches!(self, Self::Glb | Self::Obj | Self::Pivots | Self::UsdaZip | Self::Usdz)
     }
 
     /// How large its pictures are and how many a file has, where nobody says more; none where it has none.
@@ -192,6 +194,19 @@ pub const FORMATS: &[FormatRow] = &[
         ],
         option::SCENES,
         [4e3, 3300.0, 1800.0],
+    ),
+    row(
+        Format::UsdaZip,
+        ["usda.zip", "triangles as USD with textures beside it", "application/zip"],
+        [
+            ["Scene with textures (USD, text)", "Szene mit Texturen (USD, Text)"],
+            [
+                "USD in text and its textures as files of their own in a ZIP file, for programs that edit both.",
+                "USD in Textform und seine Texturen als eigene Dateien in einer ZIP-Datei, für Programme, die beides bearbeiten.",
+            ],
+        ],
+        option::SCENES,
+        [560e3, 3300.0, 1800.0],
     ),
     row(
         Format::Usdz,
@@ -341,14 +356,14 @@ impl FormatRow {
 
     fn levels(&self) -> [f64; 4] {
         match self.format {
-            Format::Usda | Format::Usdz => USD_LEVELS,
+            Format::Usda | Format::UsdaZip | Format::Usdz => USD_LEVELS,
             _ => LEVELS,
         }
     }
 
     fn bone(&self) -> f64 {
         match self.format {
-            Format::Usda | Format::Usdz => USD_BONE,
+            Format::Usda | Format::UsdaZip | Format::Usdz => USD_BONE,
             _ => BONE,
         }
     }
@@ -433,6 +448,9 @@ pub fn write(
             espalier_export::pivots(document.portrait(), &style, &appearance, &about, &model, out)
         }
         Format::Usda => espalier_export::usda(document.portrait(), &style, &appearance, &about, &model, out),
+        Format::UsdaZip => {
+            espalier_export::usda_zip(document.portrait(), &style, &appearance, &about, &model, out)
+        }
         Format::Usdz => espalier_export::usdz(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Skeleton => espalier_export::skeleton_json(document.portrait(), &style, &origin, out),
         Format::Mtg => espalier_export::mtg(document.plant(), &style, &origin, out),

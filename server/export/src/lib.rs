@@ -44,4 +44,4 @@ pub use ply::{Sampling, ply};
 pub use qsm::qsm_csv;
 pub use sink::{Sink, in_memory};
 pub use skeleton::{Origin, skeleton_json};
-pub use usd::{usda, usdz};
+pub use usd::{usda, usda_zip, usdz};

@@ -1,29 +1,46 @@
 //! Materials of formats that do not multiply a texture by the colours of vertices. Wood has the mean of these. Leaves,
-//! flowers and fruits have a few materials that stand for all of their colours: each of them has its own texture, for not
-//! all readers multiply a texture by a colour of the material either.
+//! flowers and fruits have colours that stand for all of theirs: a texture is there once in each, in cells of one picture
+//! where pictures are written, for not all readers multiply a texture by a colour of the material either.
 
 use std::{borrow::Cow, collections::BTreeMap, rc::Rc};
 
 use espalier_mesh::TriangleMesh;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use serde_json::Value;
 
 use crate::{
     ExportError,
     assembly::{Assembly, Block, Builder, Part, Scatter, Surface},
     shades::{Palette, Tally},
-    surface::Texture,
+    surface::{Cells, Texture},
 };
 
-/// Colours that stand for all leaves of a file.
-const MOST_SHADES: usize = 6;
+/// Colours of what is thin where each is a cell of a picture: a step from one to the next is then hardly seen.
+const CELLS: usize = 64;
+/// The same where each form of a leaf is a mesh of its own in each of them.
+const CELLS_OF_FORMS: usize = 16;
+/// The same where each is a material.
+const MATERIALS: usize = 6;
+/// Steps of a place in a picture of cells from one side to the other: numbers with few digits make small files.
+const PLACES: f32 = 1e4;
+
+/// How colours of what is thin are told apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Telling {
+    /// By cells of one picture.
+    Cells,
+    /// The same, with a mesh for each form of a leaf in each colour.
+    CellsOfForms,
+    /// By materials, without pictures.
+    Materials,
+}
 
 /// The materials that a file has used so far.
-#[derive(Default)]
 pub(crate) struct MeanMaterials {
     pub all: Vec<MeanMaterial>,
+    telling: Telling,
     /// The colours of what is thin, by the name of its surface.
-    shades: BTreeMap<String, Palette>,
+    palettes: BTreeMap<String, Palette>,
 }
 
 /// One material.
@@ -31,37 +48,64 @@ pub(crate) struct MeanMaterial {
     pub name: String,
     /// The name of the surface, which it may share with others.
     surface: String,
-    /// What is multiplied by the mean colour, and how deep its relief is.
+    /// What is multiplied by its colours, and how deep its relief is.
     pub texture: Option<(Rc<Texture>, f32)>,
     /// Whether the texture has nothing in places.
     pub is_cut_out: bool,
+    /// Colours that it has, linear; none where it has the mean of what was counted.
+    tints: Vec<Vec3>,
     sum: Vec3,
     count: usize,
 }
 
 impl MeanMaterials {
-    /// With shades for all that is thin in an assembly.
-    pub(crate) fn shaded(assembly: &Assembly<'_>) -> Result<Self, ExportError> {
+    /// With colours for all that is thin in an assembly.
+    pub(crate) fn of(assembly: &Assembly<'_>, telling: Telling) -> Result<Self, ExportError> {
         let mut counted = Counted::default();
         assembly.build(&mut counted)?;
-        let shades = counted.0.into_iter().map(|(name, tally)| (name, tally.palette(MOST_SHADES)));
-        Ok(Self { all: Vec::new(), shades: shades.collect() })
+        let most = match telling {
+            Telling::Cells => CELLS,
+            Telling::CellsOfForms => CELLS_OF_FORMS,
+            Telling::Materials => MATERIALS,
+        };
+        let palettes = counted.0.into_iter().map(|(name, tally)| (name, tally.palette(most))).collect();
+        Ok(Self { all: Vec::new(), telling, palettes })
+    }
+
+    fn palette(&self, surface: &Surface<'_>) -> &[Vec3] {
+        self.palettes.get(surface.name()).map_or(&[], |palette| &palette.colours)
+    }
+
+    /// How many colours a surface has.
+    pub(crate) fn shades(&self, surface: &Surface<'_>) -> usize {
+        self.palette(surface).len().max(1)
+    }
+
+    /// Which of them stands for a colour.
+    pub(crate) fn shade(&self, surface: &Surface<'_>, colour: Vec3) -> usize {
+        self.palettes.get(surface.name()).map_or(0, |palette| palette.of(colour))
     }
 
     /// How many materials a surface has.
-    pub(crate) fn shades(&self, surface: &Surface<'_>) -> usize {
-        self.shades.get(surface.name()).map_or(1, |palette| palette.colours.len().max(1))
+    pub(crate) fn materials(&self, surface: &Surface<'_>) -> usize {
+        if self.telling == Telling::Materials { self.shades(surface) } else { 1 }
     }
 
-    /// Which of its materials what has such a colour has.
-    pub(crate) fn shade(&self, surface: &Surface<'_>, colour: Vec3) -> usize {
-        self.shades.get(surface.name()).map_or(0, |palette| palette.of(colour))
-    }
-
-    /// The name of one of its materials.
+    /// The name of the material that shows one of its colours.
     pub(crate) fn name<'a>(&self, surface: &Surface<'a>, shade: usize) -> Cow<'a, str> {
         let name = surface.name();
-        if self.shades(surface) > 1 { format!("{name}_{}", shade + 1).into() } else { name.into() }
+        if self.materials(surface) > 1 { format!("{name}_{}", shade + 1).into() } else { name.into() }
+    }
+
+    /// Where in the picture of its material a place of its texture is, in one of its colours.
+    pub(crate) fn place(&self, surface: &Surface<'_>, shade: usize, at: Vec2) -> Vec2 {
+        if self.materials(surface) > 1 || self.shades(surface) == 1 {
+            return at;
+        }
+        let [across, up] = cells(self.shades(surface));
+        let vector = |x: usize, y: usize| Vec2::new(x as f32, y as f32);
+        let place = (vector(shade % across, shade / across) + at) / vector(across, up);
+        (place * PLACES).round() / PLACES
     }
 
     /// Counts the colours of vertices that have this surface.
@@ -69,42 +113,47 @@ impl MeanMaterials {
         self.count(surface, block.colours.iter().sum(), block.colours.len());
     }
 
-    /// Counts so many colours by their sum; what has shades has these.
+    /// Counts so many colours by their sum.
     pub(crate) fn count(&mut self, surface: &Surface<'_>, sum: Vec3, count: usize) {
-        let shades = self.shades.get(surface.name()).map_or(&[][..], |palette| &palette.colours[..]);
-        let colours: Vec<(Vec3, usize)> = match surface {
-            Surface::Plain(_, colour) => vec![(*colour, 1)],
-            _ if shades.is_empty() => vec![(sum, count)],
-            _ => shades.iter().map(|&shade| (shade, 1)).collect(),
-        };
         let known = self.all.iter().position(|material| material.surface == surface.name());
         let first = known.unwrap_or(self.all.len());
         if known.is_none() {
-            let texture = match surface {
-                Surface::Plain(..) => None,
-                Surface::Bark(bark, relief) => Some((Rc::new(bark.texture.clone()), *relief)),
-                Surface::Thin(_, texture) => Some((Rc::new((*texture).clone()), 1.0)),
-            };
-            for shade in 0..colours.len() {
-                self.all.push(MeanMaterial {
-                    name: self.name(surface, shade).into_owned(),
-                    surface: surface.name().to_owned(),
-                    texture: texture.clone(),
-                    is_cut_out: matches!(surface, Surface::Thin(..)),
-                    sum: Vec3::ZERO,
-                    count: 0,
-                });
-            }
+            self.begin(surface);
         }
-        let is_mean = matches!(surface, Surface::Bark(..)) || self.shades(surface) == 1;
-        for (material, (sum, count)) in self.all[first..].iter_mut().zip(colours) {
-            if is_mean && !matches!(surface, Surface::Plain(..)) {
-                (material.sum, material.count) = (material.sum + sum, material.count + count);
-            } else {
-                (material.sum, material.count) = (sum, count);
-            }
-        }
+        let material = &mut self.all[first];
+        (material.sum, material.count) = (material.sum + sum, material.count + count);
     }
+
+    fn begin(&mut self, surface: &Surface<'_>) {
+        let texture = match surface {
+            Surface::Plain(..) => None,
+            Surface::Bark(bark, relief) => Some((Rc::new(bark.texture.clone()), *relief)),
+            Surface::Thin(_, texture) => Some((Rc::new((*texture).clone()), 1.0)),
+        };
+        let palette = self.palette(surface);
+        let tints: Vec<Vec<Vec3>> = match surface {
+            Surface::Plain(_, colour) => vec![vec![*colour]],
+            _ if self.materials(surface) > 1 => palette.iter().map(|&tint| vec![tint]).collect(),
+            _ => vec![palette.to_vec()],
+        };
+        let materials = tints.into_iter().enumerate().map(|(shade, tints)| MeanMaterial {
+            name: self.name(surface, shade).into_owned(),
+            surface: surface.name().to_owned(),
+            texture: texture.clone(),
+            is_cut_out: matches!(surface, Surface::Thin(..)),
+            tints,
+            sum: Vec3::ZERO,
+            count: 0,
+        });
+        let materials: Vec<_> = materials.collect();
+        self.all.extend(materials);
+    }
+}
+
+/// How many cells across and up a picture has in which a texture is once in each of so many colours.
+fn cells(count: usize) -> Cells {
+    let across = (1..).find(|side| side * side >= count).unwrap_or(1);
+    [across, count.div_ceil(across)]
 }
 
 /// What is thin and its colours.
@@ -149,9 +198,15 @@ impl Builder<'_> for Counted {
 }
 
 impl MeanMaterial {
-    /// Linear.
+    /// Its colours, linear.
+    fn tints(&self) -> Vec<Vec3> {
+        if self.tints.is_empty() { vec![self.sum / self.count.max(1) as f32] } else { self.tints.clone() }
+    }
+
+    /// Their mean.
     pub(crate) fn mean(&self) -> Vec3 {
-        self.sum / self.count.max(1) as f32
+        let tints = self.tints();
+        tints.iter().sum::<Vec3>() / tints.len() as f32
     }
 
     /// The mean of what is seen, linear.
@@ -160,10 +215,15 @@ impl MeanMaterial {
         self.mean() * texture.map_or(Vec3::ONE, seen_of)
     }
 
+    /// How often its texture stands side by side and one above the other in the picture of its colours.
+    pub(crate) fn cells(&self) -> Cells {
+        cells(self.tints.len().max(1))
+    }
+
     /// Its pictures, each with the end of its name; what it shares with others is theirs as well.
     pub(crate) fn pictures(&self) -> Vec<(String, Vec<u8>)> {
         let Some((texture, _)) = &self.texture else { return Vec::new() };
-        let colour = (self.picture("colour"), texture.colour_png(self.mean()));
+        let colour = (self.picture("colour"), texture.colour_png(&self.tints(), self.cells()));
         let is_first = self.name == self.surface || self.name == format!("{}_1", self.surface);
         let normal = is_first.then(|| (self.picture("normal"), texture.normal_png()));
         let depth = texture.depth_png().filter(|_| is_first).map(|png| (self.picture("depth"), png));
@@ -172,8 +232,7 @@ impl MeanMaterial {
 
     /// The name of its picture of a kind.
     pub(crate) fn picture(&self, kind: &str) -> String {
-        let of = if kind == "colour" { &self.name } else { &self.surface };
-        format!("{}_{kind}.png", of.to_lowercase())
+        format!("{}_{kind}.png", self.surface.to_lowercase())
     }
 }
 

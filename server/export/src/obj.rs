@@ -12,7 +12,8 @@ use crate::{
     About, ExportError, Model, Sink,
     assembly::{Assembly, Builder, Part, Scatter},
     colour::encoded,
-    mean_materials::{MeanMaterial, MeanMaterials},
+    mean_materials::{MeanMaterial, MeanMaterials, Telling},
+    surface::ONE_CELL,
     zip::Zip,
 };
 
@@ -32,8 +33,8 @@ pub fn obj(
     // There are no places of meshes in this format, and a vertex has one place in a texture.
     let model = Model { instanced: false, lightmap: None, ..*model };
     let assembly = Assembly::of(plant, style, appearance, about.species, &model);
-    let mut zip = Zip::new(out);
-    let mut materials = MeanMaterials::shaded(&assembly)?;
+    let mut zip = Zip::deflated(out);
+    let mut materials = MeanMaterials::of(&assembly, Telling::Cells)?;
     zip.add("tree.obj", |out| {
         writeln!(out, "# {}, metres, Y up", about.program)?;
         if let Some(copyright) = about.copyright() {
@@ -48,7 +49,7 @@ pub fn obj(
         materials.all.iter().try_for_each(|material| Ok(out.write_all(library(material, scale).as_bytes())?))
     })?;
     for (name, png) in materials.all.iter().flat_map(MeanMaterial::pictures) {
-        zip.add(&name, |out| Ok(out.write_all(&png)?))?;
+        zip.add_packed(&name, |out| Ok(out.write_all(&png)?))?;
     }
     zip.finish()
 }
@@ -62,7 +63,10 @@ fn library(material: &MeanMaterial, metres: f32) -> String {
     let mut text = format!("newmtl {name}\nKd {r:.4} {g:.4} {b:.4}\nKs 0 0 0\nillum 1\n");
     if let Some((texture, relief)) = &material.texture {
         let [colour, normal] = ["colour", "normal"].map(|kind| material.picture(kind));
-        text += &format!("map_Kd {colour}\nnorm -bm {relief} {normal}\n");
+        // The relief is the same in all cells of the colours.
+        let [across, up] = material.cells();
+        let scale = if [across, up] == ONE_CELL { String::new() } else { format!("-s {across} {up} 1 ") };
+        text += &format!("map_Kd {colour}\nnorm -bm {relief} {scale}{normal}\n");
         if material.is_cut_out {
             // Cover stands in the alpha channel of the picture.
             text += &format!("map_d -imfchan m {colour}\n");
@@ -122,11 +126,7 @@ impl Builder<'_> for Writer<'_> {
     }
 
     fn part(&mut self, part: &Part<'_>) -> Result<(), ExportError> {
-        let mut is_begun = false;
-        // What is thin has a material for each of a few colours: its triangles come material by material after all of
-        // its vertices, so that readers find few groups.
-        let is_shaded = matches!(part.surfaces, [one] if self.materials.shades(one) > 1);
-        let first = [self.places, self.vertices];
+        let (mut is_begun, mut material) = (false, None);
         (part.blocks)(&mut |block| {
             if block.mesh.positions.is_empty() {
                 return Ok(());
@@ -137,47 +137,27 @@ impl Builder<'_> for Writer<'_> {
             }
             for (index, &place) in block.mesh.positions.iter().enumerate() {
                 let Vec3 { x, y, z } = self.place(place)?;
-                let (uv, normal) = (block.mesh.uvs[index], block.mesh.normals[index]);
+                let (mut uv, normal) = (block.mesh.uvs[index], block.mesh.normals[index]);
+                if let [thin] = part.surfaces {
+                    uv = self.materials.place(thin, self.materials.shade(thin, block.colours[index]), uv);
+                }
                 writeln!(self.out, "v {x} {y} {z}\nvt {} {}", uv.x, uv.y)?;
                 writeln!(self.out, "vn {:.4} {:.4} {:.4}", normal.x, normal.y, normal.z)?;
             }
-            if !is_shaded {
-                for (indices, surface) in
-                    [&block.mesh.indices[..], block.second].into_iter().zip(part.surfaces)
-                {
-                    if !indices.is_empty() {
-                        self.materials.add(surface, &block);
+            for (indices, surface) in [&block.mesh.indices[..], block.second].into_iter().zip(part.surfaces) {
+                if !indices.is_empty() {
+                    self.materials.add(surface, &block);
+                    if material != Some(surface.name()) {
+                        material = Some(surface.name());
                         writeln!(self.out, "usemtl {}", surface.name())?;
-                        self.faces(indices.as_chunks().0, [self.places, self.vertices])?;
                     }
+                    self.faces(indices.as_chunks().0, [self.places, self.vertices])?;
                 }
             }
             self.vertices += block.mesh.positions.len();
             self.places += block.mesh.positions.len();
             Ok(())
-        })?;
-        let [surface] = part.surfaces else { return Ok(()) };
-        if !is_shaded || !is_begun {
-            return Ok(());
-        }
-        self.materials.count(surface, Vec3::ZERO, 0);
-        for shade in 0..self.materials.shades(surface) {
-            let (mut numbers, mut is_used) = (first, false);
-            (part.blocks)(&mut |block| {
-                let has_shade =
-                    |corner: u32| self.materials.shade(surface, block.colours[corner as usize]) == shade;
-                let all = block.mesh.indices.as_chunks::<3>().0.iter();
-                let faces: Vec<[u32; 3]> = all.filter(|corners| has_shade(corners[0])).copied().collect();
-                if !faces.is_empty() && !is_used {
-                    is_used = true;
-                    writeln!(self.out, "usemtl {}", self.materials.name(surface, shade))?;
-                }
-                self.faces(&faces, numbers)?;
-                numbers = numbers.map(|number| number + block.mesh.positions.len());
-                Ok(())
-            })?;
-        }
-        Ok(())
+        })
     }
 
     fn scatter(&mut self, _: &Scatter<'_>) -> Result<(), ExportError> {

@@ -14,14 +14,14 @@ pub(crate) fn indexed(width: usize, height: usize, colours: &[[u8; 3]], indices:
     file([width, height], ColorType::Indexed, Filter::NoFilter, Some(colours.as_flattened()), indices)
 }
 
-/// A square file with a byte for each channel: one is grey, three are red, green, blue; the fourth is cover.
-pub(crate) fn square<const CHANNELS: usize>(side: usize, pixels: &[[u8; CHANNELS]]) -> Vec<u8> {
+/// A file with a byte for each channel: one is grey, three are red, green, blue; the fourth is cover.
+pub(crate) fn picture<const CHANNELS: usize>(size: [usize; 2], pixels: &[[u8; CHANNELS]]) -> Vec<u8> {
     let colours = match CHANNELS {
         1 => ColorType::Grayscale,
         4 => ColorType::Rgba,
         _ => ColorType::Rgb,
     };
-    file([side, side], colours, Filter::Adaptive, None, pixels.as_flattened())
+    file(size, colours, Filter::Adaptive, None, pixels.as_flattened())
 }
 
 /// A file of red, green, blue and cover in a byte each, as they are.
@@ -109,7 +109,7 @@ mod tests {
     #[test]
     fn pixels_are_read_back() {
         let pixels: Vec<[u8; 4]> = (0..64u8).map(|i| [i, 255 - i, 3 * i, 7]).collect();
-        let file = square(8, &pixels);
+        let file = picture([8, 8], &pixels);
         let mut reader = Decoder::new(Cursor::new(&file)).read_info().expect("it is a PNG file");
         let mut read = vec![0; 256];
         let info = reader.next_frame(&mut read).expect("it is whole");

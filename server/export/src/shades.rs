@@ -1,13 +1,16 @@
-//! Few colours in the place of many, for formats in which a surface has one: median cuts.
+//! Few colours in the place of many, for formats in which a surface has one: median cuts, then k-means.
 
 use glam::Vec3;
 
 use crate::colour::encoded;
 
 /// Steps of a channel in which colours are counted.
-const STEPS: usize = 32;
+const STEPS: usize = 64;
 /// Colours that lie nearer together than this along each channel, in steps of 256, are not told apart.
 const ALIKE: f32 = 6.0;
+
+/// How often colours are moved to the middle of those that they stand for.
+const ROUNDS: usize = 6;
 
 /// Counts colours as they come, in as much room as ever.
 pub(crate) struct Tally {
@@ -41,7 +44,7 @@ impl Tally {
         cell.count += 1;
     }
 
-    /// At most so many colours; none where nothing was counted.
+    /// At most so many colours, up to 256; none where nothing was counted.
     pub(crate) fn palette(&self, most: usize) -> Palette {
         let all: Vec<usize> = (0..self.cells.len()).filter(|&cell| self.cells[cell].count > 0).collect();
         let mut boxes = Vec::new();
@@ -59,17 +62,39 @@ impl Tally {
             let Some(rest) = self.halve(&mut boxes[at], channel) else { break };
             boxes.push(rest);
         }
+        let mut colours: Vec<Vec3> = boxes.iter().map(|cells| self.mean(cells)).collect();
+        // Cuts go through what is alike: each cell goes to the colour it is nearest to, and each colour to their middle.
+        let all = boxes.concat();
         let mut nearest = vec![0; self.cells.len()];
-        let mut colours = Vec::new();
-        for (number, cells) in boxes.iter().enumerate() {
-            let (mut sum, mut count) = (Vec3::ZERO, 0);
-            for &cell in cells {
-                (sum, count) = (sum + self.cells[cell].sum, count + self.cells[cell].count);
-                nearest[cell] = number as u8;
+        for _ in 0..ROUNDS {
+            let mut groups = vec![Vec::new(); colours.len()];
+            for &cell in &all {
+                groups[self.nearest(cell, &colours)].push(cell);
             }
-            colours.push(sum / count as f32);
+            groups.retain(|cells| !cells.is_empty());
+            colours = groups.iter().map(|cells| self.mean(cells)).collect();
+        }
+        // From dark to bright: where they lie side by side, neighbours are alike.
+        colours.sort_by(|a, b| a.element_sum().total_cmp(&b.element_sum()));
+        for &cell in &all {
+            nearest[cell] = self.nearest(cell, &colours) as u8;
         }
         Palette { colours, nearest }
+    }
+
+    /// Which of some colours is nearest to the mean of a cell, as an eye sees them.
+    fn nearest(&self, cell: usize, colours: &[Vec3]) -> usize {
+        let seen = |colour: Vec3| Vec3::from_array(encoded(colour).map(f32::from));
+        let own = seen(self.cells[cell].sum / self.cells[cell].count as f32);
+        let away = |at: &usize| own.distance_squared(seen(colours[*at]));
+        (0..colours.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
+    }
+
+    /// The mean of the colours of cells.
+    fn mean(&self, cells: &[usize]) -> Vec3 {
+        let sum: Vec3 = cells.iter().map(|&cell| self.cells[cell].sum).sum();
+        let count: u32 = cells.iter().map(|&cell| self.cells[cell].count).sum();
+        sum / count as f32
     }
 
     /// The channel along which the colours of cells lie farthest apart, and how far, weighted by how many there are.

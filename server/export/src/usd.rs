@@ -1,4 +1,4 @@
-//! USD as text (`.usda`), and with its textures in one file (`.usdz`), in metres, Y up.
+//! USD as text (`.usda`), and with its textures in one file (`.usdz`) or beside it (`.usda.zip`), in metres, Y up.
 
 mod arrays;
 mod materials;
@@ -16,7 +16,7 @@ use self::writer::Writer;
 use crate::{
     About, ExportError, Model, Sink,
     assembly::Assembly,
-    mean_materials::{MeanMaterial, MeanMaterials},
+    mean_materials::{MeanMaterial, MeanMaterials, Telling},
     swaying::Swaying,
     zip::Zip,
 };
@@ -38,7 +38,7 @@ pub fn usda(
 ) -> Result<(), ExportError> {
     let swaying = swaying(plant, style, appearance, about, model)?;
     let assembly = Assembly::of(plant, style, appearance, about.species, model).moved_by(swaying.as_ref());
-    let materials = MeanMaterials::shaded(&assembly)?;
+    let materials = MeanMaterials::of(&assembly, Telling::Materials)?;
     layer(&assembly, about, model, (Pictures::Without, swaying.as_ref()), materials, out)?;
     Ok(())
 }
@@ -55,17 +55,44 @@ pub fn usdz(
     model: &Model,
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
+    package(plant, style, appearance, about, model, Zip::new(out))
+}
+
+/// The same layer and textures as files of their own in a ZIP file that is to be unpacked.
+///
+/// # Errors
+/// Those of [`usda`].
+pub fn usda_zip(
+    plant: &Plant,
+    style: &Style,
+    appearance: &Appearance,
+    about: &About<'_>,
+    model: &Model,
+    out: &mut dyn Sink,
+) -> Result<(), ExportError> {
+    package(plant, style, appearance, about, model, Zip::deflated(out))
+}
+
+fn package(
+    plant: &Plant,
+    style: &Style,
+    appearance: &Appearance,
+    about: &About<'_>,
+    model: &Model,
+    mut zip: Zip<'_>,
+) -> Result<(), ExportError> {
     let swaying = swaying(plant, style, appearance, about, model)?;
     let assembly = Assembly::of(plant, style, appearance, about.species, model).moved_by(swaying.as_ref());
-    let mut zip = Zip::new(out);
-    let mut materials = MeanMaterials::shaded(&assembly)?;
+    let telling = if model.instanced { Telling::CellsOfForms } else { Telling::Cells };
+    let mut materials = Some(MeanMaterials::of(&assembly, telling)?);
     zip.add("tree.usda", |out| {
-        let known = std::mem::take(&mut materials);
-        materials = layer(&assembly, about, model, (Pictures::Beside, swaying.as_ref()), known, out)?;
+        let Some(known) = materials.take() else { return Ok(()) };
+        materials = Some(layer(&assembly, about, model, (Pictures::Beside, swaying.as_ref()), known, out)?);
         Ok(())
     })?;
-    for (name, png) in materials.all.iter().flat_map(MeanMaterial::pictures) {
-        zip.add(&name, |out| Ok(out.write_all(&png)?))?;
+    for (name, png) in materials.iter().flat_map(|materials| &materials.all).flat_map(MeanMaterial::pictures)
+    {
+        zip.add_packed(&name, |out| Ok(out.write_all(&png)?))?;
     }
     zip.finish()
 }

@@ -1,8 +1,9 @@
 //! OBJ files as programs write them, and as no program should.
 
-use std::io::Cursor;
+use std::io::{Cursor, Write};
 
 use espalier_import::{ImportError, Limits, Triangles, read_model};
+use flate2::{Compression, write::DeflateEncoder};
 use glam::Vec3;
 use proptest::prelude::*;
 
@@ -75,11 +76,11 @@ fn ob6_an_obj_file_is_refused_with_its_line() {
 }
 
 #[test]
-fn ob6_of_zip_files_only_a_stored_obj_is_read() {
-    let zip = |method: u16, name: &str, data: &[u8]| {
+fn ob6_of_zip_files_only_an_obj_that_comes_first_is_read() {
+    let zip = |method: u16, name: &str, data: &[u8], size: usize| {
         let mut bytes = b"PK\x03\x04".to_vec();
         [10, 0, method, 0, 0].iter().for_each(|word: &u16| bytes.extend(word.to_le_bytes()));
-        [0, data.len() as u32, data.len() as u32].iter().for_each(|word| bytes.extend(word.to_le_bytes()));
+        [0, data.len() as u32, size as u32].iter().for_each(|word| bytes.extend(word.to_le_bytes()));
         [name.len() as u16, 4].iter().for_each(|word| bytes.extend(word.to_le_bytes()));
         bytes.extend(name.bytes());
         bytes.extend([0; 4]);
@@ -88,13 +89,32 @@ fn ob6_of_zip_files_only_a_stored_obj_is_read() {
         bytes
     };
     let obj = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    assert_eq!(read_file(&zip(0, "tree.OBJ", obj)), lines(str::from_utf8(obj).expect("text")));
-    for other in [zip(8, "tree.obj", obj), zip(0, "tree.fbx", obj), zip(0, &"x".repeat(300), obj)] {
+    let mut packed = DeflateEncoder::new(Vec::new(), Compression::best());
+    packed.write_all(obj).expect("memory takes it");
+    let packed = packed.finish().expect("memory takes it");
+    let [whole, small] = [zip(0, "tree.OBJ", obj, obj.len()), zip(8, "tree.obj", &packed, obj.len())];
+    assert_eq!(read_file(&whole), lines(str::from_utf8(obj).expect("text")));
+    assert_eq!(read_file(&small), read_file(&whole));
+    for other in [
+        zip(1, "tree.obj", obj, obj.len()),
+        zip(0, "tree.fbx", obj, obj.len()),
+        zip(0, &"x".repeat(300), obj, obj.len()),
+        zip(8, "tree.obj", &packed, 1 << 30),
+    ] {
         assert!(matches!(read_file(&other), Err(ImportError::NotModel(_))));
     }
-    let whole = zip(0, "tree.obj", obj);
-    for end in 0..whole.len() - 20 {
-        assert!(read_file(&whole[..end]).is_err(), "cut to {end}");
+    // Data that are none, and more or fewer than is said.
+    for broken in [
+        zip(8, "tree.obj", obj, obj.len()),
+        zip(8, "tree.obj", &packed, obj.len() - 1),
+        zip(8, "tree.obj", &packed, obj.len() + 1),
+    ] {
+        assert!(matches!(read_file(&broken), Err(ImportError::Damaged(_))));
+    }
+    for file in [whole, small] {
+        for end in 0..file.len() - 20 {
+            assert!(read_file(&file[..end]).is_err(), "cut to {end}");
+        }
     }
 }
 

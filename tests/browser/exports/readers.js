@@ -35,6 +35,16 @@ const READERS = {
     return { tree: scene, generator: asset.generator, texture };
   },
   usda: async (address) => stageOf(address),
+  "usda.zip": async (address) => {
+    const files = unzipSync(new Uint8Array(await bytesAt(address)));
+    const address_of = (bytes, type) => URL.createObjectURL(new Blob([bytes], { type }));
+    // Blobs have no folder in which names of textures could be found.
+    const layer = new TextDecoder().decode(files["tree.usda"]).replaceAll(
+      /@(\w+\.png)@/g,
+      (_, name) => `@${address_of(files[name], "image/png")}@`,
+    );
+    return stageOf(address_of(layer, "text/plain"));
+  },
   usdz: async (address) => stageOf(address),
   ply: async (address) => ({ tree: cloudOf(await bytesAt(address)), generator: null }),
 };
@@ -77,8 +87,8 @@ async function stageOf(address) {
   return { tree: stage, generator: null, clips: stage.animations };
 }
 
-/** Colours of labels of a cloud of points, and where the light on it comes from, for the file has neither. */
-const LABELS = [new Color("#6b4a33"), new Color("#5f9a3a")];
+/** Colours of labels of a cloud of points (wood, leaves, flowers, fruits), and where the light on it comes from, for the file has neither. */
+const LABELS = [new Color("#6b4a33"), new Color("#5f9a3a"), new Color("#f0dce6"), new Color("#b8322a")];
 const LIGHT = new Vector3(0.4, 0.45, 0.8);
 
 /** A cloud, which has Z up, with each point in the colour of its label and lit by its normal. */
@@ -90,8 +100,8 @@ function cloudOf(bytes) {
   const colours = new Float32Array(3 * label.count);
   for (let at = 0; at < label.count; at++) {
     const facing = normal.getX(at) * LIGHT.x + normal.getY(at) * LIGHT.y + normal.getZ(at) * LIGHT.z;
-    // A leaf is seen from either side.
-    const lit = 0.45 + 0.55 * (label.getX(at) === 1 ? Math.abs(facing) : Math.max(facing, 0));
+    // What wood bears is seen from either side.
+    const lit = 0.45 + 0.55 * (label.getX(at) > 0 ? Math.abs(facing) : Math.max(facing, 0));
     LABELS[label.getX(at)]
       .clone()
       .multiplyScalar(lit)

@@ -18,6 +18,7 @@ const HEADS: Readonly<Record<string, string>> = {
   "obj.zip": "PK",
   "pivots.zip": "PK",
   usda: "#usda 1.0",
+  "usda.zip": "PK",
   usdz: "PK",
   ply: "ply\n",
   mtg: "CODE:",

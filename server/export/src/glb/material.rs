@@ -8,7 +8,7 @@ use crate::{
     ExportError,
     assembly::Surface,
     gltf::{Image, Material, NormalTexture, PbrMetallicRoughness, Texture as TextureJson, TextureInfo},
-    surface::Texture,
+    surface::{ONE_CELL, Texture},
 };
 
 impl Writer<'_> {
@@ -23,8 +23,9 @@ impl Writer<'_> {
             Surface::Thin(_, texture) => {
                 let mut material = plain(name, Vec3::ONE, 0.7);
                 let pbr = &mut material.pbr_metallic_roughness;
-                pbr.base_color_texture =
-                    Some(self.texture(format!("{name} colour"), &texture.colour_png(Vec3::ONE))?);
+                pbr.base_color_texture = Some(
+                    self.texture(format!("{name} colour"), &texture.colour_png(&[Vec3::ONE], ONE_CELL))?,
+                );
                 material.normal_texture = Some(self.normals(name, texture, 1.0)?);
                 material.alpha_mode = Some("MASK");
                 material.double_sided = true;
@@ -39,8 +40,9 @@ impl Writer<'_> {
                     None => None,
                 };
                 let pbr = &mut material.pbr_metallic_roughness;
-                pbr.base_color_texture =
-                    Some(self.texture(format!("{name} colour"), &texture.colour_png(Vec3::ONE))?);
+                pbr.base_color_texture = Some(
+                    self.texture(format!("{name} colour"), &texture.colour_png(&[Vec3::ONE], ONE_CELL))?,
+                );
                 pbr.metallic_roughness_texture = exposure;
                 material.occlusion_texture = exposure;
                 material.normal_texture = Some(self.normals(name, texture, *relief)?);

@@ -8,6 +8,11 @@ use glam::{Vec2, Vec3};
 
 use crate::{colour::encoded, png};
 
+/// How often a texture stands side by side and one above the other in a picture.
+pub(crate) type Cells = [usize; 2];
+/// Once.
+pub(crate) const ONE_CELL: Cells = [1, 1];
+
 /// A square texture, line upon line from its foot.
 #[derive(Clone, Debug)]
 pub(crate) struct Texture {
@@ -43,26 +48,30 @@ impl Depth {
 }
 
 impl Texture {
-    /// The colours times a tint as a PNG file, with cover where there is nothing in places.
-    pub(crate) fn colour_png(&self, tint: Vec3) -> Vec<u8> {
-        if self.cover.iter().all(|&cover| cover == 255) {
-            return self.png(|texel| encoded(self.colours[texel] * tint));
+    /// The colours times each of some tints as a PNG file, with cover where there is nothing in places: so many cells
+    /// across and up, one for each tint from the foot on, and nothing in those left over.
+    pub(crate) fn colour_png(&self, tints: &[Vec3], cells: Cells) -> Vec<u8> {
+        if self.cover.iter().all(|&cover| cover == 255) && tints.len() == cells[0] * cells[1] {
+            return self.png(cells, |texel, cell| encoded(self.colours[texel] * tints[cell]));
         }
-        self.png(|texel| {
-            let [r, g, b] = encoded(self.colours[texel] * tint);
-            [r, g, b, self.cover[texel]]
+        self.png(cells, |texel, cell| match tints.get(cell) {
+            None => [0; 4],
+            Some(&tint) => {
+                let [r, g, b] = encoded(self.colours[texel] * tint);
+                [r, g, b, self.cover[texel]]
+            }
         })
     }
 
     /// The normals as a PNG file.
     pub(crate) fn normal_png(&self) -> Vec<u8> {
-        self.png(|texel| (self.normals[texel] * 0.5 + 0.5).to_array().map(byte))
+        self.png(ONE_CELL, |texel, _| (self.normals[texel] * 0.5 + 0.5).to_array().map(byte))
     }
 
     /// How much of the sky is seen (red) and how rough it is (green) as a PNG file, where it says so.
     pub(crate) fn exposure_png(&self) -> Option<Vec<u8>> {
         let exposure = self.exposure.as_ref()?;
-        Some(self.png(|texel| {
+        Some(self.png(ONE_CELL, |texel, _| {
             let [sky, rough] = exposure[texel];
             [byte(sky), byte(rough), 0]
         }))
@@ -71,13 +80,24 @@ impl Texture {
     /// The depths as a PNG file, black for the farthest, where it says so.
     pub(crate) fn depth_png(&self) -> Option<Vec<u8>> {
         let depth = self.depth.as_ref()?;
-        Some(self.png(|texel| [byte(depth.shares[texel])]))
+        Some(self.png(ONE_CELL, |texel, _| [byte(depth.shares[texel])]))
     }
 
-    fn png<const CHANNELS: usize>(&self, texel: impl Fn(usize) -> [u8; CHANNELS]) -> Vec<u8> {
+    /// A picture of so many cells, each of which has all texels.
+    fn png<const CHANNELS: usize>(
+        &self,
+        [across, up]: Cells,
+        texel: impl Fn(usize, usize) -> [u8; CHANNELS],
+    ) -> Vec<u8> {
+        let mut pixels = Vec::with_capacity(across * up * self.side * self.side);
         // An image's first row is its top.
-        let lines = (0..self.side).rev().flat_map(|y| y * self.side..(y + 1) * self.side);
-        png::square(self.side, &lines.map(texel).collect::<Vec<_>>())
+        for line in (0..up * self.side).rev() {
+            let (row, y) = (line / self.side, line % self.side);
+            for cell in row * across..(row + 1) * across {
+                pixels.extend((y * self.side..(y + 1) * self.side).map(|at| texel(at, cell)));
+            }
+        }
+        png::picture([across * self.side, up * self.side], &pixels)
     }
 
     /// The texel at a place; it comes again beyond the borders.

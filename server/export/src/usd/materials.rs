@@ -3,7 +3,10 @@
 use std::io::{self, Write};
 
 use super::{Pictures, ROOT, arrays::joined};
-use crate::mean_materials::{MeanMaterial, MeanMaterials};
+use crate::{
+    mean_materials::{MeanMaterial, MeanMaterials},
+    surface::ONE_CELL,
+};
 
 /// The scope of all materials.
 pub(super) fn write(
@@ -51,6 +54,13 @@ fn one(material: &MeanMaterial, has_pictures: bool, metres: f32, out: &mut dyn W
     if has_pictures {
         writeln!(out, "def Shader \"Place\"\n{{\nuniform token info:id = \"UsdPrimvarReader_float2\"")?;
         writeln!(out, "string inputs:varname = \"st\"\nfloat2 outputs:result\n}}")?;
+        // The relief is the same in all cells of the colours.
+        let cells = material.cells();
+        if cells != ONE_CELL {
+            writeln!(out, "def Shader \"Cell\"\n{{\nuniform token info:id = \"UsdTransform2d\"")?;
+            writeln!(out, "float2 inputs:in.connect = <{path}/Place.outputs:result>")?;
+            writeln!(out, "float2 inputs:scale = ({}, {})\nfloat2 outputs:result\n}}", cells[0], cells[1])?;
+        }
         let relief = material.texture.as_ref().map_or(1.0, |(_, relief)| *relief);
         // Textures of normals count from -1 to 1; the relief makes them steeper.
         let (slope, rest) = (2.0 * relief, -relief);
@@ -77,7 +87,8 @@ fn one(material: &MeanMaterial, has_pictures: bool, metres: f32, out: &mut dyn W
         for (name, kind, space, settings) in both.into_iter().chain(depth) {
             writeln!(out, "def Shader \"{name}\"\n{{\nuniform token info:id = \"UsdUVTexture\"")?;
             writeln!(out, "asset inputs:file = @{}@", material.picture(kind))?;
-            writeln!(out, "float2 inputs:st.connect = <{path}/Place.outputs:result>")?;
+            let place = if name == "Normal" && cells != ONE_CELL { "Cell" } else { "Place" };
+            writeln!(out, "float2 inputs:st.connect = <{path}/{place}.outputs:result>")?;
             writeln!(out, "token inputs:sourceColorSpace = \"{space}\"")?;
             if !settings.is_empty() {
                 writeln!(out, "{settings}")?;

@@ -64,10 +64,10 @@ impl Writer<'_, '_> {
 
     /// What triangles of a part are made of: so many have its surface, or one of its colours, and so many the next. Where
     /// there are several, each triangle is in one subset: not all readers show what is in none.
-    fn subsets(&mut self, part: &Part<'_>, faces: &[u32], shades: usize) -> Result<(), ExportError> {
+    fn subsets(&mut self, part: &Part<'_>, faces: &[u32], materials: usize) -> Result<(), ExportError> {
         let Some(first) = part.surfaces.first() else { return Ok(()) };
-        let names: Vec<String> = if shades > 1 {
-            (0..shades).map(|shade| self.materials.name(first, shade).into_owned()).collect()
+        let names: Vec<String> = if materials > 1 {
+            (0..materials).map(|shade| self.materials.name(first, shade).into_owned()).collect()
         } else {
             part.surfaces.iter().map(|surface| surface.name().to_owned()).collect()
         };
@@ -222,18 +222,18 @@ impl<'s> Builder<'s> for Writer<'_, 's> {
         })?;
         // The triangles of the second surface stand behind all others, and those of one colour of leaves together, so that
         // they can be told by their numbers.
-        let shades = if let [one] = part.surfaces { self.materials.shades(one) } else { 1 };
-        let mut faces = vec![0; shades.max(2)];
+        let count = if let [one] = part.surfaces { self.materials.materials(one) } else { 1 };
+        let mut faces = vec![0; count.max(2)];
         let Self { out, materials, .. } = self;
         let mut array = Array::begin(&mut **out, "int[] faceVertexIndices")?;
         for (number, faces) in faces.iter_mut().enumerate() {
             let mut first = 0;
             (part.blocks)(&mut |block| {
-                let second = number > 0 && shades == 1;
+                let second = number > 0 && count == 1;
                 let indices = if second { block.second } else { &block.mesh.indices };
                 for corners in indices.as_chunks::<3>().0 {
                     let colour = block.colours[corners[0] as usize];
-                    if shades > 1 && materials.shade(&part.surfaces[0], colour) != number {
+                    if count > 1 && materials.shade(&part.surfaces[0], colour) != number {
                         continue;
                     }
                     *faces += 1;
@@ -256,9 +256,18 @@ impl<'s> Builder<'s> for Writer<'_, 's> {
                 block.mesh.normals.iter().try_for_each(|way| array.vector(&way.to_array()))
             })
         })?;
-        self.array("texCoord2f[] primvars:st", vertex, |array| {
-            (part.blocks)(&mut |block| block.mesh.uvs.iter().try_for_each(|uv| array.vector(&uv.to_array())))
+        let Self { out, materials, .. } = self;
+        let mut array = Array::begin(&mut **out, "texCoord2f[] primvars:st")?;
+        (part.blocks)(&mut |block| {
+            block.mesh.uvs.iter().zip(block.colours).try_for_each(|(&uv, &colour)| {
+                let uv = match part.surfaces {
+                    [thin] => materials.place(thin, materials.shade(thin, colour), uv),
+                    _ => uv,
+                };
+                array.vector(&uv.to_array())
+            })
         })?;
+        array.end(vertex)?;
         if part.lightmap.is_some() {
             self.array("texCoord2f[] primvars:st1", vertex, |array| {
                 (part.blocks)(&mut |block| {
@@ -276,7 +285,7 @@ impl<'s> Builder<'s> for Writer<'_, 's> {
         if let Some(skeleton) = skeleton {
             self.skin(part, &skeleton)?;
         }
-        self.subsets(part, &faces, shades)?;
+        self.subsets(part, &faces, count)?;
         Ok(writeln!(self.out, "}}")?)
     }
 
@@ -334,10 +343,13 @@ impl<'s> Builder<'s> for Writer<'_, 's> {
             )?;
             writeln!(self.out, "uniform token subdivisionScheme = \"none\"\nuniform bool doubleSided = 1")?;
             self.triangles(&cards.mesh, |place| place)?;
+            let shade = which / LeafForm::PROTOTYPES;
+            let places: Vec<_> =
+                cards.mesh.uvs.iter().map(|&uv| self.materials.place(surface, shade, uv)).collect();
             self.array("texCoord2f[] primvars:st", " (\ninterpolation = \"vertex\"\n)", |array| {
-                cards.mesh.uvs.iter().try_for_each(|uv| array.vector(&uv.to_array()))
+                places.iter().try_for_each(|uv| array.vector(&uv.to_array()))
             })?;
-            let material = self.materials.name(surface, which / LeafForm::PROTOTYPES);
+            let material = self.materials.name(surface, shade);
             self.bound(&material)?;
             writeln!(self.out, "}}")?;
         }

@@ -1,11 +1,12 @@
 //! OBJ and USD have the triangles that glTF has.
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, io::Read};
 
 use espalier_export::{About, Detail, ExportError, Model, Sink, in_memory};
 use espalier_mesh::Style;
 use espalier_plant::Plant;
 use espalier_settings::{Appearance, ParameterValues};
+use flate2::read::DeflateDecoder;
 
 use crate::{METRES, glb, looks, reader, saplings, style};
 
@@ -35,15 +36,24 @@ pub fn members(zip: &[u8]) -> BTreeMap<String, (usize, Vec<u8>)> {
     let mut at = word(end + 16);
     let mut found = BTreeMap::new();
     for _ in 0..half(end + 10) {
-        assert_eq!((&zip[at..at + 4], half(at + 10)), (&b"PK\x01\x02"[..], 0), "stored");
-        let (sum, size, start) = (word(at + 16), word(at + 24), word(at + 42));
+        assert_eq!(&zip[at..at + 4], b"PK\x01\x02");
+        let (method, sum, kept, size) = (half(at + 10), word(at + 16), word(at + 20), word(at + 24));
+        let start = word(at + 42);
         let name = String::from_utf8(zip[at + 46..at + 46 + half(at + 28)].to_vec()).expect("a name");
         assert_eq!(
-            (&zip[start..start + 4], word(start + 14), word(start + 22)),
-            (&b"PK\x03\x04"[..], sum, size)
+            (&zip[start..start + 4], half(start + 8), word(start + 14), word(start + 18), word(start + 22)),
+            (&b"PK\x03\x04"[..], method, sum, kept, size)
         );
-        let data = start + 30 + half(start + 26) + half(start + 28);
-        found.insert(name, (data, zip[data..data + size].to_vec()));
+        let begin = start + 30 + half(start + 26) + half(start + 28);
+        let mut data = zip[begin..begin + kept].to_vec();
+        if method == 8 {
+            let packed = std::mem::take(&mut data);
+            DeflateDecoder::new(&packed[..]).read_to_end(&mut data).expect("deflated data");
+        } else {
+            assert_eq!(method, 0, "{name} is stored");
+        }
+        assert_eq!((data.len(), crc32fast::hash(&data) as usize), (size, sum), "{name}");
+        found.insert(name, (begin, data));
         at += 46 + half(at + 28) + half(at + 30) + half(at + 32);
     }
     found
@@ -100,6 +110,12 @@ fn usd_has_the_triangles_of_the_glb_and_its_package_is_aligned() {
     for name in text.split('@').filter(|name| name.ends_with(".png")) {
         assert!(packed[name].1.starts_with(b"\x89PNG"), "{name}");
     }
+    // The same layer and textures as files of their own.
+    let unpacked = members(&file(espalier_export::usda_zip, &Model::default()));
+    let contents = |of: &BTreeMap<String, (usize, Vec<u8>)>| -> Vec<(String, Vec<u8>)> {
+        of.iter().map(|(name, (_, data))| (name.clone(), data.clone())).collect()
+    };
+    assert!(contents(&unpacked) == contents(&packed));
     let far = Model { detail: Detail::Level(Detail::BILLBOARD), ..Model::default() };
     let far = members(&file(espalier_export::usdz, &far));
     let text = String::from_utf8(far["tree.usda"].1.clone()).expect("text");
@@ -110,4 +126,21 @@ fn usd_has_the_triangles_of_the_glb_and_its_package_is_aligned() {
         instanced.contains("def PointInstancer \"Leaves\"")
             && instanced.matches("def Mesh \"Leaf").count().is_multiple_of(8)
     );
+}
+
+#[test]
+fn text_in_zip_files_is_deflated_and_pictures_are_stored() {
+    for format in [espalier_export::obj as Format, espalier_export::usda_zip] {
+        let zip = file(format, &Model::default());
+        let members = members(&zip);
+        let [pictures, text] = [true, false].map(|is_picture| -> usize {
+            let of = members.iter().filter(|(name, _)| name.ends_with(".png") == is_picture);
+            of.map(|(_, (_, data))| data.len()).sum()
+        });
+        assert!(zip.len() > pictures && zip.len() < pictures + text / 2, "{} {pictures} {text}", zip.len());
+        for (begin, data) in members.values().filter(|(_, data)| data.starts_with(b"\x89PNG")) {
+            assert_eq!(&zip[*begin..begin + data.len()], data);
+            assert_eq!(begin % 64, 0);
+        }
+    }
 }

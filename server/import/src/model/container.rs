@@ -13,6 +13,8 @@ const HEADER: usize = 12;
 const CHUNK_HEADER: usize = 8;
 /// The most bytes of JSON, buffers inside included: it is held in memory.
 const MAX_JSON_BYTES: usize = 16 << 20;
+/// The most bytes that a deflated OBJ file may have: as many as any other file.
+const MAX_TEXT_BYTES: u64 = 256 << 20;
 /// Extensions that are read.
 const READ: [&str; 4] = [
     "KHR_mesh_quantization",
@@ -37,25 +39,43 @@ pub(super) fn kind(source: &mut Source<'_>) -> Result<Kind, ImportError> {
     const LOOKED_AT: u64 = 256;
     let begin = source.bytes(0, source.length().min(LOOKED_AT) as usize)?;
     if begin.starts_with(b"PK\x03\x04") {
-        let (start, length) = stored_obj(&begin)
+        let Member { start, kept, size, is_deflated } = first_obj(&begin)
             .ok_or_else(|| ImportError::NotModel("it is a ZIP file; unpack it first".to_owned()))?;
-        source.narrow(start, length)?;
+        source.narrow(start, kept)?;
+        if is_deflated {
+            if size > MAX_TEXT_BYTES {
+                return Err(ImportError::NotModel("its OBJ file has more than 256 MiB".to_owned()));
+            }
+            source.deflated(size);
+        }
         return Ok(Kind::Text);
     }
     let text = begin.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&begin).trim_ascii_start();
     Ok(if begin.starts_with(MAGIC) || text.starts_with(b"{") { Kind::Gltf } else { Kind::Text })
 }
 
-/// Where an OBJ file lies that is the first member of a ZIP file and not compressed, as our own are.
-fn stored_obj(header: &[u8]) -> Option<(u64, u64)> {
+/// A member of a ZIP file: where its data begin, and how many bytes it has there and in all.
+struct Member {
+    start: u64,
+    kept: u64,
+    size: u64,
+    is_deflated: bool,
+}
+
+/// The OBJ file that is the first member of a ZIP file, stored or deflated, as our own are.
+fn first_obj(header: &[u8]) -> Option<Member> {
     const NAME: usize = 30;
+    const STORED: u16 = 0;
+    const DEFLATED: u16 = 8;
     /// The bit that says that the size stands behind the data.
     const SIZE_LATER: u16 = 1 << 3;
     let short = |at: usize| Some(u16::from_le_bytes(*header.get(at..)?.first_chunk()?));
     let (flags, method, name, extra) = (short(6)?, short(8)?, short(26)?, short(28)?);
     let is_obj = header.get(NAME..NAME + usize::from(name))?.to_ascii_lowercase().ends_with(b".obj");
     let start = NAME as u64 + u64::from(name) + u64::from(extra);
-    (is_obj && method == 0 && flags & SIZE_LATER == 0).then(|| (start, u64::from(word(&header[22..]))))
+    let is_known = is_obj && [STORED, DEFLATED].contains(&method) && flags & SIZE_LATER == 0;
+    let [kept, size] = [18, 22].map(|at| u64::from(word(&header[at..])));
+    is_known.then_some(Member { start, kept, size, is_deflated: method == DEFLATED })
 }
 
 /// JSON and buffers.
