@@ -435,7 +435,21 @@ mod tests {
                 assert_eq!(after.seed(), 3, "{name}");
                 assert_eq!(after.parameters(), before.parameters(), "{name}, {format:?}");
                 assert_eq!(after.appearance(), before.appearance(), "{name}, {format:?}");
-                // In summer all of them are out; in spring and autumn chance decides, by rows.
+                if format == WoodFormat::Skeleton {
+                    // Rows decide which way leaves point and which have come or gone, and skeletons know these.
+                    for season in [0.2, 1.0, 2.2] {
+                        let [before, after] = [before.clone(), after.clone()].map(|mut document| {
+                            let look = json!({"kind": "set_appearance", "appearance": {"leaves": {"season": season}}});
+                            let done = document.apply(&Principal::visitor(), &command(look));
+                            done.unwrap_or_else(|problem| panic!("{problem}"));
+                            let file = exported(&mut document, exports::Format::Skeleton);
+                            let file: serde_json::Value = serde_json::from_slice(&file).unwrap_or_default();
+                            file["leaves"].clone()
+                        });
+                        assert!(before == after && !before.is_null(), "{name} in {season}");
+                    }
+                }
+                // In summer all of them are out; in spring and autumn chance decides, by rows, which graphs do not know.
                 let [before, after] = [before.clone(), after].map(|mut document| {
                     let summer = json!({"kind": "set_appearance", "appearance": {"leaves": {"season": 1.0}}});
                     document

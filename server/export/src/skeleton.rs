@@ -3,8 +3,8 @@
 use std::cell::Cell;
 
 use espalier_growth::simulation_version;
-use espalier_mesh::Style;
-use espalier_plant::{AxisId, MetamerId, Plant};
+use espalier_mesh::{Style, ring_table::told};
+use espalier_plant::{AxisId, MetamerId, Organ, Plant};
 use espalier_settings::{Appearance, ParameterValues};
 use glam::DVec3;
 use serde::{Serialize, Serializer};
@@ -44,6 +44,7 @@ pub fn skeleton_json(
     let structure = Structure::of(plant, style, origin.parameters.internode_length)?;
     let foliage = Foliage::of(plant, style, origin.looks, 0);
     let shed = structure.shed();
+    let mut next = 0;
     let file = File {
         format: "espalier-skeleton",
         version: VERSION,
@@ -54,9 +55,11 @@ pub fn skeleton_json(
         seed: origin.seed,
         parameters: origin.parameters,
         axes: Each::of(structure.axes.iter().map(|&id| axis(&structure, id))),
-        metamers: Each::of(
-            structure.metamers.iter().zip(shed).map(|(&id, shed)| metamer(&structure, id, shed)),
-        ),
+        metamers: Each::of(structure.metamers.iter().zip(shed).map(|(&id, shed)| {
+            let row = Some(id.raw()).filter(|&row| row != next);
+            next = id.raw() + 1;
+            Metamer { row, ..metamer(&structure, id, shed) }
+        })),
         leaves: Each::of(living(plant).flat_map(|id| {
             let structure = &structure;
             foliage.leaves(id).map(move |(leaf, _)| Leaf {
@@ -97,6 +100,9 @@ struct Axis {
 
 #[derive(Serialize)]
 struct Metamer {
+    /// Where it is not the next one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    row: Option<u32>,
     parent: Option<u32>,
     axis: u32,
     position: [f64; 3],
@@ -107,6 +113,9 @@ struct Metamer {
     width: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     shed: Option<u32>,
+    /// Kinds, azimuths, inclinations, rolls and codes of lengths of organs that it is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    organs: Option<Vec<[u8; 5]>>,
 }
 
 #[derive(Serialize)]
@@ -145,7 +154,13 @@ fn axis(structure: &Structure<'_>, id: AxisId) -> Axis {
 
 fn metamer(structure: &Structure<'_>, id: MetamerId, shed: u32) -> Metamer {
     let (plant, metamers) = (structure.plant, structure.plant.metamers());
+    let numbers = |organ: &Organ| {
+        let Organ { kind, azimuth, inclination, roll, length } = *organ;
+        [kind as u8, azimuth, inclination, roll, length]
+    };
     Metamer {
+        row: None,
+        organs: told(plant, id).map(|organs| organs.iter().map(numbers).collect()),
         parent: metamers.parent(id).map(|parent| structure.number(parent)),
         axis: structure.axis_number(metamers.axis(id)),
         position: place(structure.place(id)),

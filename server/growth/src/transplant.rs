@@ -3,7 +3,7 @@
 
 use espalier_plant::{
     AxisId, BrokenPlant, DormantBuds, Edit, Given, GivenRadii, Internode, MetamerId, Organs, Plant,
-    PlantParts, Wood, given::GivenColumn,
+    PlantParts, Wood, WoodAxis, WoodNode, given::GivenColumn,
 };
 use glam::{Quat, Vec3};
 
@@ -32,7 +32,50 @@ const LEAST_SINE: f32 = 0.05;
 /// # Errors
 /// Where nodes and axes do not fit together, or an internode has no length.
 pub fn transplant(wood: &Wood, parameters: &Parameters) -> Result<Plant, BrokenPlant> {
-    Plant::from_parts(rooted(wood, parameters)?)
+    if wood.gaps.is_empty() {
+        return Plant::from_parts(rooted(wood, parameters)?);
+    }
+    check(wood)?;
+    let (wood, gone) = with_gaps(wood);
+    let mut parts = rooted(&wood, parameters)?;
+    for row in gone {
+        parts.death[row] = wood.nodes[row].birth;
+    }
+    Plant::from_parts(parts)
+}
+
+/// The same wood with rows where it has gaps, and which rows these are: seeds that were gone as soon as they were laid
+/// down, so that nothing else knows of them at any time.
+fn with_gaps(wood: &Wood) -> (Wood, Vec<usize>) {
+    let mut rows = Vec::with_capacity(wood.nodes.len());
+    let (mut nodes, mut axes, mut gone) = (Vec::new(), wood.axes.clone(), Vec::new());
+    let mut gaps = wood.gaps.iter().copied().peekable();
+    let end = wood.nodes.first().map_or(Vec3::ZERO, |first| first.end);
+    for (number, node) in wood.nodes.iter().enumerate() {
+        let gap = gaps.next_if(|&(before, _)| before as usize == number).map_or(0, |(_, count)| count);
+        for _ in 0..gap {
+            gone.push(nodes.len());
+            let axis = axes.len() as u32;
+            axes.push(WoodAxis { bearer: None, direction: None, has_bud: false });
+            nodes.push(WoodNode { parent: None, axis, end, normal: None, radius: None, birth: node.birth });
+        }
+        rows.push(nodes.len() as u32);
+        nodes.push(WoodNode { parent: node.parent.map(|parent| rows[parent as usize]), ..*node });
+    }
+    let moved = |number: u32| rows[number as usize];
+    for axis in &mut axes {
+        axis.bearer = axis.bearer.map(moved);
+    }
+    let wood = Wood {
+        nodes,
+        axes,
+        widths: wood.widths.iter().map(|&(number, width)| (moved(number), width)).collect(),
+        scars: wood.scars.iter().map(|&(number, tips)| (moved(number), tips)).collect(),
+        organs: wood.organs.iter().map(|(number, organs)| (moved(*number), organs.clone())).collect(),
+        gaps: Vec::new(),
+        buds: wood.buds,
+    };
+    (wood, gone)
 }
 
 /// The parts of a plant of this wood.
@@ -56,7 +99,7 @@ fn rooted(wood: &Wood, parameters: &Parameters) -> Result<PlantParts, BrokenPlan
 
 impl<G: Generator + AsRef<Growth>> Simulation<G> {
     /// Plants wood beside the plants that there are, moved by so much, in a step of its own, in which nothing grows
-    /// older. Its rows stand in the order of its nodes; width constraints and what was shed are left out.
+    /// older. Its rows stand in the order of its nodes; width constraints, gaps and what was shed are left out.
     ///
     /// # Errors
     /// Where it would stand outside the world or be more than the scene may hold, or does not fit together; then
@@ -146,6 +189,12 @@ fn check(wood: &Wood) -> Result<(), BrokenPlant> {
     let is_borne = |axis: u32| wood.axes[axis as usize].bearer.is_some();
     if wood.nodes.iter().any(|node| node.parent.is_none() && is_borne(node.axis)) {
         return broken("a seed stands on a branch");
+    }
+    if !wood.gaps.is_sorted_by(|a, b| a.0 < b.0) || wood.gaps.iter().any(|&(node, _)| node >= nodes) {
+        return broken("a gap is before nothing");
+    }
+    if wood.widths.iter().any(|&(row, _)| row >= nodes) {
+        return broken("a width constraint is on nothing");
     }
     let is_there = |row: u32| wood.nodes.get(row as usize).is_some_and(|node| node.parent.is_some());
     if !wood.scars.is_sorted_by(|a, b| a.0 < b.0) || !wood.scars.iter().all(|&(row, _)| is_there(row)) {
@@ -370,7 +419,7 @@ impl Rooting<'_> {
 
 #[cfg(test)]
 mod tests {
-    use espalier_plant::{Girth, Widths, WoodAxis, WoodNode, checks};
+    use espalier_plant::{Girth, Widths, checks};
 
     use super::*;
     use crate::{NoObserver, Simulation, SimulationState, StepInput};
@@ -480,6 +529,41 @@ mod tests {
     }
 
     #[test]
+    fn gaps_are_rows_of_which_nothing_is_seen_at_any_time() {
+        let mut wood = sapling();
+        wood.scars = vec![(1, 3)];
+        wood.widths = vec![(3, 0.5)];
+        let plain = planted(&wood);
+        wood.gaps = vec![(1, 2), (3, 1), (4, 4)];
+        let mut plant = planted(&wood);
+        let rows = [0, 3, 4, 6, 11].map(MetamerId::new);
+        let living = |plant: &Plant| -> Vec<MetamerId> {
+            (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id)).collect()
+        };
+        assert_eq!((living(&plant), plant.metamer_count()), (rows.to_vec(), 12));
+        assert_eq!(plant.widths().map(|(id, _)| id).collect::<Vec<_>>(), [rows[3]]);
+        assert_eq!(plant.living_axes_count(), plain.living_axes_count());
+        for (number, &row) in rows.iter().enumerate() {
+            let old = MetamerId::new(number);
+            assert_eq!(plant.metamers().end(row), plain.metamers().end(old));
+            assert_eq!(plant.metamers().tips(row), plain.metamers().tips(old));
+            assert_eq!(plant.birth(row), plain.birth(old));
+            let parent = plain.metamers().parent(old).map(|parent| rows[parent.index()]);
+            assert_eq!(plant.metamers().parent(row), parent);
+        }
+        for (step, count) in [(1, 3), (0, 1)] {
+            plant.go_to(step);
+            assert_eq!(living(&plant), rows[..count], "step {step}");
+            assert_eq!(checks::all(&plant), Ok(()));
+        }
+        // It is written down and read again as any other.
+        assert_eq!(
+            Plant::from_parts(planted(&wood).to_parts()).map(|plant| living(&plant)),
+            Ok(rows.to_vec())
+        );
+    }
+
+    #[test]
     fn young_wood_alone_has_dormant_buds_where_no_others_are_known() {
         // A pole of so many internodes that the lower half has long outgrown its buds.
         let parameters = Parameters::default();
@@ -500,7 +584,7 @@ mod tests {
 
     #[test]
     fn wood_that_does_not_fit_together_is_refused() {
-        let broken: [fn(&mut Wood); 11] = [
+        let broken: [fn(&mut Wood); 14] = [
             |wood| wood.nodes.clear(),
             |wood| wood.nodes[0].birth = 1,
             |wood| wood.nodes[4].birth = 0,
@@ -512,6 +596,9 @@ mod tests {
             |wood| wood.nodes[4].end = wood.nodes[2].end,
             |wood| wood.scars = vec![(5, 1)],
             |wood| wood.scars = vec![(2, 1), (2, 1)],
+            |wood| wood.gaps = vec![(5, 1)],
+            |wood| wood.gaps = vec![(3, 1), (2, 1)],
+            |wood| (wood.gaps, wood.widths) = (vec![(1, 1)], vec![(5, 1.0)]),
         ];
         for (case, damage) in broken.into_iter().enumerate() {
             let mut wood = sapling();

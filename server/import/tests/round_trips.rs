@@ -5,9 +5,13 @@ mod saplings;
 
 use espalier_export::{ExportError, Origin, in_memory, mtg, qsm_csv, skeleton_json};
 use espalier_growth::{Parameters, transplant};
-use espalier_import::{Units, WoodFile, WoodFormat, WoodOptions, read_wood};
-use espalier_mesh::{Style, StyleOptions};
-use espalier_plant::{MetamerId, Plant, Widths, checks};
+use espalier_import::{FaultKind, Place, Units, WoodFile, WoodFormat, WoodOptions, read_wood};
+use espalier_mesh::{
+    Style, StyleOptions,
+    leaves::{self, Leaf},
+    ring_table::told,
+};
+use espalier_plant::{MetamerId, Organ, OrganKind, Plant, Widths, Wood, checks};
 use espalier_settings::{Appearance, ParameterValues};
 use proptest::prelude::*;
 
@@ -61,11 +65,12 @@ fn is_same(before: &Plant, after: &Plant) -> Result<(), TestCaseError> {
     let style = style();
     let [before_widths, after_widths] = [before, after].map(|plant| Widths::of(plant, style.girth()));
     let number = |id: MetamerId| old.binary_search(&id).ok();
+    let number_after = |id: MetamerId| new.binary_search(&id).ok();
     for (&old, &new) in old.iter().zip(&new) {
         let (was, is) = (before.metamers(), after.metamers());
         prop_assert!(was.end(old).distance(is.end(new)) < NEAR);
         let parent = was.parent(old);
-        prop_assert_eq!(parent.and_then(number), is.parent(new).map(MetamerId::index));
+        prop_assert_eq!(parent.and_then(number), is.parent(new).and_then(number_after));
         prop_assert_eq!(before.birth(old), after.birth(new));
         prop_assert_eq!(was.tips(old), is.tips(new));
         prop_assert_eq!(before.axes().order(was.axis(old)), after.axes().order(is.axis(new)));
@@ -93,6 +98,18 @@ proptest! {
             saplings::living(plant).iter().map(|&id| plant.metamers().normal(id)).collect::<Vec<_>>()
         };
         prop_assert!(normals(&before).iter().zip(normals(&after)).all(|(was, is)| was.distance(is) < NEAR));
+        // Each leaf hangs where it did, whatever has died before it grew.
+        let style = style();
+        let leaves = |plant: &Plant| -> Vec<Leaf> {
+            saplings::living(plant).iter().flat_map(|&id| leaves::of(plant, id, &style)).collect()
+        };
+        let (old, new) = (leaves(&before), leaves(&after));
+        prop_assert_eq!(old.len(), new.len());
+        for (was, is) in old.iter().zip(&new) {
+            let vectors = [(was.base, is.base), (was.direction, is.direction), (was.normal, is.normal)];
+            prop_assert!(vectors.iter().all(|(was, is)| was.distance(*is) < NEAR), "{:?} {:?}", was, is);
+            prop_assert!((was.size - is.size).abs() < NEAR && was.random == is.random, "{:?} {:?}", was, is);
+        }
         let buds = |plant: &Plant| {
             (0..plant.axis_count()).map(espalier_plant::AxisId::new).filter(|&axis| plant.is_axis_alive(axis)).count()
         };
@@ -132,6 +149,63 @@ proptest! {
             prop_assert!(is_there, "{:?}", cylinder);
         }
     }
+}
+
+#[test]
+fn organs_that_metamers_are_given_come_back_as_they_stood() {
+    let mut before = saplings::fork();
+    let ids = saplings::living(&before);
+    let organ = |kind, azimuth| Organ {
+        kind,
+        azimuth,
+        inclination: azimuth / 2 + 40,
+        roll: azimuth / 5,
+        length: azimuth,
+    };
+    let kinds = OrganKind::ALL;
+    let azimuths = [3u8, 90, 200].into_iter().cycle();
+    let given = ids[1..].iter().zip(azimuths).map(|(&id, azimuth)| {
+        let organs = kinds.map(|kind| organ(kind, azimuth.wrapping_add(17 * kind as u8)));
+        (id, Some(organs.as_slice().into()))
+    });
+    let given: Vec<_> = given.collect();
+    before.begin_edit();
+    before.give_organs(&given).expect("they live");
+    before.end_step();
+    let bytes = skeleton(&before);
+    let after = planted(&read(WoodFormat::Skeleton, &bytes));
+    let style = style();
+    for &id in &ids[1..] {
+        let stand = |plant: &Plant| leaves::of(plant, id, &style).collect::<Vec<_>>();
+        assert_eq!((stand(&before), stand(&before).len()), (stand(&after), 1));
+        assert_eq!(told(&before, id), told(&after, id), "flowers and fruits as well");
+    }
+    // What none can be is told with its place.
+    let text = String::from_utf8(bytes).expect("text");
+    for (bad, allowed) in
+        [("[3,1,1,1,1]", "[kind, azimuth"), ("[0,1]", "[kind, azimuth"), ("[0,1,1,64,1]", "[kind, azimuth")]
+    {
+        let begin = text.find("\"organs\":[[").expect("organs") + "\"organs\":[".len();
+        let end = begin + text[begin..].find(']').expect("it ends") + 1;
+        let text = format!("{}{bad}{}", &text[..begin], &text[end..]);
+        let fault = read_wood(WoodFormat::Skeleton, text.as_bytes(), &options()).expect_err("it is refused");
+        let place = Some(Place::Member("metamers[1].organs[0]".into()));
+        assert_eq!(fault.place, place, "{fault}");
+        assert!(fault.allowed.as_ref().is_some_and(|said| said.starts_with(allowed)), "{fault}");
+    }
+    let row = text.replacen("{\"parent\":1", "{\"row\":1,\"parent\":1", 1);
+    let fault = read_wood(WoodFormat::Skeleton, row.as_bytes(), &options()).expect_err("rows go on");
+    assert_eq!(fault.kind, FaultKind::OutOfRange, "{fault}");
+}
+
+#[test]
+fn rows_without_end_are_closed_up() {
+    let text = String::from_utf8(skeleton(&saplings::fork())).expect("text");
+    let [far, near] = [900_000_000, 9].map(|row| text.replacen("\"row\":4", &format!("\"row\":{row}"), 1));
+    let wood = |text: &str| read(WoodFormat::Skeleton, text.as_bytes()).wood;
+    assert_eq!(wood(&text).gaps, [(3, 1)]);
+    assert_eq!(wood(&near), Wood { gaps: vec![(3, 6)], ..wood(&text) });
+    assert_eq!(wood(&far), Wood { gaps: Vec::new(), ..wood(&text) });
 }
 
 #[test]

@@ -21,6 +21,9 @@ pub struct Wood {
     /// Organs that nodes bear in place of those that grow on such wood: nodes in ascending order, seeds left out. They are
     /// counted from the [sides](crate::organs::shortest_sides) of the shortest turn, for not all nodes have a normal.
     pub organs: Vec<(u32, Organs)>,
+    /// Rows of what has died, which come before nodes: nodes in ascending order, and how many rows. Leaves turn by the rows
+    /// of what bears them.
+    pub gaps: Vec<(u32, u32)>,
     /// Which dormant buds there are.
     pub buds: DormantBuds,
 }

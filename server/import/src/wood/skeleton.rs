@@ -10,7 +10,7 @@ use glam::{DVec3, Vec3};
 use serde::{Deserialize, de::DeserializeOwned};
 
 use self::values::{
-    Axes, AxisNumber, Bearer, Birth, Girth, Head, Metamers, Order, Parent, Shed, Vector, Version,
+    Axes, AxisNumber, Bearer, Birth, Borne, Girth, Head, Metamers, Order, Parent, Row, Shed, Vector, Version,
 };
 use super::{
     Fault, FaultKind, MAX_SHED, MAX_STEP, Place, WoodFile, WoodOptions, malformed, out_of_range, too_many,
@@ -55,6 +55,7 @@ fn yes() -> bool {
 
 #[derive(Deserialize)]
 struct Metamer {
+    row: Option<Row>,
     parent: Option<Parent>,
     axis: AxisNumber,
     position: Vector<f64>,
@@ -63,6 +64,7 @@ struct Metamer {
     birth: Birth,
     width: Option<Girth>,
     shed: Option<Shed>,
+    organs: Option<Borne>,
 }
 
 /// The wood of a skeleton.
@@ -132,6 +134,7 @@ fn second(mut file: Second, options: &WoodOptions) -> Result<WoodFile, Fault> {
     let scale = as_written(length);
     let (mut nodes, mut widths, mut scars) =
         (Vec::with_capacity(file.metamers.len()), Vec::new(), Vec::new());
+    let (mut gaps, mut organs, mut next) = (Vec::new(), Vec::new(), 0);
     let mut all_shed = 0;
     for (metamer, at) in file.metamers.iter().zip(0u32..) {
         let &Metamer {
@@ -142,8 +145,18 @@ fn second(mut file: Second, options: &WoodOptions) -> Result<WoodFile, Fault> {
             birth: Birth(birth),
             width,
             shed,
+            row,
             ..
         } = metamer;
+        let Row(row) = row.unwrap_or(Row(next));
+        if row < next {
+            let allowed = format!("{next}, the row behind the one before, or more");
+            return Err(out_of_range(member(at as usize, "row"), format!("it is {row}"), allowed));
+        }
+        if row > next {
+            gaps.push((at, row - next));
+        }
+        next = row + 1;
         let parent = metamer.parent.map(|Parent(parent)| parent);
         if let Some(parent) = parent.filter(|&parent| parent >= at) {
             return Err(behind(at, parent));
@@ -159,6 +172,9 @@ fn second(mut file: Second, options: &WoodOptions) -> Result<WoodFile, Fault> {
             }
             scars.push((at, shed));
         }
+        if let Some(Borne(borne)) = metamer.organs.as_ref().filter(|_| parent.is_some()) {
+            organs.push((at, borne.clone()));
+        }
         let normal = normal.map(|Vector(normal)| Vec3::from_array(normal));
         nodes.push(WoodNode { parent, axis, end, normal, radius, birth });
     }
@@ -168,7 +184,11 @@ fn second(mut file: Second, options: &WoodOptions) -> Result<WoodFile, Fault> {
         has_bud: axis.bud,
     };
     let axes = file.axes.iter().map(axis).collect();
-    let wood = Wood { nodes, axes, widths, scars, buds: DormantBuds::Known, ..Wood::default() };
+    // Rows without end would be memory without end; where they are closed up leaves turn otherwise.
+    if next as usize > options.nodes {
+        gaps.clear();
+    }
+    let wood = Wood { nodes, axes, widths, scars, organs, gaps, buds: DormantBuds::Known };
     let notes = Vec::new();
     Ok(WoodFile { wood, parameters: file.parameters, species: file.species, seed: file.seed, notes })
 }

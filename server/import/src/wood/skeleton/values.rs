@@ -2,13 +2,17 @@
 
 use std::{fmt, marker::PhantomData, ops::Deref};
 
-use espalier_reading::{Between, Bounded};
+use espalier_plant::{Organ, OrganKind, Organs, organs::MOST_ORGANS};
+use espalier_reading::{Between, Bounded, NotAllowed};
 use serde::{
     Deserialize, Deserializer,
     de::{DeserializeSeed, Error, IgnoredAny, SeqAccess, Unexpected, Visitor},
 };
 
 use crate::wood::{MAX_SHED, MAX_STEP};
+
+/// The last row that a file may name.
+const MAX_ROW: u32 = 1_000_000_000;
 
 /// What says how to read the rest.
 #[derive(Deserialize)]
@@ -75,6 +79,8 @@ macro_rules! numbers {
 numbers! {
     /// The metamer that one grows from.
     Parent: u32 from 0, to u32::MAX, "null, or the number of a metamer that stands before this one, from 0";
+    /// The row of a metamer.
+    Row: u32 from 0, to MAX_ROW, Between(0, MAX_ROW);
     /// The axis of a metamer.
     AxisNumber: u32 from 0, to u32::MAX, "the number of an axis, from 0";
     /// The metamer that bears an axis.
@@ -87,6 +93,55 @@ numbers! {
     Shed: u32 from 0, to MAX_SHED, Between(0, MAX_SHED);
     /// A radius, or a width.
     Girth: f64 from 0.0, to f64::MAX, "0 and more";
+}
+
+/// Organs that a metamer is given.
+pub(super) struct Borne(pub Organs);
+
+impl<'de> Deserialize<'de> for Borne {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Reader;
+
+        impl<'de> Visitor<'de> for Reader {
+            type Value = Borne;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "a list of up to {MOST_ORGANS} organs")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<Borne, A::Error> {
+                let mut all = Vec::new();
+                while let Some(OneOrgan(organ)) = entries.next_element()? {
+                    if all.len() == MOST_ORGANS {
+                        let allowed = format!("a list of up to {MOST_ORGANS} organs");
+                        return Err(A::Error::custom(NotAllowed::new("longer list", allowed)));
+                    }
+                    all.push(organ);
+                }
+                Ok(Borne(all.into()))
+            }
+        }
+
+        deserializer.deserialize_seq(Reader)
+    }
+}
+
+/// One of them.
+struct OneOrgan(Organ);
+
+impl<'de> Deserialize<'de> for OneOrgan {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        const ALLOWED: &str =
+            "[kind, azimuth, inclination, roll, length], whole numbers up to 2, 255, 255, 63 and 255";
+        let wrong = |found: String| D::Error::custom(NotAllowed::new(found, ALLOWED));
+        let numbers = Vec::<u8>::deserialize(deserializer)?;
+        let [kind, azimuth, inclination, roll, length] = numbers[..] else {
+            return Err(wrong(format!("list of {}", numbers.len())));
+        };
+        let kind = OrganKind::ALL.get(usize::from(kind)).copied().filter(|_| roll < 64);
+        let kind = kind.ok_or_else(|| wrong(format!("{numbers:?}")))?;
+        Ok(Self(Organ { kind, azimuth, inclination, roll, length }))
+    }
 }
 
 /// Three numbers.
