@@ -35,16 +35,6 @@ const READERS = {
     return { tree: scene, generator: asset.generator, texture };
   },
   usda: async (address) => stageOf(address),
-  "usda.zip": async (address) => {
-    const files = unzipSync(new Uint8Array(await bytesAt(address)));
-    const address_of = (bytes, type) => URL.createObjectURL(new Blob([bytes], { type }));
-    // Blobs have no folder in which names of textures could be found.
-    const layer = new TextDecoder().decode(files["tree.usda"]).replaceAll(
-      /@(\w+\.png)@/g,
-      (_, name) => `@${address_of(files[name], "image/png")}@`,
-    );
-    return stageOf(address_of(layer, "text/plain"));
-  },
   usdz: async (address) => stageOf(address),
   ply: async (address) => ({ tree: cloudOf(await bytesAt(address)), generator: null }),
 };

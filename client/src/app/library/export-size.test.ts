@@ -54,7 +54,7 @@ function formats(): ReadonlyMap<string, ExportFormat> {
         ending: ending!,
         options: /LOD|MESHES|SCENES/.test(options!) ? ["lod"] : [],
         bytes: numbers(bytes!) as ExportFormat["bytes"],
-        levels: levels(format!.startsWith("Usd") ? "USD_LEVELS" : "LEVELS"),
+        levels: levels(/Obj|UsdaZip/.test(format!) ? "PACKED_LEVELS" : /Usd/.test(format!) ? "USD_LEVELS" : "LEVELS"),
         shares,
       },
     ]),
