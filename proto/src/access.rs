@@ -79,16 +79,199 @@ pub struct Entrance {
     pub passwords: bool,
 }
 
-/// `GET /api/v1/users`: somebody who can log in.
+/// Somebody who can log in (`AC19`).
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ListedUser {
-    /// What they are called.
+    /// Their identifier, which stays theirs whatever they are called.
+    pub id: String,
+    /// What they are called, and log in by.
     pub name: String,
-    /// What they may do.
+    /// What they may do, by themselves or by a group.
     pub role: Role,
+    /// What they may do by themselves.
+    pub own_role: Role,
+    /// The names of the groups that they are in.
+    pub groups: Vec<String>,
     /// When they were added, in UTC.
     pub created_at: String,
+    /// How often their name, role or password was changed, and 1; the `ETag` has it as well.
+    #[ts(type = "number")]
+    pub revision: u64,
+}
+
+/// `POST /api/v1/users`: somebody can log in from now on (`AC19`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct NewUser {
+    /// What they are called, and log in by.
+    pub name: Name,
+    /// What they may do by themselves.
+    pub role: Role,
+    /// What they log in with: 8 to 200 characters.
+    pub password: String,
+}
+
+/// `PATCH /api/v1/users/{user}`: change somebody who can log in (`AC19`).
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ChangeUser {
+    /// What they are called, and log in by.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub name: Option<Name>,
+    /// What they may do by themselves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub role: Option<Role>,
+    /// What they log in with; wherever they are logged in, that ends.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub password: Option<String>,
+}
+
+/// `PUT /api/v1/me/password`: log in with another password from now on (`AC19`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ChangePassword {
+    /// The one until now.
+    pub old: String,
+    /// The one from now on: 8 to 200 characters.
+    pub new: String,
+}
+
+/// Users who have a role together (`AC20`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ListedGroup {
+    /// Its identifier, which stays whatever it is called.
+    pub id: String,
+    /// What it is called.
+    pub name: String,
+    /// What its members may do, if their own role is not more.
+    pub role: GroupRole,
+    /// Who is in it, by name.
+    pub members: Vec<GroupMember>,
+    /// When it was added, in UTC.
+    pub created_at: String,
+    /// How often its name, role or members were changed, and 1; the `ETag` has it as well.
+    #[ts(type = "number")]
+    pub revision: u64,
+}
+
+/// Somebody in a group.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct GroupMember {
+    /// The identifier of the user.
+    pub id: String,
+    /// What they are called.
+    pub name: String,
+}
+
+/// What a group may allow: administrators are made one by one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum GroupRole {
+    /// As the role.
+    Viewer,
+    /// As the role.
+    Commenter,
+    /// As the role.
+    Editor,
+    /// As the role.
+    Owner,
+}
+
+impl From<GroupRole> for Role {
+    fn from(role: GroupRole) -> Self {
+        match role {
+            GroupRole::Viewer => Self::Viewer,
+            GroupRole::Commenter => Self::Commenter,
+            GroupRole::Editor => Self::Editor,
+            GroupRole::Owner => Self::Owner,
+        }
+    }
+}
+
+impl From<Role> for GroupRole {
+    /// No more than a group may have.
+    fn from(role: Role) -> Self {
+        match role {
+            Role::Viewer => Self::Viewer,
+            Role::Commenter => Self::Commenter,
+            Role::Editor => Self::Editor,
+            Role::Owner | Role::Admin => Self::Owner,
+        }
+    }
+}
+
+/// `POST /api/v1/groups`: users may have a role together (`AC20`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct NewGroup {
+    /// What it is called.
+    pub name: Name,
+    /// What its members may do.
+    pub role: GroupRole,
+}
+
+/// `PATCH /api/v1/groups/{group}`: change a group (`AC20`).
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ChangeGroup {
+    /// What it is called.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub name: Option<Name>,
+    /// What its members may do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub role: Option<GroupRole>,
+}
+
+/// A program that may ask the server (`AC21`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ListedToken {
+    /// Its identifier; no secret.
+    pub id: String,
+    /// What the program is called.
+    pub name: String,
+    /// What it may do now: never more than whoever made it.
+    pub role: Role,
+    /// What whoever made it is called, as whom the program acts; nobody, where it was made at the machine itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub of: Option<String>,
+    /// When it was made, in UTC.
+    pub since: String,
+    /// When it ends.
+    pub until: String,
+}
+
+/// `POST /api/v1/tokens`: let a program act as oneself (`AC21`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct NewToken {
+    /// What the program is called.
+    pub name: Name,
+    /// The most that it may do.
+    pub role: LinkRole,
+    /// For how many hours, from now on; without it for 90 days.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub hours: Option<LinkHours>,
+}
+
+/// A token as it is shown once.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct MadeToken {
+    /// Its identifier.
+    pub id: String,
+    /// What the program sends as `Authorization: Bearer TOKEN`.
+    pub token: String,
 }
 
 /// Somebody has come in; the cookie of the answer says so from now on.
@@ -178,7 +361,7 @@ pub struct ChangeLink {
     pub role: LinkRole,
 }
 
-/// What a link may allow.
+/// What a link or a token may allow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum LinkRole {

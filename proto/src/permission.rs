@@ -90,6 +90,10 @@ table! {
     SeeFigures: Viewer, Library;
     /// Sees which sessions are in memory, and what they take.
     SeeServer: Owner, Library;
+    /// Lists tokens of one's own, makes and revokes them, and changes one's own password.
+    OwnTokens: Viewer, Library;
     /// Sees who can come in, and what was done.
     SeePeople: Admin, Library;
+    /// Says who can come in, and what they may do: users, groups and their members.
+    ChangePeople: Admin, Library;
 }

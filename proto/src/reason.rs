@@ -191,6 +191,10 @@ reasons! {
         NotDeleted,
         /// A collection cannot lie in itself.
         CollectionInItself,
+        /// Somebody or something goes by this name already.
+        NameTaken,
+        /// Nobody else is an administrator.
+        LastAdmin,
         /// Another request had this key.
         KeyOfAnother,
         /// The request with this key is under way.

@@ -275,7 +275,7 @@ mod tests {
         export_options::ExportOptions,
         formats::FORMATS,
         recipe::Recipe,
-        store::{User, UserChange, Users},
+        store::{Terms, User, UserChange, Users},
     };
 
     fn order(seeds: &[u32], steps: u32) -> Order {
@@ -338,9 +338,11 @@ mod tests {
         let user = User {
             name: name.into(),
             role,
+            id: name.into(),
             group_role: None,
             password: "none".into(),
             created_at: "2026".into(),
+            revision: 1,
         };
         store.add_user(user).await.unwrap();
         store
@@ -379,16 +381,16 @@ mod tests {
     #[tokio::test]
     async fn jb7_a_job_ends_where_whoever_ordered_it_may_no_longer() {
         let jobs = jobs();
-        for change in [Some(UserChange::Role(Role::Viewer)), None] {
+        for change in [Some(UserChange::role(Role::Viewer)), None] {
             let store = store_with("Ada", Role::Editor).await;
             let id = added(&jobs, order_of("Ada", &[1, 2, 3]));
             let (name, job) = jobs.next().unwrap();
             assert!(!jobs.work(&job, &store).await);
-            store.change_user("Ada", UserChange::Role(Role::Owner)).await.unwrap();
+            store.change_user("Ada", UserChange::role(Role::Owner), Terms::default()).await.unwrap();
             assert!(!jobs.work(&job, &store).await, "who may more may go on");
             match change {
-                Some(change) => store.change_user("Ada", change).await.unwrap(),
-                None => store.remove_user("Ada").await.unwrap(),
+                Some(change) => store.change_user("Ada", change, Terms::default()).await.unwrap(),
+                None => store.remove_user("Ada", Terms::default()).await.unwrap(),
             };
             assert!(jobs.work(&job, &store).await);
             let Progress { state, grown, problem, .. } = find(&jobs, &id).unwrap().0.progress();

@@ -14,7 +14,7 @@ use std::{
 use espalier_proto::access::Role;
 
 use crate::{
-    access::admission::{self, INVITATION_LIFE},
+    access::admission::{self, INVITATION_LIFE, NewToken},
     announce::{self, Medium},
     cli::{self, Scope},
     store::{Audit, Event, OpenError, Pass, PassKind, Passes, SqliteStore, Store, StoreError},
@@ -116,7 +116,8 @@ pub fn token(command: &cli::Token) -> Result<(), PeopleError> {
                 Scope::Write => Role::Editor,
             };
             let made = at(&database.path, async |store| {
-                let made = admission::token(store, name, role, *lasts, SystemTime::now()).await?;
+                let new = NewToken { name: name.clone(), role, holder: None, lasts: *lasts };
+                let (made, _) = admission::token(store, new, SystemTime::now()).await?;
                 store.note(Event::at_machine("token", name)).await?;
                 Ok(made)
             });
@@ -132,9 +133,10 @@ fn list(options: &cli::Listed, kind: PassKind) -> Result<(), PeopleError> {
     let all = at(&options.database.path, async |store| {
         Ok(store.passes(kind, &written(SystemTime::now())).await?)
     })?;
-    for Pass { id, name, role, tree, created_at, expires_at, .. } in all {
+    for Pass { id, name, role, holder, tree, created_at, expires_at, .. } in all {
+        let of = holder.map(|holder| format!(" of {}", holder.name())).unwrap_or_default();
         let tree = tree.map(|tree| format!(" of tree {tree}")).unwrap_or_default();
-        print(&format!("{id}  {name}: {}{tree}, since {created_at}, until {expires_at}", role.name()));
+        print(&format!("{id}  {name}{of}: {}{tree}, since {created_at}, until {expires_at}", role.name()));
     }
     Ok(())
 }

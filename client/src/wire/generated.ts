@@ -116,7 +116,9 @@ export const LEAST_ROLES = {
   ChangeCollections: "editor",
   SeeFigures: "viewer",
   SeeServer: "owner",
+  OwnTokens: "viewer",
   SeePeople: "admin",
+  ChangePeople: "admin",
 } as const satisfies Record<string, Role>;
 
 export const LEAF_NATURES: Record<LeafKind, LeafNature> = {
@@ -1784,7 +1786,7 @@ appearance: Appearance, };
 
 export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "stale" | "unavailable";
 
-export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "not-a-grammar" | "packed-request" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-of-yours" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "design-sealed" | "design-refused" | "being-drawn" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "grammar-ends" | "no-programme" | "future-damaged" | "tree-locked" | "removed" | "removed-guest" | "comment-stays" | "not-deleted" | "collection-in-itself" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "no-grammar" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "design-gone" | "design-branch-gone" | "no-template" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
+export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "not-a-grammar" | "packed-request" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-of-yours" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "design-sealed" | "design-refused" | "being-drawn" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "grammar-ends" | "no-programme" | "future-damaged" | "tree-locked" | "removed" | "removed-guest" | "comment-stays" | "not-deleted" | "collection-in-itself" | "name-taken" | "last-admin" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "no-grammar" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "design-gone" | "design-branch-gone" | "no-template" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
 
 export type Problem = { 
 /**
@@ -3172,17 +3174,179 @@ passwords: boolean, };
 
 export type ListedUser = { 
 /**
- * What they are called.
+ * Their identifier, which stays theirs whatever they are called.
+ */
+id: string, 
+/**
+ * What they are called, and log in by.
  */
 name: string, 
 /**
- * What they may do.
+ * What they may do, by themselves or by a group.
  */
 role: Role, 
 /**
+ * What they may do by themselves.
+ */
+own_role: Role, 
+/**
+ * The names of the groups that they are in.
+ */
+groups: Array<string>, 
+/**
  * When they were added, in UTC.
  */
-created_at: string, };
+created_at: string, 
+/**
+ * How often their name, role or password was changed, and 1; the `ETag` has it as well.
+ */
+revision: number, };
+
+export type NewUser = { 
+/**
+ * What they are called, and log in by.
+ */
+name: string, 
+/**
+ * What they may do by themselves.
+ */
+role: Role, 
+/**
+ * What they log in with: 8 to 200 characters.
+ */
+password: string, };
+
+export type ChangeUser = { 
+/**
+ * What they are called, and log in by.
+ */
+name?: string, 
+/**
+ * What they may do by themselves.
+ */
+role?: Role, 
+/**
+ * What they log in with; wherever they are logged in, that ends.
+ */
+password?: string, };
+
+export type ChangePassword = { 
+/**
+ * The one until now.
+ */
+old: string, 
+/**
+ * The one from now on: 8 to 200 characters.
+ */
+new: string, };
+
+export type ListedGroup = { 
+/**
+ * Its identifier, which stays whatever it is called.
+ */
+id: string, 
+/**
+ * What it is called.
+ */
+name: string, 
+/**
+ * What its members may do, if their own role is not more.
+ */
+role: GroupRole, 
+/**
+ * Who is in it, by name.
+ */
+members: Array<GroupMember>, 
+/**
+ * When it was added, in UTC.
+ */
+created_at: string, 
+/**
+ * How often its name, role or members were changed, and 1; the `ETag` has it as well.
+ */
+revision: number, };
+
+export type GroupMember = { 
+/**
+ * The identifier of the user.
+ */
+id: string, 
+/**
+ * What they are called.
+ */
+name: string, };
+
+export type GroupRole = "viewer" | "commenter" | "editor" | "owner";
+
+export type NewGroup = { 
+/**
+ * What it is called.
+ */
+name: string, 
+/**
+ * What its members may do.
+ */
+role: GroupRole, };
+
+export type ChangeGroup = { 
+/**
+ * What it is called.
+ */
+name?: string, 
+/**
+ * What its members may do.
+ */
+role?: GroupRole, };
+
+export type ListedToken = { 
+/**
+ * Its identifier; no secret.
+ */
+id: string, 
+/**
+ * What the program is called.
+ */
+name: string, 
+/**
+ * What it may do now: never more than whoever made it.
+ */
+role: Role, 
+/**
+ * What whoever made it is called, as whom the program acts; nobody, where it was made at the machine itself.
+ */
+of?: string, 
+/**
+ * When it was made, in UTC.
+ */
+since: string, 
+/**
+ * When it ends.
+ */
+until: string, };
+
+export type NewToken = { 
+/**
+ * What the program is called.
+ */
+name: string, 
+/**
+ * The most that it may do.
+ */
+role: LinkRole, 
+/**
+ * For how many hours, from now on; without it for 90 days.
+ */
+hours?: number, };
+
+export type MadeToken = { 
+/**
+ * Its identifier.
+ */
+id: string, 
+/**
+ * What the program sends as `Authorization: Bearer TOKEN`.
+ */
+token: string, };
 
 export type AuditEvent = { 
 /**

@@ -7,7 +7,7 @@ use espalier_proto::access::Role;
 use super::{Secret, hash};
 use crate::{
     name,
-    store::{Pass, PassKind, Passes, StoreError, User},
+    store::{Holder, Pass, PassKind, Passes, StoreError, User},
     time::written,
 };
 
@@ -66,6 +66,8 @@ pub async fn invite_for(
         kind: PassKind::Invitation,
         name,
         role,
+        holder: None,
+        most: None,
         tree,
         created_at: written(now),
         expires_at: written(now + waits),
@@ -91,10 +93,21 @@ pub async fn redeem(
 
 /// Lets in a user whose password was right.
 pub async fn log_in(store: &impl Passes, user: User, now: SystemTime) -> Result<(Secret, Pass), StoreError> {
-    let (role, name) = (user.allowed(), user.name);
+    let (role, name, holder, most) = (user.allowed(), user.name, None, None);
     let ends_at = written(now + DEVICE_LIFE);
     let (id, created_at, expires_at) = (name::unguessable(), String::new(), ends_at.clone());
-    let pass = Pass { id, kind: PassKind::Login, name, role, tree: None, created_at, expires_at, ends_at };
+    let pass = Pass {
+        id,
+        kind: PassKind::Login,
+        name,
+        role,
+        holder,
+        most,
+        tree: None,
+        created_at,
+        expires_at,
+        ends_at,
+    };
     come_in(store, pass, now).await
 }
 
@@ -112,28 +125,41 @@ async fn come_in(store: &impl Passes, like: Pass, now: SystemTime) -> Result<(Se
     Ok((secret, pass))
 }
 
-/// Makes a token for a program.
+/// A token to be made.
+#[derive(Clone, Debug)]
+pub struct NewToken {
+    /// What the program is called.
+    pub name: String,
+    /// What it may do, if whoever holds it may.
+    pub role: Role,
+    /// Whoever holds it; nobody, where it is made at the machine.
+    pub holder: Option<Holder>,
+    /// How long it is good.
+    pub lasts: Duration,
+}
+
+/// Makes a token for a program; with its identifier.
 pub async fn token(
     store: &impl Passes,
-    name: &str,
-    role: Role,
-    lasts: Duration,
+    NewToken { name, role, holder, lasts }: NewToken,
     now: SystemTime,
-) -> Result<Secret, StoreError> {
-    let secret = Secret::long(TOKEN);
+) -> Result<(Secret, String), StoreError> {
+    let (secret, id) = (Secret::long(TOKEN), name::unguessable());
     let ends_at = written(now + lasts);
     let pass = Pass {
-        id: name::unguessable(),
+        id: id.clone(),
         kind: PassKind::Token,
-        name: name.to_owned(),
+        name,
         role,
+        holder,
+        most: None,
         tree: None,
         created_at: written(now),
         expires_at: ends_at.clone(),
         ends_at,
     };
     store.add_pass(secret.hash(), pass).await?;
-    Ok(secret)
+    Ok((secret, id))
 }
 
 #[cfg(test)]

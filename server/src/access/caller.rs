@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     hosts,
-    store::{Pass, PassKind, Passes, StoreError, Users, person_of},
+    store::{Holder, Pass, PassKind, Passes, StoreError, Users, person_of},
     time::written,
 };
 
@@ -63,9 +63,50 @@ pub struct Caller {
 /// A pass that somebody has shown.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Held {
+    id: String,
     hash: SecretHash,
     kind: PassKind,
     name: String,
+    /// Whoever holds it, as whom it lets in; if nobody is named, the device or program itself.
+    holder: Option<Holder>,
+    most: Option<Role>,
+}
+
+impl Held {
+    fn of(hash: SecretHash, pass: &Pass) -> Self {
+        let Pass { id, kind, name, holder, most, .. } = pass.clone();
+        Self { id, hash, kind, name, holder, most }
+    }
+
+    /// Whom what is done with it counts for.
+    fn person(&self) -> String {
+        let pass = |hash| format!("pass {}", BASE64_URL_SAFE_NO_PAD.encode(hash));
+        match &self.holder {
+            Some(Holder::User { name, .. }) => person_of(name),
+            Some(Holder::Device { hash, .. }) => pass(hash),
+            None => pass(&self.hash),
+        }
+    }
+}
+
+/// Who somebody is, whatever they are called.
+#[derive(Debug, PartialEq, Eq)]
+enum Who {
+    Machine,
+    /// By their identifier.
+    User(String),
+    /// A device or a program, by its secret.
+    Pass(SecretHash),
+}
+
+impl Held {
+    fn who(&self) -> Who {
+        match &self.holder {
+            Some(Holder::User { id, .. }) => Who::User(id.clone()),
+            Some(Holder::Device { hash, .. }) => Who::Pass(*hash),
+            None => Who::Pass(self.hash),
+        }
+    }
 }
 
 /// Why somebody is not let in.
@@ -112,7 +153,7 @@ impl Caller {
         if pass.kind != PassKind::Token {
             extend(store, &pass, now).await?;
         }
-        let held = Held { hash, kind: pass.kind, name: pass.name };
+        let held = Held::of(hash, &pass);
         Ok(Self { grant: Grant { role: pass.role, tree: pass.tree }, pass: Some(held) })
     }
 
@@ -136,21 +177,14 @@ impl Caller {
     /// Whether what somebody ordered is theirs as well: they are the same, came in as the same user, or are an
     /// administrator.
     pub fn has_what_is_of(&self, other: &Self) -> bool {
-        let user = |caller: &Self| {
-            let held = caller.pass.as_ref().filter(|held| held.kind == PassKind::Login);
-            held.map(|held| held.name.clone())
-        };
+        let holder = |caller: &Self| caller.pass.as_ref().map_or(Who::Machine, Held::who);
         let is_admin = self.grant.role == Role::Admin && self.grant.tree.is_none();
-        is_admin || self.pass == other.pass || user(self).is_some() && user(self) == user(other)
+        is_admin || holder(self) == holder(other)
     }
 
     /// Whom what they do counts for: whoever sits at the machine, the user, or the device or program.
     pub fn person(&self) -> String {
-        match &self.pass {
-            None => "machine".to_owned(),
-            Some(Held { kind: PassKind::Login, name, .. }) => person_of(name),
-            Some(Held { hash, .. }) => format!("pass {}", BASE64_URL_SAFE_NO_PAD.encode(hash)),
-        }
+        self.pass.as_ref().map_or_else(|| "machine".to_owned(), Held::person)
     }
 
     /// The pass by which somebody came who is counted as a person (see [`Self::person`]), unless they have logged in.
@@ -169,7 +203,55 @@ impl Caller {
         let Some(held) = &self.pass else { return Ok(Some(self.clone())) };
         let pass = store.pass(held.hash, &written(SystemTime::now())).await?;
         let pass = pass.filter(|pass| pass.tree == self.grant.tree);
-        Ok(pass.map(|pass| Self { grant: Grant { role: pass.role, tree: pass.tree }, ..self.clone() }))
+        Ok(pass.map(|pass| {
+            let held = Held::of(held.hash, &pass);
+            Self { grant: Grant { role: pass.role, tree: pass.tree }, pass: Some(held) }
+        }))
+    }
+
+    /// What is held by a user or a device, for what is made in their name: nobody at the machine, and no program, which
+    /// makes nothing of the kind.
+    pub fn holder(&self) -> Option<Holder> {
+        let held = self.pass.as_ref().filter(|held| held.kind != PassKind::Token)?;
+        Some(held.holder.clone().unwrap_or_else(|| {
+            let Held { id, hash, name, .. } = held.clone();
+            Holder::Device { id, hash, name }
+        }))
+    }
+
+    /// The secret by which they have logged in, and as whom.
+    pub fn login(&self) -> Option<(SecretHash, &str)> {
+        let held = self.pass.as_ref().filter(|held| held.kind == PassKind::Login)?;
+        Some((held.hash, &held.name))
+    }
+
+    /// Whom a program acts as.
+    pub fn acts_as(&self) -> Option<&str> {
+        let held = self.pass.as_ref().filter(|held| held.kind == PassKind::Token)?;
+        held.holder.as_ref().map(Holder::name)
+    }
+
+    /// Whether a program asks.
+    pub fn is_program(&self) -> bool {
+        self.pass.as_ref().is_some_and(|held| held.kind == PassKind::Token)
+    }
+
+    /// Whether a token is theirs: they made it, or it is the one that they show.
+    pub fn has_token(&self, token: &Pass) -> bool {
+        match (&self.pass, &token.holder) {
+            (None, None) => true,
+            (Some(held), None) => held.id == token.id,
+            (None, Some(_)) => false,
+            (Some(held), Some(Holder::User { id, .. })) => held.who() == Who::User(id.clone()),
+            (Some(held), Some(Holder::Device { hash, .. })) => held.who() == Who::Pass(*hash),
+        }
+    }
+
+    /// What they may do where they are given this role: a program no more than its token was made for.
+    pub fn role_where(&self, given: Role) -> Role {
+        let most = self.pass.as_ref().and_then(|held| held.most);
+        let role = self.grant.role.max(given);
+        most.map_or(role, |most| role.min(most))
     }
 
     /// What they may do.
@@ -179,22 +261,23 @@ impl Caller {
 
     /// They as a session knows them. A device is called as its invitation says, unless nobody has named it.
     pub fn entrant(&self) -> Entrant {
-        let named = self.pass.as_ref().filter(|held| {
-            let is_named =
-                ![admission::UNNAMED_DEVICE, admission::UNNAMED_LINK].contains(&held.name.as_str());
-            held.kind == PassKind::Login || is_named
+        let named = self.pass.as_ref().and_then(|held| match &held.holder {
+            Some(Holder::User { name, .. }) => Some(name.as_str()),
+            Some(Holder::Device { name, .. }) => is_named(name).then_some(name.as_str()),
+            None => is_named(&held.name).then_some(held.name.as_str()),
         });
-        let name = named.map(|held| held.name.as_str().into());
-        Entrant { person: self.person().into(), name, role: self.grant.role }
+        Entrant { person: self.person().into(), name: named.map(Into::into), role: self.grant.role }
     }
 
     /// Whether they may still do it to the server as a whole. A user may who has logged out.
     pub async fn still_may(&self, action: Action, store: &(impl Passes + Users)) -> Result<bool, StoreError> {
         let Some(held) = &self.pass else { return Ok(true) };
-        let role = if held.kind == PassKind::Login {
-            store.user(&held.name).await?.map(|user| user.allowed())
-        } else {
-            store.pass(held.hash, &written(SystemTime::now())).await?.map(|pass| pass.role)
+        let role = match &held.holder {
+            Some(Holder::User { id, .. }) if held.kind == PassKind::Login => {
+                let mut users = store.users().await?.into_iter();
+                users.find(|user| user.id == *id).map(|user| user.allowed())
+            }
+            _ => store.pass(held.hash, &written(SystemTime::now())).await?.map(|pass| pass.role),
         };
         let now = |role| Self { grant: Grant { role, ..self.grant.clone() }, pass: None };
         Ok(role.is_some_and(|role| now(role).may_as(role, action, Object::Server)))
@@ -210,7 +293,9 @@ impl Caller {
     /// Somebody who has logged in.
     #[cfg(test)]
     pub fn logged_in(name: &str, role: Role) -> Self {
-        let held = Held { hash: hash(name), kind: PassKind::Login, name: name.to_owned() };
+        let (id, name) = (name.to_owned(), name.to_owned());
+        let holder = Some(Holder::User { id: id.clone(), name: name.clone() });
+        let held = Held { hash: hash(&id), id, kind: PassKind::Login, name, holder, most: None };
         Self { grant: Grant { role, tree: None }, pass: Some(held) }
     }
 
@@ -225,13 +310,22 @@ impl Caller {
     pub fn counted_as(&self) -> Option<SecretHash> {
         let held = self.pass.as_ref()?;
         // A user who logs in again is the same.
-        Some(if held.kind == PassKind::Login { hash(&held.name) } else { held.hash })
+        Some(match held.who() {
+            Who::User(id) => hash(&id),
+            Who::Pass(hash) => hash,
+            Who::Machine => return None,
+        })
     }
 
     /// Whether they may lose what they have while they are here.
     pub fn is_revocable(&self) -> bool {
         self.pass.is_some()
     }
+}
+
+/// Whether a device is called as its invitation says: nobody has named the others.
+fn is_named(name: &str) -> bool {
+    ![admission::UNNAMED_DEVICE, admission::UNNAMED_LINK].contains(&name)
 }
 
 /// How a pass lets in.
@@ -326,7 +420,15 @@ mod tests {
     fn jb5_what_was_ordered_is_that_of_the_user_and_of_administrators() {
         let caller = |kind, name: &str, secret: &str, role| Caller {
             grant: Grant { role, tree: None },
-            pass: Some(Held { hash: hash(secret), kind, name: name.to_owned() }),
+            pass: Some(Held {
+                id: secret.to_owned(),
+                hash: hash(secret),
+                kind,
+                name: name.to_owned(),
+                holder: (kind == PassKind::Login)
+                    .then(|| Holder::User { id: name.to_owned(), name: name.to_owned() }),
+                most: None,
+            }),
         };
         let ordered = caller(PassKind::Login, "Ada", "one", Role::Editor);
         assert!(ordered.has_what_is_of(&ordered));
@@ -382,7 +484,8 @@ mod tests {
     #[test]
     fn ac5_a_guest_gets_to_one_tree() {
         let grant = Grant { role: Role::Editor, tree: Some("ash".into()) };
-        let held = Held { hash: [1; 32], kind: PassKind::Device, name: "tablet".into() };
+        let (id, name, holder) = ("tablet".into(), "tablet".into(), None);
+        let held = Held { id, hash: [1; 32], kind: PassKind::Device, name, holder, most: None };
         let guest = Caller { grant, pass: Some(held) };
         for (action, object, expected) in [
             (Action::SeeTree, Object::Tree("ash"), true),

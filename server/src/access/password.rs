@@ -23,6 +23,9 @@ const NOBODY: &str =
 pub struct Password(String);
 
 impl Password {
+    /// What may stand there.
+    pub const ALLOWED: &str = "8 to 200 characters";
+
     /// Any 8 to 200 characters; an error says so.
     pub fn parse(text: &str) -> Result<Self, String> {
         if (LEAST..=MOST).contains(&text.chars().count()) {
@@ -39,6 +42,17 @@ impl Password {
     }
 }
 
+/// Why a password cannot be kept.
+#[derive(Debug, thiserror::Error)]
+pub enum KeepError {
+    /// It cannot be hashed.
+    #[error(transparent)]
+    Hash(#[from] password_hash::Error),
+    /// Nobody hashes it any more.
+    #[error("the server is stopping")]
+    Stopping,
+}
+
 /// Checks passwords, a few at once.
 #[derive(Debug)]
 pub struct Passwords(Semaphore);
@@ -50,6 +64,13 @@ impl Default for Passwords {
 }
 
 impl Passwords {
+    /// What is kept of a password.
+    pub async fn kept(&self, password: Password) -> Result<String, KeepError> {
+        let _place = self.0.acquire().await.map_err(|_| KeepError::Stopping)?;
+        let kept = spawn_blocking(move || password.kept()).await.map_err(|_| KeepError::Stopping)?;
+        Ok(kept?)
+    }
+
     /// Whether a password is the one of which this is kept; where nothing is, none is.
     pub async fn is_right(&self, password: &str, kept: Option<String>) -> bool {
         let Ok(_place) = self.0.acquire().await else { return false };

@@ -6,8 +6,9 @@ use axum::routing::{MethodRouter, delete, get, patch, post, put};
 use espalier_proto::{
     CheckGrammar, GrammarOrigins, GrammarReport, ShippedGrammar,
     access::{
-        Admitted, AuditEvent, ChangeLink, Entrance, HandOver, KeptOut, ListedUser, LogIn, MadeLink, Me,
-        NewLink, Redeem, RemovedPerson, TreeLink, TreeLock, TreeOwner,
+        Admitted, AuditEvent, ChangeGroup, ChangeLink, ChangePassword, ChangeUser, Entrance, HandOver,
+        KeptOut, ListedGroup, ListedToken, ListedUser, LogIn, MadeLink, MadeToken, Me, NewGroup, NewLink,
+        NewToken, NewUser, Redeem, RemovedPerson, TreeLink, TreeLock, TreeOwner,
     },
     comment::{ChangeComment, ChangeThread, NewComment, NewThread, Seen, Thread},
     library::{
@@ -27,9 +28,9 @@ use tower::limit::GlobalConcurrencyLimitLayer;
 
 use super::{
     Shared, audit, collections, comments, description, description::About, entry, exports, failure::Path,
-    grammars, guard::TIME_LIMIT, imports, jobs, keys::Shown, links, locks, obstacles, origin::METRICS,
-    owners, removals, reviews, schematic, session_list, sessions, species, status, trees, uploads::uploads,
-    versions,
+    grammars, groups, guard::TIME_LIMIT, imports, jobs, keys::Shown, links, locks, obstacles,
+    origin::METRICS, owners, removals, reviews, schematic, session_list, sessions, species, status, tokens,
+    trees, uploads::uploads, users, versions,
 };
 use crate::{
     access::Action,
@@ -221,7 +222,23 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/login", None, post(entry::log_in), About::new("Come in with a password (AC9); the answer sets a cookie.").takes::<LogIn>().gives::<Admitted>(200)),
         route("POST /api/v1/logout", None, post(entry::log_out), About::new("Be let in no longer by the cookie of the request, which goes.").gives_nothing()),
         route("GET /api/v1/me", Action::Look, get(entry::me), About::new("Who asks, and what they may do (AC8).").gives::<Me>(200)),
-        route("GET /api/v1/users", Action::SeePeople, get(entry::users), About::new("Who can log in, by name.").gives::<Vec<ListedUser>>(200)),
+        route("PUT /api/v1/me/password", Action::OwnTokens, put(users::change_own_password), About::new("Log in with another password from now on; one's other logins end (AC19).").takes::<ChangePassword>().gives_nothing()).noted("password"),
+        route("GET /api/v1/users", Action::SeePeople, get(users::list), About::new("Who can log in, by name (AC19).").gives::<Vec<ListedUser>>(200)),
+        route("POST /api/v1/users", Action::ChangePeople, post(users::add), About::new("Let somebody log in (AC19).").takes::<NewUser>().gives::<ListedUser>(201)).noted("user-add"),
+        route("GET /api/v1/users/{user}", Action::SeePeople, get(users::find), About::new("Somebody who can log in, with an `ETag`.").gives::<ListedUser>(200)),
+        route("PATCH /api/v1/users/{user}", Action::ChangePeople, patch(users::change), About::new("Change somebody's name, role or password (AC19); the last administrator stays one.").takes::<ChangeUser>().gives::<ListedUser>(200).revised()).noted("user-change"),
+        route("DELETE /api/v1/users/{user}", Action::ChangePeople, delete(users::remove), About::new("Let somebody log in no longer (AC19); the last administrator stays.").gives_nothing().revised()).noted("user-remove"),
+        route("GET /api/v1/groups", Action::SeePeople, get(groups::list), About::new("Groups of users, by name (AC20).").gives::<Vec<ListedGroup>>(200)),
+        route("POST /api/v1/groups", Action::ChangePeople, post(groups::add), About::new("Make a group (AC20).").takes::<NewGroup>().gives::<ListedGroup>(201)).noted("group-add"),
+        route("GET /api/v1/groups/{group}", Action::SeePeople, get(groups::find), About::new("One group, with an `ETag`.").gives::<ListedGroup>(200)),
+        route("PATCH /api/v1/groups/{group}", Action::ChangePeople, patch(groups::change), About::new("Change the name or the role of a group (AC20).").takes::<ChangeGroup>().gives::<ListedGroup>(200).revised()).noted("group-change"),
+        route("DELETE /api/v1/groups/{group}", Action::ChangePeople, delete(groups::remove), About::new("Remove a group; its members stay users.").gives_nothing().revised()).noted("group-remove"),
+        route("PUT /api/v1/groups/{group}/members/{user}", Action::ChangePeople, put(groups::join), About::new("Make a user a member (AC20).").gives::<ListedGroup>(200).revised()).noted("group-join"),
+        route("DELETE /api/v1/groups/{group}/members/{user}", Action::ChangePeople, delete(groups::leave), About::new("Make a user a member no longer.").gives::<ListedGroup>(200).revised()).noted("group-leave"),
+        route("GET /api/v1/tokens", Action::OwnTokens, get(tokens::list), About::new("Programs that act as whoever asks, newest first (AC21).").gives::<Vec<ListedToken>>(200)),
+        route("POST /api/v1/tokens", Action::OwnTokens, post(tokens::add), About::new("Let a program act as oneself; its token is shown this once (AC21).").takes::<NewToken>().gives::<MadeToken>(201)).noted("token").once(),
+        route("GET /api/v1/tokens/all", Action::SeePeople, get(tokens::list_all), About::new("Programs of everybody, newest first (AC21).").gives::<Vec<ListedToken>>(200)),
+        route("DELETE /api/v1/tokens/{token}", Action::OwnTokens, delete(tokens::revoke), About::new("Let a program in no longer (AC21); administrators revoke any.").gives_nothing()).noted("token-revoke"),
         route("GET /api/v1/status", Action::SeeServer, get(status::status), About::new("How the server is: memory by what it is taken for, sessions with theirs (SV2).").gives::<ServerStatus>(200)),
         route(format!("GET {METRICS}"), Action::SeeFigures, get(status::metrics), About::new("Figures of the server as Prometheus reads them (SV2).").gives_file("text/plain")),
         route("GET /api/v1/audit", Action::SeePeople, get(audit::list), About::new("What was done and by whom, newest first (AC10).").asks::<audit::Page>().gives::<Vec<AuditEvent>>(200)),

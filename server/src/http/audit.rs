@@ -80,5 +80,6 @@ impl Shared {
 pub(super) fn called(caller: &Caller) -> String {
     let me = caller.described();
     let way = me.way.name();
-    me.name.map_or_else(|| way.to_owned(), |name| format!("{way} {name}"))
+    let of = caller.acts_as().map(|name| format!(" of {name}")).unwrap_or_default();
+    me.name.map_or_else(|| way.to_owned(), |name| format!("{way} {name}{of}"))
 }

@@ -13,7 +13,7 @@ use axum::{
 };
 use espalier_proto::{
     Problem, Reason,
-    access::{Admitted, Entrance, ListedUser, LogIn, Me, Redeem, Way},
+    access::{Admitted, Entrance, LogIn, Me, Redeem, Way},
     version::MAX_NAME_CHARACTERS,
 };
 
@@ -32,6 +32,7 @@ const LOGINS_FROM: u32 = 100;
 /// Right logins of one user in ten minutes.
 const LOGINS_OF: u32 = 20;
 const LOGINS_TIME: Duration = Duration::from_mins(10);
+const TOO_MANY: &str = "There were too many tries.";
 
 /// How often people have logged in (`AC11`): each login is kept, and who logs in without end would fill the database.
 #[derive(Debug)]
@@ -83,15 +84,12 @@ pub(super) async fn log_in(
     Body(LogIn { name, password }): Body<LogIn>,
 ) -> Result<Welcome, Response> {
     let peer = peer.map(|Extension(peer)| peer);
-    let from = network(access::address(peer.as_ref()));
     let name = name.trim();
-    let by_name = access::hash(&folded(name));
-    let counted = shared.tries.count(from, Instant::now());
-    let counted = counted.and_then(|()| shared.tries_for.count(by_name, Instant::now()));
-    counted.map_err(|wait| too_often("password", wait))?;
-    let user = check(&shared, name, &password).await;
+    let tried = Tried::count(&shared, peer, name, Instant::now()).map_err(Failure::into_response)?;
+    let user = check(&shared, name, "password", &password).await;
     if user.is_ok() {
-        shared.logins.count(from, by_name, Instant::now()).map_err(|wait| too_often("password", wait))?;
+        let counted = shared.logins.count(tried.from, tried.by_name, Instant::now());
+        counted.map_err(|wait| too_often("password", wait))?;
     }
     let come = match user {
         Ok(user) => let_in(&shared, user).await,
@@ -99,23 +97,51 @@ pub(super) async fn log_in(
     };
     note(&shared, Way::Login, name, peer, "log-in", passed(&come)).await;
     let come = come.map_err(Failure::into_response)?;
-    shared.tries.forget(from);
-    shared.tries_for.forget(by_name);
+    tried.was_right(&shared);
     Ok(welcome(come, &headers))
 }
 
-/// The user with this password.
-async fn check(shared: &Shared, name: &str, password: &str) -> Result<User, Failure> {
+/// A try of a password (`AC7`), which is counted where it comes from and for the name.
+#[derive(Debug)]
+pub(super) struct Tried {
+    from: IpAddr,
+    by_name: SecretHash,
+}
+
+impl Tried {
+    /// Counts one, unless it comes too soon.
+    pub(super) fn count(
+        shared: &Shared,
+        peer: Option<Peer>,
+        name: &str,
+        now: Instant,
+    ) -> Result<Self, Failure> {
+        let from = network(access::address(peer.as_ref()));
+        let by_name = access::hash(&folded(name));
+        let counted = shared.tries.count(from, now).and_then(|()| shared.tries_for.count(by_name, now));
+        counted.map_err(|wait| Failure::too_often("password", TOO_MANY, wait))?;
+        Ok(Self { from, by_name })
+    }
+
+    /// It was the right one.
+    pub(super) fn was_right(&self, shared: &Shared) {
+        shared.tries.forget(self.from);
+        shared.tries_for.forget(self.by_name);
+    }
+}
+
+/// The user with this password, which a field has.
+pub(super) async fn check(shared: &Shared, name: &str, field: &str, password: &str) -> Result<User, Failure> {
     let user = shared.store.user(name).await?;
     let kept = user.as_ref().map(|user| user.password.clone());
     let is_right = shared.passwords.is_right(password, kept).await;
-    user.filter(|_| is_right).ok_or_else(wrong_password)
+    user.filter(|_| is_right).ok_or_else(|| wrong_password(field))
 }
 
 async fn let_in(shared: &Shared, user: User) -> Result<(Secret, Pass), Failure> {
     match admission::log_in(&*shared.store, user, SystemTime::now()).await {
         // They were removed just now.
-        Err(StoreError::NotFound(Missing::User)) => Err(wrong_password()),
+        Err(StoreError::NotFound(Missing::User)) => Err(wrong_password("password")),
         come => Ok(come?),
     }
 }
@@ -146,15 +172,6 @@ pub(super) async fn me(caller: Caller) -> Json<Me> {
     Json(caller.described())
 }
 
-/// Says who can log in.
-pub(super) async fn users(State(shared): State<Shared>) -> Result<Json<Vec<ListedUser>>, Failure> {
-    let listed = |user: User| {
-        let (role, User { name, created_at, .. }) = (user.allowed(), user);
-        ListedUser { name, role, created_at }
-    };
-    Ok(Json(shared.store.users().await?.into_iter().map(listed).collect()))
-}
-
 /// By which pass somebody came in, or what they were answered.
 fn passed(come: &Result<(Secret, Pass), Failure>) -> Result<&Pass, StatusCode> {
     come.as_ref().map(|(_, pass)| pass).map_err(Failure::status)
@@ -177,7 +194,7 @@ async fn note(
 }
 
 fn too_often(field: &str, wait: Duration) -> Response {
-    Failure::too_often(field, "There were too many tries.", wait).into_response()
+    Failure::too_often(field, TOO_MANY, wait).into_response()
 }
 
 fn no_invitation() -> Failure {
@@ -187,9 +204,9 @@ fn no_invitation() -> Failure {
         .into()
 }
 
-fn wrong_password() -> Failure {
+fn wrong_password(field: &str) -> Failure {
     Problem::new(Reason::WrongPassword, "The name or the password is wrong.")
-        .at("password", "the password of the user with this name")
+        .at(field, "the password of the user with this name")
         .into()
 }
 

@@ -142,9 +142,9 @@ impl From<StoreError> for Failure {
         match error {
             StoreError::NotFound(missing) => return missing.into(),
             StoreError::Stale => {
-                let sentence = "Somebody else has changed the tree meanwhile; look at it and try again.";
+                let sentence = "Somebody else has changed it meanwhile; look at it and try again.";
                 let problem = Problem::new(Reason::Stale, sentence);
-                return problem.at(header::IF_MATCH.as_str(), "the ETag of the tree as it is now").into();
+                return problem.at(header::IF_MATCH.as_str(), "the ETag of it as it is now").into();
             }
             StoreError::Full => {
                 return Problem::new(Reason::TooMany, "There is no room for more of this.")
@@ -154,6 +154,16 @@ impl From<StoreError> for Failure {
             StoreError::NotDeleted => {
                 let problem = Problem::new(Reason::NotDeleted, "The tree is not deleted.");
                 return problem.at(Missing::Tree.field(), "a tree that is deleted").into();
+            }
+            StoreError::Taken => {
+                let problem =
+                    Problem::new(Reason::NameTaken, "Somebody or something goes by this name already.");
+                return problem.at("name", "a name that is not taken").into();
+            }
+            StoreError::LastAdmin => {
+                let sentence = "Nobody else is an administrator: make somebody else one first.";
+                let problem = Problem::new(Reason::LastAdmin, sentence);
+                return problem.at("user", "somebody who is not the last administrator").into();
             }
             StoreError::Cycle => {
                 let problem = Problem::new(Reason::CollectionInItself, "A collection cannot lie in itself.");
@@ -181,6 +191,7 @@ impl From<Missing> for Failure {
             Missing::Version => Self::no_version(),
             Missing::User => Self::none_such("user", missing.field(), "the name of somebody who can log in"),
             Missing::Group => Self::none_such("group", missing.field(), "the name of a group"),
+            Missing::Pass => access::not_let_in().into(),
             Missing::Collection | Missing::Parent => {
                 let problem = Problem::new(Reason::NoCollection, "There is no such collection.");
                 problem.at(missing.field(), "the identifier of a collection").into()

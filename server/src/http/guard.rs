@@ -167,7 +167,7 @@ impl Shared {
         if let Some(removed) = standing.removed {
             return Err(removals::problem(&removed).into());
         }
-        let role = if standing.is_heir { caller.role().max(Role::Owner) } else { caller.role() };
+        let role = if standing.is_heir { caller.role_where(Role::Owner) } else { caller.role() };
         if !caller.may_as(role, action, object) {
             return Err(espalier_session::forbidden().into());
         }

@@ -216,10 +216,13 @@ struct Seen {
     is_whole: bool,
 }
 
-/// Of what a request asks for, without its body: the address, and the revision that it is for.
+/// Of what a request asks for, without its body: the address, and the revision that it is for. With its key, which is
+/// kept nowhere, so that who reads the database finds no password by guessing what was sent.
 fn digest_of_head(request: &Request) -> Sha256 {
+    let key = key_of(request.headers()).ok().flatten().unwrap_or_default();
     let revision = request.headers().get(header::IF_MATCH).map_or(&b""[..], HeaderValue::as_bytes);
-    let head = format!("{} {}\n{}\n", request.method(), request.uri(), String::from_utf8_lossy(revision));
+    let (method, address) = (request.method(), request.uri());
+    let head = format!("{key}\n{method} {address}\n{}\n", String::from_utf8_lossy(revision));
     Sha256::new_with_prefix(head)
 }
 

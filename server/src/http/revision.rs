@@ -1,4 +1,4 @@
-//! Revisions of trees, as `ETag` and `If-Match` have them.
+//! Revisions of trees, users and groups, as `ETag` and `If-Match` have them.
 
 use axum::{
     extract::{FromRequestParts, Request},
@@ -44,7 +44,7 @@ impl<S: Sync> FromRequestParts<S> for Expected {
         let revision = number.and_then(|number| number.parse().ok());
         let problem = || {
             Problem::new(Reason::Malformed, format!("The request cannot be read: If-Match is {text}."))
-                .at(header::IF_MATCH.as_str(), "an ETag of the tree, as \"3\"")
+                .at(header::IF_MATCH.as_str(), "an ETag of what is changed, as \"3\"")
         };
         revision.map(|revision| Self(Some(revision))).ok_or_else(|| problem().into())
     }

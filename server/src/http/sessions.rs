@@ -362,8 +362,12 @@ async fn let_out(shared: &Shared, session: &str, caller: Caller, grants: Grants)
             return removals::close_of(&removals::problem(&removed));
         }
         match caller {
+            // As whoever they are called from now on, so that what they do counts for them.
+            Ok(Some(caller)) if caller.person() != person => {
+                return (CloseCode::GoingAway, "You have another name; come back.".into());
+            }
             Ok(Some(caller)) => {
-                let own = if standing.is_heir { caller.role().max(Role::Owner) } else { caller.role() };
+                let own = if standing.is_heir { caller.role_where(Role::Owner) } else { caller.role() };
                 let now = if standing.locked_by.is_some() { own.under_lock() } else { own };
                 if now != role {
                     grants.grant(now).await;

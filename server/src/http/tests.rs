@@ -7,6 +7,7 @@ mod keys;
 mod links;
 mod login;
 mod paths;
+mod people;
 mod proxies;
 mod refusals;
 mod session_list;
@@ -120,6 +121,8 @@ async fn token(store: &AnyStore, role: Role, tree: Option<&str>) -> String {
         kind: PassKind::Token,
         name: "script".into(),
         role,
+        holder: None,
+        most: None,
         tree: tree.map(str::to_owned),
         created_at: "2026".into(),
         expires_at: "9".into(),
@@ -165,6 +168,9 @@ fn filled(path: &str) -> String {
         .replace("{thread}", "1")
         .replace("{comment}", "1")
         .replace("{seed}", "1")
+        .replace("{user}", "a-user")
+        .replace("{group}", "a-group")
+        .replace("{token}", "a-token")
 }
 
 #[tokio::test]

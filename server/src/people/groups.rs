@@ -3,7 +3,8 @@
 use super::{PeopleError, at, print};
 use crate::{
     cli::{self, GroupOfRole, Members, NamedGroup, NewGroup},
-    store::{Audit, Event, Group, Groups, Missing, StoreError},
+    name,
+    store::{Audit, Event, Group, GroupChange, Groups, Missing, StoreError},
     time::now,
 };
 
@@ -11,7 +12,8 @@ use crate::{
 pub fn group(command: &cli::Group) -> Result<(), PeopleError> {
     match command {
         cli::Group::Add(NewGroup { name, role, database }) => {
-            let new = Group { name: name.clone(), role: *role, created_at: now(), members: Vec::new() };
+            let (id, called, role, created_at) = (name::unguessable(), name.clone(), *role, now());
+            let new = Group { id, name: called, role, created_at, members: Vec::new(), revision: 1 };
             at(&database.path, async |store| {
                 match store.add_group(new).await {
                     Err(StoreError::Taken) => return Err(PeopleError::TakenGroup(name.clone())),
@@ -31,7 +33,8 @@ pub fn group(command: &cli::Group) -> Result<(), PeopleError> {
         }
         cli::Group::Role(GroupOfRole { name, role, database }) => {
             at(&database.path, async |store| {
-                found(store.change_group(name, *role).await?, name)?;
+                let change = GroupChange { role: Some(*role), ..GroupChange::default() };
+                found(store.change_group(name, change, None).await?, name)?;
                 Ok(store.note(Event::at_machine("group-role", name)).await?)
             })?;
             print(&format!("Members of {name} are {} from now on.", role.name()));
@@ -39,7 +42,7 @@ pub fn group(command: &cli::Group) -> Result<(), PeopleError> {
         cli::Group::Join(Members { name, users, database }) => {
             at(&database.path, async |store| {
                 for user in users {
-                    store.join_group(name, user).await.map_err(|error| missing(error, name, user))?;
+                    store.join_group(name, user, None).await.map_err(|error| missing(error, name, user))?;
                     store.note(Event::at_machine("group-join", &format!("{name} {user}"))).await?;
                 }
                 Ok(())
@@ -49,7 +52,7 @@ pub fn group(command: &cli::Group) -> Result<(), PeopleError> {
         cli::Group::Leave(Members { name, users, database }) => {
             at(&database.path, async |store| {
                 for user in users {
-                    if !store.leave_group(name, user).await? {
+                    if !store.leave_group(name, user, None).await? {
                         return Err(PeopleError::NoMember { group: name.clone(), user: user.clone() });
                     }
                     store.note(Event::at_machine("group-leave", &format!("{name} {user}"))).await?;
@@ -60,7 +63,7 @@ pub fn group(command: &cli::Group) -> Result<(), PeopleError> {
         }
         cli::Group::Remove(NamedGroup { name, database }) => {
             at(&database.path, async |store| {
-                found(store.remove_group(name).await?, name)?;
+                found(store.remove_group(name, None).await?, name)?;
                 Ok(store.note(Event::at_machine("group-remove", name)).await?)
             })?;
             print(&format!(

@@ -11,7 +11,8 @@ use super::{PeopleError, at, print};
 use crate::{
     access::password::Password,
     cli::{self, NamedUser, NewUser, RemovedUser, RoleOfUser},
-    store::{Audit, Event, StoreError, User, UserChange, Users, folded},
+    name,
+    store::{Audit, Event, SqliteStore, StoreError, Terms, User, UserChange, Users},
     time::now,
 };
 
@@ -21,7 +22,8 @@ pub fn user(command: &cli::User) -> Result<(), PeopleError> {
         cli::User::Add(NewUser { name, admin, role, database }) => {
             let role = if *admin { Role::Admin } else { *role };
             let password = read_password()?;
-            let new = User { name: name.clone(), role, group_role: None, password, created_at: now() };
+            let (id, called, created_at) = (name::unguessable(), name.clone(), now());
+            let new = User { id, name: called, role, group_role: None, password, created_at, revision: 1 };
             at(&database.path, async |store| {
                 match store.add_user(new).await {
                     Err(StoreError::Taken) => return Err(PeopleError::Taken(name.clone())),
@@ -40,23 +42,21 @@ pub fn user(command: &cli::User) -> Result<(), PeopleError> {
         }
         cli::User::Passwd(NamedUser { name, database }) => {
             known(&database.path, name)?;
-            let password = UserChange::Password(read_password()?);
-            change(&database.path, "user-passwd", name, password)?;
+            let password = UserChange::password(read_password()?);
+            change(&database.path, "user-passwd", name, password, true)?;
             print(&format!("{name} has another password, and is logged in nowhere."));
         }
         cli::User::Role(RoleOfUser { name, role, force, database }) => {
-            if *role != Role::Admin && !force {
-                leaves_one(&database.path, name)?;
-            }
-            change(&database.path, "user-role", name, UserChange::Role(*role))?;
+            change(&database.path, "user-role", name, UserChange::role(*role), *force)?;
             print(&format!("{name} is {} from now on.", role.name()));
         }
         cli::User::Remove(RemovedUser { name, force, database }) => {
-            if !force {
-                leaves_one(&database.path, name)?;
-            }
             at(&database.path, async |store| {
-                found(store.remove_user(name).await?, name)?;
+                let terms = Terms { expected: None, force: *force };
+                match store.remove_user(name, terms).await {
+                    Err(error) => return Err(last(store, error, name).await),
+                    Ok(is_there) => found(is_there, name)?,
+                }
                 Ok(store.note(Event::at_machine("user-remove", name)).await?)
             })?;
             print(&format!("{name} can log in no longer."));
@@ -71,23 +71,28 @@ fn known(database: &Path, name: &str) -> Result<(), PeopleError> {
     found(user.is_some(), name)
 }
 
-/// Whether an administrator is left without somebody; where they are none, nothing changes.
-fn leaves_one(database: &Path, name: &str) -> Result<(), PeopleError> {
-    let users = at(database, async |store| Ok(store.users().await?))?;
-    let mut admins = users.iter().filter(|user| user.role == Role::Admin);
-    match (admins.next(), admins.next()) {
-        (Some(last), None) if folded(&last.name) == folded(name) => {
-            Err(PeopleError::LastAdmin(last.name.clone()))
-        }
-        _ => Ok(()),
-    }
-}
-
-fn change(database: &Path, action: &str, name: &str, change: UserChange) -> Result<(), PeopleError> {
+fn change(
+    database: &Path,
+    action: &str,
+    name: &str,
+    change: UserChange,
+    force: bool,
+) -> Result<(), PeopleError> {
     at(database, async |store| {
-        found(store.change_user(name, change).await?, name)?;
+        match store.change_user(name, change, Terms { expected: None, force }).await {
+            Err(error) => return Err(last(store, error, name).await),
+            Ok(is_there) => found(is_there, name)?,
+        }
         Ok(store.note(Event::at_machine(action, name)).await?)
     })
+}
+
+/// Why somebody was not changed, who is called as they were added.
+async fn last(store: &SqliteStore, error: StoreError, name: &str) -> PeopleError {
+    match (error, store.user(name).await) {
+        (StoreError::LastAdmin, Ok(Some(user))) => PeopleError::LastAdmin(user.name),
+        (error, _) => error.into(),
+    }
 }
 
 fn found(is_there: bool, name: &str) -> Result<(), PeopleError> {

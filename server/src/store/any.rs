@@ -9,11 +9,11 @@ use espalier_session::{JournalEntry, Named, Principal};
 use super::MemoryStore;
 use super::{
     Answer, AnswerKey, Answering, Answers, Audit, Authors, Collection, CollectionChange, CommentChange,
-    Comments, Commits, Damage, Event, Finding, Group, Groups, Heir, Lease, Library, Locks, MostAnswers,
-    NewComment, NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes, Picture,
-    Removal, Room, SessionLine, SessionQuery, SessionTree, SqliteStore, Standing, Standings, Store,
-    StoreError, StoredSession, StoredThread, StoredTree, StoredVersion, TreeChange, TreeDocument, TreeQuery,
-    User, UserChange, Users, Visits,
+    Comments, Commits, Damage, Event, Finding, Group, GroupChange, Groups, Heir, Lease, Library, Locks,
+    MostAnswers, NewComment, NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes,
+    Picture, Removal, Room, SessionLine, SessionQuery, SessionTree, SqliteStore, Standing, Standings, Store,
+    StoreError, StoredSession, StoredThread, StoredTree, StoredVersion, Terms, TreeChange, TreeDocument,
+    TreeQuery, User, UserChange, Users, Visits,
 };
 use crate::access::SecretHash;
 
@@ -398,12 +398,12 @@ impl Users for AnyStore {
         delegate!(self.users())
     }
 
-    async fn change_user(&self, name: &str, change: UserChange) -> Result<bool, StoreError> {
-        delegate!(self.change_user(name, change))
+    async fn change_user(&self, name: &str, change: UserChange, terms: Terms) -> Result<bool, StoreError> {
+        delegate!(self.change_user(name, change, terms))
     }
 
-    async fn remove_user(&self, name: &str) -> Result<bool, StoreError> {
-        delegate!(self.remove_user(name))
+    async fn remove_user(&self, name: &str, terms: Terms) -> Result<bool, StoreError> {
+        delegate!(self.remove_user(name, terms))
     }
 }
 
@@ -416,20 +416,25 @@ impl Groups for AnyStore {
         delegate!(self.groups())
     }
 
-    async fn change_group(&self, name: &str, role: Role) -> Result<bool, StoreError> {
-        delegate!(self.change_group(name, role))
+    async fn change_group(
+        &self,
+        name: &str,
+        change: GroupChange,
+        expected: Option<u64>,
+    ) -> Result<bool, StoreError> {
+        delegate!(self.change_group(name, change, expected))
     }
 
-    async fn remove_group(&self, name: &str) -> Result<bool, StoreError> {
-        delegate!(self.remove_group(name))
+    async fn remove_group(&self, name: &str, expected: Option<u64>) -> Result<bool, StoreError> {
+        delegate!(self.remove_group(name, expected))
     }
 
-    async fn join_group(&self, name: &str, user: &str) -> Result<(), StoreError> {
-        delegate!(self.join_group(name, user))
+    async fn join_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<(), StoreError> {
+        delegate!(self.join_group(name, user, expected))
     }
 
-    async fn leave_group(&self, name: &str, user: &str) -> Result<bool, StoreError> {
-        delegate!(self.leave_group(name, user))
+    async fn leave_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<bool, StoreError> {
+        delegate!(self.leave_group(name, user, expected))
     }
 }
 

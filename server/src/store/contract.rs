@@ -31,7 +31,10 @@ use self::finding::{
     collections_lie_in_each_other, every_order_goes_page_by_page, filters_hold_at_once,
     searching_is_looking_into_every_text, tags_and_favourites_find_trees,
 };
-use self::groups::{a_login_may_what_its_users_groups_may, groups_are_listed_with_their_members};
+use self::groups::{
+    a_group_changes_at_a_revision, a_login_may_what_its_users_groups_may,
+    groups_are_listed_with_their_members,
+};
 pub use self::library::tree;
 pub(super) use self::library::tree_of_bytes;
 use self::library::{
@@ -47,7 +50,10 @@ use self::passes::{
 use self::standings::{
     a_tree_is_handed_over_with_its_sessions, who_is_kept_out_of_a_tree_is_kept_out_of_its_sessions,
 };
-use self::users::{a_login_has_the_role_of_its_user, a_name_is_one_person};
+use self::users::{
+    a_login_has_the_role_of_its_user, a_name_is_one_person, a_token_may_what_whoever_holds_it_may,
+    a_user_changes_at_a_revision, the_last_administrator_stays, under_another_name_one_is_the_same,
+};
 use self::visits::{
     pages_hold_each_session_once, sessions_are_listed_to_who_was_in_them, sessions_are_taken_off_lists,
     sessions_know_their_size, who_is_removed_was_in_no_session,
@@ -146,8 +152,13 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         a_pass_for_a_tree_goes_with_it,
         a_name_is_one_person,
         a_login_has_the_role_of_its_user,
+        the_last_administrator_stays,
+        a_user_changes_at_a_revision,
+        under_another_name_one_is_the_same,
+        a_token_may_what_whoever_holds_it_may,
         groups_are_listed_with_their_members,
         a_login_may_what_its_users_groups_may,
+        a_group_changes_at_a_revision,
         events_are_listed_newest_first,
         events_that_come_again_are_counted,
         an_answer_is_kept_for_one_request,

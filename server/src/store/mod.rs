@@ -41,17 +41,17 @@ pub use self::{
     },
     finding::{Collection, CollectionChange, Finding, Sort, TreePlace, TreeQuery},
     folding::folded,
-    groups::{Group, Groups},
+    groups::{Group, GroupChange, Groups},
     lease::Lease,
     library::{
         Contents, Deletion, LONG_AGO, Library, NOT_SO_LONG_AGO, NewTree, NewVersion, Picture, Saved,
         SessionTree, StoredTree, StoredVersion, TreeChange, TreeDocument,
     },
     locks::Locks,
-    passes::{Pass, PassKind, Passes},
+    passes::{Holder, Pass, PassKind, Passes},
     sqlite::{CareError, LibraryFile, OpenError, Report, SqliteStore, backup, check, restore},
     standings::{Heir, Removal, Removed, Room, Standing, Standings},
-    users::{User, UserChange, Users, person_of},
+    users::{Terms, User, UserChange, Users, person_of},
     visits::{LineTree, SessionLine, SessionPlace, SessionQuery, Visits},
 };
 #[cfg(test)]
@@ -171,6 +171,9 @@ pub enum StoreError {
     /// Somebody goes by the name already.
     #[error("somebody goes by that name already")]
     Taken,
+    /// Nobody would be an administrator.
+    #[error("nobody else is an administrator")]
+    LastAdmin,
     /// What is written would be lost: where it went is not there any more.
     #[error("the database file has been moved, deleted or replaced ({0})")]
     Gone(String),
@@ -194,6 +197,8 @@ pub enum Missing {
     User,
     /// A group of those.
     Group,
+    /// What a token was made by.
+    Pass,
 }
 
 impl Missing {
@@ -206,6 +211,7 @@ impl Missing {
             Self::Parent => "parent",
             Self::User => "name",
             Self::Group => "group",
+            Self::Pass => "pass",
         }
     }
 }
@@ -232,6 +238,7 @@ impl StoreError {
             Self::Cycle => "a collection cannot lie in itself",
             Self::Full => "there is no room for more of this",
             Self::Taken => "somebody goes by that name already",
+            Self::LastAdmin => "nobody else is an administrator",
             Self::Gone(_) => "its database file has been moved, deleted or replaced",
             Self::Closed => "it is stopping",
         }

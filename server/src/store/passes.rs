@@ -7,7 +7,8 @@ use crate::access::SecretHash;
 
 /// Keeps passes. Their secrets are kept nowhere, so that who reads the database cannot come in with what stands there.
 pub trait Passes {
-    /// Keeps a pass; [`StoreError::NotFound`] where its tree or its user is not there. A user's pass has their role.
+    /// Keeps a pass; [`StoreError::NotFound`] where its tree or its holder is not there. A login's user is known by its
+    /// name.
     async fn add_pass(&self, hash: SecretHash, pass: Pass) -> Result<(), StoreError>;
 
     /// The pass with this secret, unless it has expired.
@@ -38,8 +39,12 @@ pub struct Pass {
     pub kind: PassKind,
     /// How people call it.
     pub name: String,
-    /// What it allows.
+    /// What it allows: never more than whoever holds it may.
     pub role: Role,
+    /// Whoever holds it: the user of a login, and whoever has made a token.
+    pub holder: Option<Holder>,
+    /// As whoever holds it a program may do no more than this, also where they may do more than elsewhere.
+    pub most: Option<Role>,
     /// The only tree it is for.
     pub tree: Option<String>,
     /// When it was made.
@@ -48,6 +53,36 @@ pub struct Pass {
     pub expires_at: String,
     /// When it ends for good; for an invitation, when what comes of it does.
     pub ends_at: String,
+}
+
+/// Whoever holds a pass, as whom it lets in. It goes with them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Holder {
+    /// A user.
+    User {
+        /// Their identifier.
+        id: String,
+        /// What they are called.
+        name: String,
+    },
+    /// A device.
+    Device {
+        /// The identifier of its own pass.
+        id: String,
+        /// What it is known by.
+        hash: SecretHash,
+        /// How people call it.
+        name: String,
+    },
+}
+
+impl Holder {
+    /// What they are called.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::User { name, .. } | Self::Device { name, .. } => name,
+        }
+    }
 }
 
 /// How a pass lets in.

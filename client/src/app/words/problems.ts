@@ -226,6 +226,14 @@ export const REFUSALS = {
     "A collection cannot lie in itself.",
     "Eine Sammlung kann nicht in sich selbst liegen.",
   ],
+  "problems.name-taken": [
+    "This name is taken already. Choose another one.",
+    "Diesen Namen gibt es schon. Wähl einen anderen.",
+  ],
+  "problems.last-admin": [
+    "Nobody else is an administrator. Make somebody else one first.",
+    "Es gibt sonst niemanden, der verwaltet. Mach zuerst jemand anderen dazu.",
+  ],
   "problems.key-of-another": [
     "Another request had the key of this one.",
     "Eine andere Anfrage hatte schon den Schlüssel von dieser.",

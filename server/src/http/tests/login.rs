@@ -2,17 +2,20 @@
 
 use serde_json::{Value, json};
 
-use super::{files::SCAN, *};
+use super::{
+    files::SCAN,
+    people::{group, user},
+    *,
+};
 use crate::{
     access::password::Password,
-    store::{Group, Groups, User, UserChange, Users},
+    store::{GroupChange, Groups, Terms, UserChange, Users},
 };
 
 async fn with_ada(role: Role) -> (Router, Arc<AnyStore>) {
     let (server, store) = server().await;
     let password = Password::parse("correct horse").unwrap().kept().unwrap();
-    let ada = User { name: "Ada".into(), role, group_role: None, password, created_at: "2026".into() };
-    store.add_user(ada).await.unwrap();
+    store.add_user(user("Ada", role, password)).await.unwrap();
     (server, store)
 }
 
@@ -54,7 +57,7 @@ async fn ac9_whoever_has_the_password_is_in_until_they_log_out() {
     assert_eq!(answer.status(), StatusCode::OK);
     let cookie = cookie_of(&answer);
     assert_eq!(me(&server, &cookie).await, json!({ "role": "editor", "way": "login", "name": "Ada" }));
-    store.change_user("Ada", UserChange::Role(Role::Viewer)).await.unwrap();
+    store.change_user("Ada", UserChange::role(Role::Viewer), Terms::default()).await.unwrap();
     assert_eq!(me(&server, &cookie).await["role"], "viewer", "at once");
 
     let out = from_afar(&Method::POST, "/api/v1/logout", AFAR).header(header::COOKIE, &cookie);
@@ -70,11 +73,11 @@ async fn ac9_another_password_or_none_ends_logins() {
     let (server, store) = with_ada(Role::Owner).await;
     let cookie = cookie_of(&log_in(&server, "Ada", "correct horse", AFAR).await);
     let another = Password::parse("battery staple").unwrap().kept().unwrap();
-    store.change_user("Ada", UserChange::Password(another)).await.unwrap();
+    store.change_user("Ada", UserChange::password(another), Terms::default()).await.unwrap();
     assert_eq!(me(&server, &cookie).await["reason"], "not-let-in");
     let cookie = cookie_of(&log_in(&server, "Ada", "battery staple", AFAR).await);
     assert_eq!(me(&server, &cookie).await["role"], "owner");
-    store.remove_user("Ada").await.unwrap();
+    store.remove_user("Ada", Terms::default()).await.unwrap();
     assert_eq!(me(&server, &cookie).await["reason"], "not-let-in");
 }
 
@@ -114,9 +117,7 @@ async fn ac11_right_logins_are_limited_for_a_user_and_an_address() {
     let password = store.user("Ada").await.unwrap().unwrap().password;
     for number in 0..5 {
         let name = format!("User {number}");
-        let (role, password, created_at) = (Role::Viewer, password.clone(), "2026".into());
-        let user = User { name, role, group_role: None, password, created_at };
-        store.add_user(user).await.unwrap();
+        store.add_user(user(&name, Role::Viewer, password.clone())).await.unwrap();
     }
     let mut come = 0;
     for number in (0..5).cycle().take(101) {
@@ -146,17 +147,16 @@ async fn ac15_a_login_may_what_a_group_of_its_user_may() {
         server.clone().oneshot(asked.body(Body::empty()).unwrap()).await.unwrap().status()
     };
     assert_eq!(delete("oak").await, StatusCode::FORBIDDEN);
-    let (name, created_at) = ("Studio".into(), "2026".into());
-    store.add_group(Group { name, role: Role::Owner, created_at, members: Vec::new() }).await.unwrap();
-    store.join_group("Studio", "Ada").await.unwrap();
+    store.add_group(group("Studio", Role::Owner)).await.unwrap();
+    store.join_group("Studio", "Ada", None).await.unwrap();
     assert_eq!(me(&server, &cookie).await["role"], "owner", "at once");
     assert_eq!(delete("oak").await, StatusCode::NOT_FOUND, "they may, but there is none");
-    store.change_group("Studio", Role::Editor).await.unwrap();
+    store.change_group("Studio", GroupChange { role: Some(Role::Editor), name: None }, None).await.unwrap();
     assert_eq!(delete("oak").await, StatusCode::FORBIDDEN);
     // Who comes in while in a group has its role as well.
     let again = cookie_of(&log_in(&server, "Ada", "correct horse", AFAR).await);
     assert_eq!(me(&server, &again).await["role"], "editor");
-    store.leave_group("Studio", "Ada").await.unwrap();
+    store.leave_group("Studio", "Ada", None).await.unwrap();
     assert_eq!(me(&server, &cookie).await["role"], "viewer");
 }
 

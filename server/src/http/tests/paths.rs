@@ -7,8 +7,12 @@ use axum::http::HeaderMap;
 use espalier_proto::PROBLEM_JSON;
 use serde_json::{Value, json};
 
-use super::{refusals::bodies, *};
-use crate::store::{Comments, NewComment};
+use super::{
+    people::{group, user},
+    refusals::bodies,
+    *,
+};
+use crate::store::{Comments, Group, Groups, NewComment, User, Users};
 
 /// Parts of paths that are whole numbers.
 const NUMBERS: [&str; 6] = ["version", "obstacle", "seed", "thread", "comment", "person"];
@@ -160,6 +164,10 @@ async fn what_is_not_there_is_named_by_the_part_of_the_path() {
             // Each on a server of its own, for some of them change what is there.
             let (server, store) = server().await;
             store.add_thread("ash", None, comment()).await.unwrap();
+            let ada = user("Ada", Role::Viewer, String::new());
+            store.add_user(User { id: "a-user".into(), ..ada }).await.unwrap();
+            let studio = Group { id: "a-group".into(), ..group("Studio", Role::Viewer) };
+            store.add_group(studio).await.unwrap();
             let unknown = if NUMBERS.contains(&part) { "77" } else { "no-such-thing-there" };
             let query = if path.ends_with("/versions/import") { "?format=csv" } else { "" };
             let asked = filled_with(path, part, unknown) + query;

@@ -92,16 +92,39 @@ pub(super) fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
             names(&["text"]),
             json!({ "text": "As it is" }),
         ),
+        (
+            "POST /api/v1/users",
+            names(&["name", "role", "password"]),
+            json!({ "name": "Ada", "role": "editor", "password": "correct horse" }),
+        ),
+        (
+            "PATCH /api/v1/users/{user}",
+            vec![],
+            json!({ "name": "Ada", "role": "editor", "password": "correct horse" }),
+        ),
+        (
+            "PUT /api/v1/me/password",
+            names(&["old", "new"]),
+            json!({ "old": "correct horse", "new": "battery staple" }),
+        ),
+        ("POST /api/v1/groups", names(&["name", "role"]), json!({ "name": "Studio", "role": "editor" })),
+        ("PATCH /api/v1/groups/{group}", vec![], json!({ "name": "Studio", "role": "editor" })),
+        (
+            "POST /api/v1/tokens",
+            names(&["name", "role"]),
+            json!({ "name": "farm", "role": "viewer", "hours": 24 }),
+        ),
     ]
 }
 
 /// Addresses that take a file, or nothing.
-const WITHOUT: [&str; 5] = [
+const WITHOUT: [&str; 6] = [
     "POST /api/v1/logout",
     "POST /api/v1/sessions/{session}/resume",
     "POST /api/v1/trees/{tree}/undelete",
     "PUT /api/v1/trees/{tree}/favourite",
     "PUT /api/v1/trees/{tree}/lock",
+    "PUT /api/v1/groups/{group}/members/{user}",
 ];
 
 /// Queries with one field that is wrong, and its name.

@@ -3,7 +3,10 @@
 use espalier_proto::access::Role;
 use espalier_session::{Named, Principal};
 
-use super::super::{Authors, User, Users, person_of};
+use super::{
+    super::{Authors, Terms, Users, person_of},
+    users::user,
+};
 
 fn key(text: &str) -> Principal {
     Principal::client(text).unwrap()
@@ -14,14 +17,7 @@ fn named(author: &str, person: Option<String>, name: &str) -> Named {
 }
 
 pub(super) async fn authors_are_called_as_they_were_last(store: &(impl Authors + Users)) {
-    let user = User {
-        name: "Ann".into(),
-        role: Role::Editor,
-        group_role: None,
-        password: String::new(),
-        created_at: "2026".into(),
-    };
-    store.add_user(user).await.unwrap();
+    store.add_user(user("Ann", Role::Editor)).await.unwrap();
     let ann = Some(person_of("Ann"));
     let bo = Some("pass bo".to_owned());
     for (author, person, name, at) in [
@@ -36,6 +32,6 @@ pub(super) async fn authors_are_called_as_they_were_last(store: &(impl Authors +
     assert_eq!(store.named_authors(&asked).await.unwrap(), [of_bo.clone(), of_ann]);
     assert_eq!(store.named_authors(&[]).await.unwrap(), []);
     // Whoever gets the name of a user that was removed is somebody else.
-    assert!(store.remove_user("Ann").await.unwrap());
+    assert!(store.remove_user("Ann", Terms::default()).await.unwrap());
     assert_eq!(store.named_authors(&asked).await.unwrap(), [of_bo, named("browser-1", None, "Änne")]);
 }

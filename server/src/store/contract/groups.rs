@@ -3,22 +3,26 @@
 use espalier_proto::access::Role;
 
 use super::{
-    super::{Group, Groups, Missing, Pass, PassKind, Passes, StoreError, User, UserChange, Users},
+    super::{
+        Group, GroupChange, Groups, Missing, Pass, PassKind, Passes, StoreError, Terms, UserChange, Users,
+    },
     passes::{NOW, hash, pass},
+    users::user,
 };
 
 fn group(name: &str, role: Role, members: &[&str]) -> Group {
     let members = members.iter().map(|&name| name.to_owned()).collect();
-    Group { name: name.into(), role, created_at: "2026-04-01T12:00:00.000Z".into(), members }
+    let (id, created_at) = (format!("key of {name}"), "2026-04-01T12:00:00.000Z".into());
+    Group { id, name: name.into(), role, created_at, members, revision: 1 }
+}
+
+fn to(role: Role) -> GroupChange {
+    GroupChange { role: Some(role), name: None }
 }
 
 async fn add_users(store: &impl Users, users: &[(&str, Role)]) {
     for &(name, role) in users {
-        let (password, created_at) = ("hash".into(), "2026-04-01T12:00:00.000Z".into());
-        store
-            .add_user(User { name: name.into(), role, group_role: None, password, created_at })
-            .await
-            .unwrap();
+        store.add_user(user(name, role)).await.unwrap();
     }
 }
 
@@ -30,26 +34,32 @@ pub(super) async fn groups_are_listed_with_their_members(store: &(impl Groups + 
     let taken = store.add_group(group("STUDIO SUD", Role::Viewer, &[])).await;
     assert!(matches!(taken, Err(StoreError::Taken)));
     for user in ["bo", "Ada", "ada"] {
-        store.join_group("studio sud", user).await.unwrap();
+        store.join_group("studio sud", user, None).await.unwrap();
     }
     let missing = |joined| match joined {
         Err(StoreError::NotFound(what)) => what,
         other => panic!("{other:?}"),
     };
-    assert_eq!(missing(store.join_group("Choir", "Ada").await), Missing::Group);
-    assert_eq!(missing(store.join_group("Class", "Cy").await), Missing::User);
+    assert_eq!(missing(store.join_group("Choir", "Ada", None).await), Missing::Group);
+    assert_eq!(missing(store.join_group("Class", "Cy", None).await), Missing::User);
     let studio = group("Studio Süd", Role::Editor, &["Ada", "Bö"]);
-    assert_eq!(store.groups().await.unwrap(), [group("Class", Role::Viewer, &[]), studio]);
-    assert!(store.leave_group("Studio Süd", "BÖ").await.unwrap());
-    assert!(!store.leave_group("Studio Süd", "Bö").await.unwrap());
-    assert!(!store.leave_group("Choir", "Ada").await.unwrap());
-    assert!(store.remove_user("Ada").await.unwrap());
-    assert!(store.remove_group("class").await.unwrap());
-    assert!(!store.remove_group("class").await.unwrap());
-    assert_eq!(store.groups().await.unwrap(), [group("Studio Süd", Role::Editor, &[])]);
+    let at = |revision, group: Group| Group { revision, ..group };
+    let studio = at(3, studio);
+    assert_eq!(
+        store.groups().await.unwrap(),
+        [group("Class", Role::Viewer, &[]), studio],
+        "each who joins counts"
+    );
+    assert!(store.leave_group("Studio Süd", "BÖ", None).await.unwrap());
+    assert!(!store.leave_group("Studio Süd", "Bö", None).await.unwrap());
+    assert!(!store.leave_group("Choir", "Ada", None).await.unwrap());
+    assert!(store.remove_user("Ada", Terms::default()).await.unwrap());
+    assert!(store.remove_group("class", None).await.unwrap());
+    assert!(!store.remove_group("class", None).await.unwrap());
+    assert_eq!(store.groups().await.unwrap(), [at(4, group("Studio Süd", Role::Editor, &[]))]);
     // Who has the name of somebody who was removed is not in their groups.
     add_users(store, &[("Ada", Role::Viewer)]).await;
-    assert_eq!(store.groups().await.unwrap(), [group("Studio Süd", Role::Editor, &[])]);
+    assert_eq!(store.groups().await.unwrap(), [at(4, group("Studio Süd", Role::Editor, &[]))]);
 }
 
 pub(super) async fn a_login_may_what_its_users_groups_may(store: &(impl Groups + Passes + Users)) {
@@ -63,7 +73,7 @@ pub(super) async fn a_login_may_what_its_users_groups_may(store: &(impl Groups +
     store.add_group(group("Studio", Role::Editor, &[])).await.unwrap();
     store.add_group(group("Class", Role::Viewer, &[])).await.unwrap();
     for (group, user) in [("Studio", "Ada"), ("Class", "Ada"), ("Studio", "Bo")] {
-        store.join_group(group, user).await.unwrap();
+        store.join_group(group, user, None).await.unwrap();
     }
     let roles = async || {
         let (ada, bo) = (store.pass(hash(1), NOW).await.unwrap(), store.pass(hash(2), NOW).await.unwrap());
@@ -76,16 +86,37 @@ pub(super) async fn a_login_may_what_its_users_groups_may(store: &(impl Groups +
         (user.allowed(), bo.unwrap().role)
     };
     assert_eq!(roles().await, (Role::Editor, Role::Owner));
-    assert!(store.change_group("Studio", Role::Owner).await.unwrap());
-    assert!(!store.change_group("Choir", Role::Owner).await.unwrap());
+    assert!(store.change_group("Studio", to(Role::Owner), None).await.unwrap());
+    assert!(!store.change_group("Choir", to(Role::Owner), None).await.unwrap());
     assert_eq!(roles().await, (Role::Owner, Role::Owner));
-    assert!(store.change_user("Bo", UserChange::Role(Role::Admin)).await.unwrap());
-    assert!(store.change_user("Ada", UserChange::Role(Role::Editor)).await.unwrap());
+    assert!(store.change_user("Bo", UserChange::role(Role::Admin), Terms::default()).await.unwrap());
+    assert!(store.change_user("Ada", UserChange::role(Role::Editor), Terms::default()).await.unwrap());
     assert_eq!(roles().await, (Role::Owner, Role::Admin));
-    assert!(store.leave_group("Studio", "Ada").await.unwrap());
+    assert!(store.leave_group("Studio", "Ada", None).await.unwrap());
     assert_eq!(roles().await, (Role::Editor, Role::Admin));
-    store.join_group("Studio", "Ada").await.unwrap();
-    assert!(store.remove_group("Studio").await.unwrap());
+    store.join_group("Studio", "Ada", None).await.unwrap();
+    assert!(store.remove_group("Studio", None).await.unwrap());
     assert_eq!(roles().await, (Role::Editor, Role::Admin));
     assert_eq!(store.pass(hash(3), NOW).await.unwrap(), device);
+}
+
+pub(super) async fn a_group_changes_at_a_revision(store: &(impl Groups + Users)) {
+    add_users(store, &[("Ada", Role::Viewer)]).await;
+    store.add_group(group("Studio", Role::Editor, &[])).await.unwrap();
+    store.add_group(group("Class", Role::Viewer, &[])).await.unwrap();
+    let named = |name: &str| GroupChange { name: Some(name.into()), role: None };
+    let stale = |done: Result<bool, StoreError>| matches!(done, Err(StoreError::Stale));
+    assert!(stale(store.change_group("Studio", named("Nursery"), Some(2)).await));
+    assert!(stale(store.remove_group("Studio", Some(2)).await));
+    assert!(stale(store.leave_group("Studio", "Ada", Some(2)).await));
+    assert!(stale(store.join_group("Studio", "Ada", Some(2)).await.map(|()| true)));
+    assert!(matches!(store.change_group("Studio", named("CLASS"), None).await, Err(StoreError::Taken)));
+    store.join_group("Studio", "Ada", Some(1)).await.unwrap();
+    store.join_group("Studio", "Ada", Some(2)).await.unwrap();
+    assert!(store.change_group("studio", named("Nursery"), Some(2)).await.unwrap());
+    let nursery =
+        Group { id: "key of Studio".into(), revision: 3, ..group("Nursery", Role::Editor, &["Ada"]) };
+    assert_eq!(store.groups().await.unwrap(), [group("Class", Role::Viewer, &[]), nursery]);
+    assert!(store.change_group("nursery", named("NURSERY"), None).await.unwrap(), "it is its own name");
+    assert!(store.remove_group("Nursery", Some(4)).await.unwrap());
 }

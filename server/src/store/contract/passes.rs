@@ -9,7 +9,7 @@ use super::{
 use crate::access::SecretHash;
 
 pub(super) const NOW: &str = "2026-05-01T12:00:00.000Z";
-const LATER: &str = "2026-05-01T12:00:00.001Z";
+pub(super) const LATER: &str = "2026-05-01T12:00:00.001Z";
 
 pub(super) fn pass(id: &str, kind: PassKind) -> Pass {
     Pass {
@@ -17,6 +17,8 @@ pub(super) fn pass(id: &str, kind: PassKind) -> Pass {
         kind,
         name: format!("Ada's {id}"),
         role: Role::Editor,
+        holder: None,
+        most: None,
         tree: None,
         created_at: format!("2026-04-01T12:00:00.000Z {id}"),
         expires_at: LATER.into(),

@@ -4,11 +4,12 @@ use espalier_proto::access::Role;
 
 use super::{
     super::{
-        Comments, Library, NewComment, NewSession, NewSnapshot, SessionLine, SessionQuery, Store, User,
+        Comments, Library, NewComment, NewSession, NewSnapshot, SessionLine, SessionQuery, Store, Terms,
         Users, Visits, person_of,
     },
     entries,
     library::tree,
+    users::user,
 };
 
 const ANN: &str = "login ann";
@@ -97,15 +98,10 @@ pub(super) async fn who_is_removed_was_in_no_session(
     begin(store, "sketch", ANN, None).await;
     store.visit("sketch", BO).await.unwrap();
     for (name, person) in [&ann, &bo] {
-        let created_at = "2026-04-01T12:00:00.000Z".into();
-        let (name, password) = ((*name).into(), String::new());
-        store
-            .add_user(User { name, role: Role::Editor, group_role: None, password, created_at })
-            .await
-            .unwrap();
+        store.add_user(user(name, Role::Editor)).await.unwrap();
         assert!(store.see_thread("ash", person, 1, 1).await.unwrap());
     }
-    assert!(store.remove_user("ann").await.unwrap());
+    assert!(store.remove_user("ann", Terms::default()).await.unwrap());
     // Whoever is called so next begins with nothing; the other keeps what was theirs.
     assert_eq!((names(store, of(ANN)).await, names(store, of(BO)).await), (vec![], vec!["sketch".into()]));
     assert_eq!(store.seen_threads("ash", ANN).await.unwrap(), []);

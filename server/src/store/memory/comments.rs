@@ -36,6 +36,18 @@ impl Thread {
         self.seen.remove(person);
     }
 
+    pub(super) fn rename(&mut self, old: &str, new: &str, saying: impl Fn(&str) -> String) {
+        if let Some(seen) = self.seen.remove(old) {
+            self.seen.insert(new.to_owned(), seen);
+        }
+        for (comment, _) in self.comments.iter_mut().flatten() {
+            comment.said = saying(&comment.said);
+            if comment.person == old {
+                new.clone_into(&mut comment.person);
+            }
+        }
+    }
+
     fn add(&mut self, new: NewComment) -> u32 {
         let NewComment { person, author, written_at, said, picture } = new;
         let number = self.comments.len() as u32 + 1;

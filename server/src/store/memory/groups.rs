@@ -3,7 +3,7 @@
 use espalier_proto::access::Role;
 
 use super::{
-    super::{Group, Groups, Missing, Pass, PassKind, StoreError, folding::folded},
+    super::{Group, GroupChange, Groups, Holder, Missing, Pass, PassKind, StoreError, folding::folded},
     Kept, MemoryStore,
 };
 
@@ -22,51 +22,95 @@ impl Groups for MemoryStore {
         Ok(self.kept().groups.values().cloned().collect())
     }
 
-    async fn change_group(&self, name: &str, role: Role) -> Result<bool, StoreError> {
+    async fn change_group(
+        &self,
+        name: &str,
+        GroupChange { name: other, role }: GroupChange,
+        expected: Option<u64>,
+    ) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
-        let group = kept.groups.get_mut(&folded(name));
-        Ok(group.map(|group| group.role = role).is_some())
-    }
-
-    async fn remove_group(&self, name: &str) -> Result<bool, StoreError> {
-        Ok(self.writing()?.groups.remove(&folded(name)).is_some())
-    }
-
-    async fn join_group(&self, name: &str, user: &str) -> Result<(), StoreError> {
-        let mut kept = self.writing()?;
-        if !kept.groups.contains_key(&folded(name)) {
-            return Err(StoreError::NotFound(Missing::Group));
+        if kept.group_at(name, expected)?.is_none() {
+            return Ok(false);
         }
+        let key = folded(other.as_deref().unwrap_or(name));
+        if key != folded(name) && kept.groups.contains_key(&key) {
+            return Err(StoreError::Taken);
+        }
+        let Some(group) = kept.groups.remove(&folded(name)) else { return Ok(false) };
+        let (name, role) = (other.unwrap_or(group.name), role.unwrap_or(group.role));
+        kept.groups.insert(key, Group { name, role, revision: group.revision + 1, ..group });
+        Ok(true)
+    }
+
+    async fn remove_group(&self, name: &str, expected: Option<u64>) -> Result<bool, StoreError> {
+        let mut kept = self.writing()?;
+        kept.group_at(name, expected)?;
+        Ok(kept.groups.remove(&folded(name)).is_some())
+    }
+
+    async fn join_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<(), StoreError> {
+        let mut kept = self.writing()?;
+        kept.group_at(name, expected)?.ok_or(StoreError::NotFound(Missing::Group))?;
         let user = kept.users.get(&folded(user)).ok_or(StoreError::NotFound(Missing::User))?.name.clone();
-        if let Some(group) = kept.groups.get_mut(&folded(name)) {
-            group.members.retain(|member| *member != user);
+        let group = kept.group_at(name, expected)?.filter(|group| !group.members.contains(&user));
+        if let Some(group) = group {
             group.members.push(user);
             group.members.sort_by_key(|member| folded(member));
+            group.revision += 1;
         }
         Ok(())
     }
 
-    async fn leave_group(&self, name: &str, user: &str) -> Result<bool, StoreError> {
+    async fn leave_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
-        let Some(group) = kept.groups.get_mut(&folded(name)) else { return Ok(false) };
-        let left = group.members.extract_if(.., |member| folded(member) == folded(user));
-        Ok(left.count() > 0)
+        let Some(group) = kept.group_at(name, expected)? else { return Ok(false) };
+        let left = group.members.extract_if(.., |member| folded(member) == folded(user)).count();
+        group.revision += u64::from(left > 0);
+        Ok(left > 0)
     }
 }
 
 impl Kept {
+    /// A group, which is at a revision if one is expected.
+    fn group_at(&mut self, name: &str, expected: Option<u64>) -> Result<Option<&mut Group>, StoreError> {
+        let group = self.groups.get_mut(&folded(name));
+        match group {
+            Some(group) if expected.is_some_and(|expected| expected != group.revision) => {
+                Err(StoreError::Stale)
+            }
+            group => Ok(group),
+        }
+    }
+
     /// The most that a group gives a user.
     pub(super) fn group_role(&self, user: &str) -> Option<Role> {
         let is_member = |group: &&Group| group.members.iter().any(|member| folded(member) == folded(user));
         self.groups.values().filter(is_member).map(|group| group.role).max()
     }
 
-    /// A pass with what it allows now.
-    pub(super) fn in_force(&self, mut pass: Pass) -> Pass {
+    /// A pass with what it allows now; nothing where a token's device is let in no longer.
+    pub(super) fn in_force(&self, mut pass: Pass, now: &str) -> Option<Pass> {
+        let most = match &mut pass.holder {
+            None => return Some(pass),
+            Some(Holder::User { id, name }) => {
+                let user = self.users.values().find(|user| user.id == *id)?;
+                name.clone_from(&user.name);
+                self.group_role(&user.name).map_or(user.role, |role| role.max(user.role))
+            }
+            Some(Holder::Device { id, .. }) => {
+                let mut maker = self.passes.iter().map(|(_, other)| other);
+                maker.find(|other| other.id == *id && *other.expires_at > *now)?.role
+            }
+        };
         if pass.kind == PassKind::Login {
-            pass.role = self.group_role(&pass.name).map_or(pass.role, |role| role.max(pass.role));
+            let name = pass.holder.as_ref().map(|holder| holder.name().to_owned());
+            pass.name = name.unwrap_or(pass.name);
+            pass.role = most;
+        } else {
+            pass.most = Some(pass.role);
+            pass.role = pass.role.min(most);
         }
-        pass
+        Some(pass)
     }
 
     /// They are in no group any more.

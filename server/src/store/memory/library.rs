@@ -40,6 +40,11 @@ pub(super) struct Version {
 }
 
 impl Tree {
+    /// Who has saved each version.
+    pub(super) fn savers(&mut self) -> impl Iterator<Item = &mut String> {
+        self.versions.iter_mut().map(|version| &mut version.new.principal)
+    }
+
     fn head(&self) -> u32 {
         self.versions.len() as u32
     }

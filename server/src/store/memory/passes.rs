@@ -3,7 +3,7 @@
 use espalier_proto::access::Role;
 
 use super::{
-    super::{Missing, Pass, PassKind, Passes, StoreError, folding::folded},
+    super::{Holder, Missing, Pass, PassKind, Passes, StoreError, folding::folded},
     MemoryStore,
 };
 use crate::access::SecretHash;
@@ -16,7 +16,16 @@ impl Passes for MemoryStore {
         }
         if pass.kind == PassKind::Login {
             let user = kept.users.get(&folded(&pass.name)).ok_or(StoreError::NotFound(Missing::User))?;
-            pass.role = user.role;
+            pass.holder = Some(Holder::User { id: user.id.clone(), name: user.name.clone() });
+        }
+        match &pass.holder {
+            Some(Holder::User { id, .. }) if kept.users.values().all(|user| user.id != *id) => {
+                return Err(StoreError::NotFound(Missing::User));
+            }
+            Some(Holder::Device { id, .. }) if kept.passes.iter().all(|(_, other)| other.id != *id) => {
+                return Err(StoreError::NotFound(Missing::Pass));
+            }
+            _ => {}
         }
         kept.passes.push((hash, pass));
         Ok(())
@@ -25,14 +34,14 @@ impl Passes for MemoryStore {
     async fn pass(&self, hash: SecretHash, now: &str) -> Result<Option<Pass>, StoreError> {
         let kept = self.kept();
         let found = kept.passes.iter().find(|(of, pass)| *of == hash && *pass.expires_at > *now);
-        Ok(found.map(|(_, pass)| kept.in_force(pass.clone())))
+        Ok(found.and_then(|(_, pass)| kept.in_force(pass.clone(), now)))
     }
 
     async fn passes(&self, kind: PassKind, now: &str) -> Result<Vec<Pass>, StoreError> {
         let kept = self.kept();
         let found = kept.passes.iter().map(|(_, pass)| pass);
         let found = found.filter(|pass| pass.kind == kind && *pass.expires_at > *now);
-        let mut found: Vec<Pass> = found.map(|pass| kept.in_force(pass.clone())).collect();
+        let mut found: Vec<Pass> = found.filter_map(|pass| kept.in_force(pass.clone(), now)).collect();
         found.sort_by(|a, b| (&b.created_at, &b.id).cmp(&(&a.created_at, &a.id)));
         Ok(found)
     }
@@ -52,11 +61,25 @@ impl Passes for MemoryStore {
     }
 
     async fn take_pass(&self, id: &str) -> Result<bool, StoreError> {
-        Ok(self.writing()?.passes.extract_if(.., |(_, pass)| pass.id == id).count() > 0)
+        let mut kept = self.writing()?;
+        let taken = kept.passes.extract_if(.., |(_, pass)| pass.id == id).count();
+        kept.passes.retain(|(_, pass)| maker(pass) != Some(id));
+        Ok(taken > 0)
     }
 
     async fn purge_passes(&self, now: &str) -> Result<(), StoreError> {
-        self.writing()?.passes.retain(|(_, pass)| *pass.expires_at > *now);
+        let mut kept = self.writing()?;
+        let gone = kept.passes.extract_if(.., |(_, pass)| *pass.expires_at <= *now);
+        let gone: Vec<String> = gone.map(|(_, pass)| pass.id).collect();
+        kept.passes.retain(|(_, pass)| maker(pass).is_none_or(|id| gone.iter().all(|other| other != id)));
         Ok(())
+    }
+}
+
+/// The device that has made a token.
+fn maker(pass: &Pass) -> Option<&str> {
+    match &pass.holder {
+        Some(Holder::Device { id, .. }) => Some(id),
+        _ => None,
     }
 }

@@ -1,9 +1,15 @@
 //! Users in the model.
 
+use espalier_proto::access::Role;
+
 use super::{
-    super::{Pass, PassKind, StoreError, User, UserChange, Users, folding::folded, person_of},
+    super::{
+        Holder, Pass, PassKind, StoreError, Terms, User, UserChange, Users, folding::folded, person_of,
+        users::mentioning_instead,
+    },
     Kept, MemoryStore,
 };
+use crate::access::SecretHash;
 
 impl Users for MemoryStore {
     async fn add_user(&self, user: User) -> Result<(), StoreError> {
@@ -26,27 +32,36 @@ impl Users for MemoryStore {
         Ok(kept.users.values().map(|user| kept.grouped(user)).collect())
     }
 
-    async fn change_user(&self, name: &str, change: UserChange) -> Result<bool, StoreError> {
+    async fn change_user(&self, name: &str, change: UserChange, terms: Terms) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
-        let Some(user) = kept.users.get_mut(&folded(name)) else { return Ok(false) };
-        match change {
-            UserChange::Role(role) => {
-                user.role = role;
-                for (_, pass) in kept.passes.iter_mut().filter(|(_, pass)| is_login_of(pass, name)) {
-                    pass.role = role;
-                }
-            }
-            UserChange::Password(password) => {
-                user.password = password;
-                end_logins(&mut kept, name);
-            }
+        let Some(user) = kept.users.get(&folded(name)).cloned() else { return Ok(false) };
+        kept.check(&user, terms, change.role.is_some_and(|role| role != Role::Admin))?;
+        let UserChange { name: other, role, password, stays } = change;
+        let key = folded(other.as_deref().unwrap_or(name));
+        if key != folded(name) && kept.users.contains_key(&key) {
+            return Err(StoreError::Taken);
         }
+        if password.is_some() {
+            kept.end_logins(&user, stays);
+        }
+        let changed = User {
+            name: other.unwrap_or(user.name.clone()),
+            role: role.unwrap_or(user.role),
+            password: password.unwrap_or(user.password.clone()),
+            revision: user.revision + 1,
+            ..user.clone()
+        };
+        kept.rename(&user.name, &changed.name);
+        kept.users.remove(&folded(name));
+        kept.users.insert(key, changed);
         Ok(true)
     }
 
-    async fn remove_user(&self, name: &str) -> Result<bool, StoreError> {
+    async fn remove_user(&self, name: &str, terms: Terms) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
-        end_logins(&mut kept, name);
+        let Some(user) = kept.users.get(&folded(name)).cloned() else { return Ok(false) };
+        kept.check(&user, terms, true)?;
+        kept.passes.retain(|(_, pass)| !is_of(pass, &user));
         kept.leave_all(name);
         let person = person_of(name);
         kept.sessions.values_mut().for_each(|session| _ = session.people.remove(&person));
@@ -62,12 +77,58 @@ impl Kept {
     fn grouped(&self, user: &User) -> User {
         User { group_role: self.group_role(&user.name), ..user.clone() }
     }
+
+    fn check(&self, user: &User, terms: Terms, stops: bool) -> Result<(), StoreError> {
+        if terms.expected.is_some_and(|expected| expected != user.revision) {
+            return Err(StoreError::Stale);
+        }
+        let mut others = self.users.values().filter(|other| other.id != user.id);
+        let is_last = user.role == Role::Admin && !others.any(|other| other.role == Role::Admin);
+        if stops && is_last && !terms.force { Err(StoreError::LastAdmin) } else { Ok(()) }
+    }
+
+    fn end_logins(&mut self, user: &User, stays: Option<SecretHash>) {
+        let ends = |pass: &Pass| pass.kind == PassKind::Login && is_of(pass, user);
+        self.passes.retain(|(hash, pass)| Some(*hash) == stays || !ends(pass));
+    }
+
+    /// What was of somebody is of the same person under another name.
+    fn rename(&mut self, old_name: &str, new_name: &str) {
+        for group in self.groups.values_mut() {
+            let own = group.members.iter_mut().filter(|member| folded(member) == folded(old_name));
+            own.for_each(|member| new_name.clone_into(member));
+            group.members.sort_by_key(|member| folded(member));
+        }
+        let (old, new) = (person_of(old_name), person_of(new_name));
+        if old == new {
+            return;
+        }
+        for session in self.sessions.values_mut() {
+            if session.people.remove(&old) {
+                session.people.insert(new.clone());
+            }
+        }
+        self.favourites = std::mem::take(&mut self.favourites)
+            .into_iter()
+            .map(|(person, tree)| (if person == old { new.clone() } else { person }, tree))
+            .collect();
+        let removals = self.removals.iter_mut().map(|removal| &mut removal.person);
+        let heirs = self.heirs.values_mut().map(|heir| &mut heir.person);
+        let savers = self.trees.values_mut().flat_map(|tree| tree.savers());
+        for person in removals.chain(heirs).chain(savers).filter(|person| **person == old) {
+            person.clone_from(&new);
+        }
+        for (_, thread) in self.threads.values_mut().flatten() {
+            thread.rename(&old, &new, |said| mentioning_instead(said, &old, &new));
+        }
+        for (_, named) in self.authors.values_mut() {
+            if named.person.as_deref() == Some(&*old) {
+                named.person = Some(new.as_str().into());
+            }
+        }
+    }
 }
 
-fn end_logins(kept: &mut Kept, name: &str) {
-    kept.passes.retain(|(_, pass)| !is_login_of(pass, name));
-}
-
-fn is_login_of(pass: &Pass, name: &str) -> bool {
-    pass.kind == PassKind::Login && folded(&pass.name) == folded(name)
+fn is_of(pass: &Pass, user: &User) -> bool {
+    matches!(&pass.holder, Some(Holder::User { id, .. }) if *id == user.id)
 }

@@ -4,7 +4,7 @@ use espalier_proto::access::Role;
 use sqlx::sqlite::SqliteConnection;
 
 use super::{
-    super::{Group, Groups, Missing, StoreError, folding::folded},
+    super::{Group, GroupChange, Groups, Missing, StoreError, folding::folded},
     SqliteStore,
     writer::Write,
 };
@@ -12,10 +12,10 @@ use super::{
 #[derive(Debug)]
 pub(super) enum GroupWrite {
     Add(Group),
-    Change(String, Role),
-    Remove(String),
-    Join { group: String, user: String },
-    Leave { group: String, user: String },
+    Change(String, GroupChange, Option<u64>),
+    Remove(String, Option<u64>),
+    Join { group: String, user: String, expected: Option<u64> },
+    Leave { group: String, user: String, expected: Option<u64> },
 }
 
 impl Groups for SqliteStore {
@@ -25,43 +25,63 @@ impl Groups for SqliteStore {
     }
 
     async fn groups(&self) -> Result<Vec<Group>, StoreError> {
-        let rows: Vec<(String, String, String, Option<String>)> = sqlx::query_as(
-            "SELECT studios.name, studios.role, studios.created_at, users.name FROM studios
-             LEFT JOIN studio_members ON studio = studios.id LEFT JOIN users ON users.id = user
+        let rows: Vec<Row> = sqlx::query_as(
+            "SELECT studios.key, studios.name, studios.role, studios.created_at, studios.revision, users.name
+             FROM studios LEFT JOIN studio_members ON studio = studios.id LEFT JOIN users ON users.id = user
              ORDER BY studios.folded, users.folded",
         )
         .fetch_all(&self.readers)
         .await?;
         let mut groups: Vec<Group> = Vec::new();
-        for (name, role, created_at, member) in rows {
-            match groups.last_mut().filter(|group| group.name == name) {
+        for (id, name, role, created_at, revision, member) in rows {
+            match groups.last_mut().filter(|group| group.id == id) {
                 Some(group) => group.members.extend(member),
                 None => {
-                    let role = role_named(&role)?;
-                    groups.push(Group { name, role, created_at, members: member.into_iter().collect() });
+                    let (role, members) = (role_named(&role)?, member.into_iter().collect());
+                    let revision = revision.try_into().unwrap_or_default();
+                    groups.push(Group { id, name, role, created_at, members, revision });
                 }
             }
         }
         Ok(groups)
     }
 
-    async fn change_group(&self, name: &str, role: Role) -> Result<bool, StoreError> {
-        Ok(self.writer.write(Write::Group(GroupWrite::Change(name.to_owned(), role))).await? > 0)
+    async fn change_group(
+        &self,
+        name: &str,
+        change: GroupChange,
+        expected: Option<u64>,
+    ) -> Result<bool, StoreError> {
+        self.change_groups(GroupWrite::Change(name.to_owned(), change, expected)).await
     }
 
-    async fn remove_group(&self, name: &str) -> Result<bool, StoreError> {
-        Ok(self.writer.write(Write::Group(GroupWrite::Remove(name.to_owned()))).await? > 0)
+    async fn remove_group(&self, name: &str, expected: Option<u64>) -> Result<bool, StoreError> {
+        self.change_groups(GroupWrite::Remove(name.to_owned(), expected)).await
     }
 
-    async fn join_group(&self, name: &str, user: &str) -> Result<(), StoreError> {
-        let write = GroupWrite::Join { group: name.to_owned(), user: user.to_owned() };
-        self.writer.write(Write::Group(write)).await.map(drop)
+    async fn join_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<(), StoreError> {
+        let write = GroupWrite::Join { group: name.to_owned(), user: user.to_owned(), expected };
+        self.change_groups(write).await.map(drop)
     }
 
-    async fn leave_group(&self, name: &str, user: &str) -> Result<bool, StoreError> {
-        let write = GroupWrite::Leave { group: name.to_owned(), user: user.to_owned() };
+    async fn leave_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<bool, StoreError> {
+        self.change_groups(GroupWrite::Leave { group: name.to_owned(), user: user.to_owned(), expected })
+            .await
+    }
+}
+
+impl SqliteStore {
+    async fn change_groups(&self, write: GroupWrite) -> Result<bool, StoreError> {
         Ok(self.writer.write(Write::Group(write)).await? > 0)
     }
+}
+
+/// Identifier, name, role, when it was added, revision, and a member.
+type Row = (String, String, String, String, i64, Option<String>);
+
+/// Whether something is at another revision than was expected.
+pub(super) fn stale(expected: Option<u64>, found: i64) -> bool {
+    expected.is_some_and(|expected| u64::try_from(found) != Ok(expected))
 }
 
 /// The most of a role and those of groups, as `group_concat` has them.
@@ -76,41 +96,86 @@ fn role_named(name: &str) -> Result<Role, StoreError> {
 
 impl GroupWrite {
     pub(super) async fn apply(&self, connection: &mut SqliteConnection) -> Result<u64, StoreError> {
-        let query = match self {
-            Self::Add(Group { name, role, created_at, .. }) => sqlx::query(
-                "INSERT INTO studios (name, folded, role, created_at) VALUES (?, ?, ?, ?)
-                 ON CONFLICT (folded) DO NOTHING",
-            )
-            .bind(name)
-            .bind(folded(name))
-            .bind(role.name())
-            .bind(created_at),
-            Self::Change(name, role) => sqlx::query("UPDATE studios SET role = ? WHERE folded = ?")
-                .bind(role.name())
-                .bind(folded(name)),
-            Self::Remove(name) => sqlx::query("DELETE FROM studios WHERE folded = ?").bind(folded(name)),
-            Self::Join { group, user } => {
-                let group: i64 = sqlx::query_scalar("SELECT id FROM studios WHERE folded = ?")
-                    .bind(folded(group))
-                    .fetch_optional(&mut *connection)
-                    .await?
-                    .ok_or(StoreError::NotFound(Missing::Group))?;
+        match self {
+            Self::Add(Group { id, name, role, created_at, .. }) => {
+                let added = sqlx::query(
+                    "INSERT INTO studios (key, name, folded, role, created_at) VALUES (?, ?, ?, ?, ?)
+                     ON CONFLICT (folded) DO NOTHING",
+                );
+                let added = added.bind(id).bind(name).bind(folded(name)).bind(role.name()).bind(created_at);
+                Ok(added.execute(connection).await?.rows_affected())
+            }
+            Self::Change(name, GroupChange { name: other, role }, expected) => {
+                let Some(row) = find(connection, name, *expected).await? else { return Ok(0) };
+                if let Some(other) = other {
+                    rename(connection, row, other).await?;
+                }
+                if let Some(role) = role {
+                    let sql = "UPDATE studios SET role = ? WHERE id = ?";
+                    sqlx::query(sql).bind(role.name()).bind(row).execute(&mut *connection).await?;
+                }
+                count(connection, row).await
+            }
+            Self::Remove(name, expected) => {
+                let Some(row) = find(connection, name, *expected).await? else { return Ok(0) };
+                let removed = sqlx::query("DELETE FROM studios WHERE id = ?").bind(row);
+                Ok(removed.execute(connection).await?.rows_affected())
+            }
+            Self::Join { group, user, expected } => {
+                let row = find(connection, group, *expected).await?;
+                let row = row.ok_or(StoreError::NotFound(Missing::Group))?;
                 let user: i64 = sqlx::query_scalar("SELECT id FROM users WHERE folded = ?")
                     .bind(folded(user))
                     .fetch_optional(&mut *connection)
                     .await?
                     .ok_or(StoreError::NotFound(Missing::User))?;
-                sqlx::query("INSERT INTO studio_members (studio, user) VALUES (?, ?) ON CONFLICT DO NOTHING")
-                    .bind(group)
-                    .bind(user)
+                let sql = "INSERT INTO studio_members (studio, user) VALUES (?, ?) ON CONFLICT DO NOTHING";
+                let joined = sqlx::query(sql).bind(row).bind(user).execute(&mut *connection).await?;
+                if joined.rows_affected() == 0 { Ok(0) } else { count(connection, row).await }
             }
-            Self::Leave { group, user } => sqlx::query(
-                "DELETE FROM studio_members WHERE studio = (SELECT id FROM studios WHERE folded = ?)
-                 AND user = (SELECT id FROM users WHERE folded = ?)",
-            )
-            .bind(folded(group))
-            .bind(folded(user)),
-        };
-        Ok(query.execute(connection).await?.rows_affected())
+            Self::Leave { group, user, expected } => {
+                let Some(row) = find(connection, group, *expected).await? else { return Ok(0) };
+                let sql = "DELETE FROM studio_members
+                           WHERE studio = ? AND user = (SELECT id FROM users WHERE folded = ?)";
+                let left = sqlx::query(sql).bind(row).bind(folded(user)).execute(&mut *connection).await?;
+                if left.rows_affected() == 0 { Ok(0) } else { count(connection, row).await }
+            }
+        }
     }
+}
+
+/// The row of a group, which is at a revision if one is expected.
+async fn find(
+    connection: &mut SqliteConnection,
+    name: &str,
+    expected: Option<u64>,
+) -> Result<Option<i64>, StoreError> {
+    let found: Option<(i64, i64)> = sqlx::query_as("SELECT id, revision FROM studios WHERE folded = ?")
+        .bind(folded(name))
+        .fetch_optional(connection)
+        .await?;
+    match found {
+        Some((_, revision)) if stale(expected, revision) => Err(StoreError::Stale),
+        found => Ok(found.map(|(row, _)| row)),
+    }
+}
+
+async fn rename(connection: &mut SqliteConnection, row: i64, name: &str) -> Result<(), StoreError> {
+    let other: Option<i64> = sqlx::query_scalar("SELECT id FROM studios WHERE folded = ? AND id <> ?")
+        .bind(folded(name))
+        .bind(row)
+        .fetch_optional(&mut *connection)
+        .await?;
+    if other.is_some() {
+        return Err(StoreError::Taken);
+    }
+    let renamed = sqlx::query("UPDATE studios SET name = ?, folded = ? WHERE id = ?");
+    renamed.bind(name).bind(folded(name)).bind(row).execute(connection).await?;
+    Ok(())
+}
+
+/// Counts a change.
+async fn count(connection: &mut SqliteConnection, row: i64) -> Result<u64, StoreError> {
+    let counted = sqlx::query("UPDATE studios SET revision = revision + 1 WHERE id = ?").bind(row);
+    Ok(counted.execute(connection).await?.rows_affected())
 }

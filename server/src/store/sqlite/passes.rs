@@ -4,7 +4,7 @@ use espalier_proto::access::Role;
 use sqlx::sqlite::SqliteConnection;
 
 use super::{
-    super::{Missing, Pass, PassKind, Passes, StoreError, folding::folded},
+    super::{Holder, Missing, Pass, PassKind, Passes, StoreError, folding::folded},
     SqliteStore,
     groups::most,
     writer::Write,
@@ -13,7 +13,7 @@ use crate::access::SecretHash;
 
 #[derive(Debug)]
 pub(super) enum PassWrite {
-    Add(SecretHash, Pass),
+    Add(SecretHash, Box<Pass>),
     Extend { id: String, expires_at: String },
     Change { id: String, role: Role },
     Take(String),
@@ -22,7 +22,7 @@ pub(super) enum PassWrite {
 
 impl Passes for SqliteStore {
     async fn add_pass(&self, hash: SecretHash, pass: Pass) -> Result<(), StoreError> {
-        self.writer.write(Write::Pass(PassWrite::Add(hash, pass))).await.map(drop)
+        self.writer.write(Write::Pass(PassWrite::Add(hash, Box::new(pass)))).await.map(drop)
     }
 
     async fn pass(&self, hash: SecretHash, now: &str) -> Result<Option<Pass>, StoreError> {
@@ -57,29 +57,51 @@ impl Passes for SqliteStore {
 macro_rules! select {
     ($rest:literal) => {
         concat!(
-            "SELECT passes.id, kind, passes.name, coalesce(users.role, passes.role), key, passes.created_at,
-             expires_at, ends_at, (SELECT group_concat(studios.role) FROM studio_members
+            "SELECT passes.id, passes.kind, passes.name, passes.role, trees.key, passes.created_at,
+             passes.expires_at, passes.ends_at, coalesce(users.key, maker.id), coalesce(users.name, maker.name),
+             maker.hash, coalesce(users.role, maker.role),
+             (SELECT group_concat(studios.role) FROM studio_members
              JOIN studios ON studios.id = studio WHERE studio_members.user = users.id)
-             FROM passes LEFT JOIN trees ON trees.id = tree LEFT JOIN users ON users.id = passes.user WHERE expires_at > ?2 AND ",
+             FROM passes LEFT JOIN trees ON trees.id = passes.tree LEFT JOIN users ON users.id = passes.user
+             LEFT JOIN passes AS maker ON maker.id = passes.maker
+             WHERE passes.expires_at > ?2 AND (maker.id IS NULL OR maker.expires_at > ?2) AND ",
             $rest
         )
     };
 }
 
-const SELECT_BY_HASH: &str = select!("hash = ?1");
-const SELECT_BY_KIND: &str = select!("kind = ?1 ORDER BY passes.created_at DESC, passes.id DESC");
+const SELECT_BY_HASH: &str = select!("passes.hash = ?1");
+const SELECT_BY_KIND: &str = select!("passes.kind = ?1 ORDER BY passes.created_at DESC, passes.id DESC");
 
-/// Identifier, kind, name, role, tree, the times when it was made, expires and ends, and the roles of its user's groups.
-type Row = (String, String, String, String, Option<String>, String, String, String, Option<String>);
+/// Identifier, kind, name, role, tree, and the times when it was made, expires and ends; of its holder the identifier, the
+/// name, the hash of a device, the role, and the roles of the groups of a user.
+#[rustfmt::skip]
+type Row = (
+    String, String, String, String, Option<String>, String, String, String,
+    Option<String>, Option<String>, Option<Vec<u8>>, Option<String>, Option<String>,
+);
 
-fn read(
-    (id, kind, name, role, tree, created_at, expires_at, ends_at, of_groups): Row,
-) -> Result<Pass, StoreError> {
-    let known = PassKind::named(&kind).zip(Role::named(&role));
-    let (kind, role) =
-        known.ok_or_else(|| StoreError::Damaged(format!("the pass {id} is of no known kind")))?;
-    let role = most(role, of_groups.as_deref())?;
-    Ok(Pass { id, kind, name, role, tree, created_at, expires_at, ends_at })
+fn read(row: Row) -> Result<Pass, StoreError> {
+    let (id, kind, name, role, tree, created_at, expires_at, ends_at, holder, called, hash, own, groups) =
+        row;
+    let unknown = || StoreError::Damaged(format!("the pass {id} is of no known kind"));
+    let role_of = |name: &str| Role::named(name).ok_or_else(unknown);
+    let (kind, made_for) = (PassKind::named(&kind).ok_or_else(unknown)?, role_of(&role)?);
+    let holder = match (holder.zip(called), hash) {
+        (None, _) => None,
+        (Some((id, name)), None) => Some(Holder::User { id, name }),
+        (Some((holder, name)), Some(hash)) => {
+            let hash = SecretHash::try_from(hash).map_err(|_| unknown())?;
+            Some(Holder::Device { id: holder, hash, name })
+        }
+    };
+    let own = own.map(|own| most(role_of(&own)?, groups.as_deref())).transpose()?;
+    let (name, role) = match (kind, &holder, own) {
+        (PassKind::Login, Some(user), Some(own)) => (user.name().to_owned(), own),
+        (_, _, own) => (name, own.map_or(made_for, |own| own.min(made_for))),
+    };
+    let most = Some(made_for).filter(|_| kind == PassKind::Token && holder.is_some());
+    Ok(Pass { id, kind, name, role, holder, most, tree, created_at, expires_at, ends_at })
 }
 
 impl PassWrite {
@@ -93,17 +115,31 @@ impl PassWrite {
                         Some(id(found.fetch_optional(&mut *connection).await?, Missing::Tree)?)
                     }
                 };
-                let user = match pass.kind {
-                    PassKind::Login => {
+                let holder = pass.holder.as_ref();
+                let user = match (pass.kind, holder) {
+                    (PassKind::Login, _) => {
                         let found = sqlx::query_scalar("SELECT id FROM users WHERE folded = ?");
                         let found = found.bind(folded(&pass.name)).fetch_optional(&mut *connection).await?;
                         Some(id(found, Missing::User)?)
                     }
-                    PassKind::Invitation | PassKind::Device | PassKind::Token => None,
+                    (_, Some(Holder::User { id: key, .. })) => {
+                        let found = sqlx::query_scalar("SELECT id FROM users WHERE key = ?").bind(key);
+                        Some(id(found.fetch_optional(&mut *connection).await?, Missing::User)?)
+                    }
+                    _ => None,
+                };
+                let maker = match holder {
+                    Some(Holder::Device { id, .. }) => {
+                        let found =
+                            sqlx::query_scalar::<_, String>("SELECT id FROM passes WHERE id = ?").bind(id);
+                        let found = found.fetch_optional(&mut *connection).await?;
+                        Some(found.ok_or(StoreError::NotFound(Missing::Pass))?)
+                    }
+                    _ => None,
                 };
                 sqlx::query(
-                    "INSERT INTO passes (id, hash, kind, name, role, tree, user, created_at, expires_at, ends_at)
-                     VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                    "INSERT INTO passes (id, hash, kind, name, role, tree, user, maker, created_at, expires_at,
+                     ends_at) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
                 )
                 .bind(&pass.id)
                 .bind(hash.to_vec())
@@ -112,6 +148,7 @@ impl PassWrite {
                 .bind(pass.role.name())
                 .bind(tree)
                 .bind(user)
+                .bind(maker)
                 .bind(&pass.created_at)
                 .bind(&pass.expires_at)
                 .bind(&pass.ends_at)

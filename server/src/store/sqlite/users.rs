@@ -4,22 +4,25 @@ use espalier_proto::access::Role;
 use sqlx::sqlite::SqliteConnection;
 
 use super::{
-    super::{StoreError, User, UserChange, Users, folding::folded, person_of},
+    super::{
+        StoreError, Terms, User, UserChange, Users, folding::folded, person_of, users::mentioning_instead,
+    },
     SqliteStore,
-    groups::most,
+    groups::{most, stale},
     writer::Write,
 };
 
 #[derive(Debug)]
 pub(super) enum UserWrite {
     Add(User),
-    Change(String, UserChange),
-    Remove(String),
+    Change(String, UserChange, Terms),
+    Remove(String, Terms),
 }
 
 macro_rules! select {
     () => {
-        "SELECT name, role, password, created_at, (SELECT group_concat(studios.role) FROM studio_members
+        "SELECT key, name, role, password, created_at, revision,
+         (SELECT group_concat(studios.role) FROM studio_members
          JOIN studios ON studios.id = studio WHERE user = users.id) FROM users "
     };
 }
@@ -40,49 +43,52 @@ impl Users for SqliteStore {
         all.fetch_all(&self.readers).await?.into_iter().map(read).collect()
     }
 
-    async fn change_user(&self, name: &str, change: UserChange) -> Result<bool, StoreError> {
-        let write = UserWrite::Change(name.to_owned(), change);
+    async fn change_user(&self, name: &str, change: UserChange, terms: Terms) -> Result<bool, StoreError> {
+        let write = UserWrite::Change(name.to_owned(), change, terms);
         Ok(self.writer.write(Write::User(write)).await? > 0)
     }
 
-    async fn remove_user(&self, name: &str) -> Result<bool, StoreError> {
-        Ok(self.writer.write(Write::User(UserWrite::Remove(name.to_owned()))).await? > 0)
+    async fn remove_user(&self, name: &str, terms: Terms) -> Result<bool, StoreError> {
+        Ok(self.writer.write(Write::User(UserWrite::Remove(name.to_owned(), terms))).await? > 0)
     }
 }
 
-/// Name, role, password, when they were added, and the roles of their groups.
-type Row = (String, String, String, String, Option<String>);
+/// Identifier, name, role, password, when they were added, revision, and the roles of their groups.
+type Row = (String, String, String, String, String, i64, Option<String>);
 
-fn read((name, role, password, created_at, of_groups): Row) -> Result<User, StoreError> {
+fn read((id, name, role, password, created_at, revision, of_groups): Row) -> Result<User, StoreError> {
     let role = Role::named(&role)
         .ok_or_else(|| StoreError::Damaged(format!("the user {name} has no known role")))?;
     let group_role = of_groups.map(|roles| most(Role::Viewer, Some(&roles))).transpose()?;
-    Ok(User { name, role, group_role, password, created_at })
+    let revision = revision.try_into().unwrap_or_default();
+    Ok(User { id, name, role, group_role, password, created_at, revision })
 }
 
 impl UserWrite {
     pub(super) async fn apply(&self, connection: &mut SqliteConnection) -> Result<u64, StoreError> {
-        let query = match self {
-            Self::Add(User { name, role, password, created_at, .. }) => sqlx::query(
-                "INSERT INTO users (name, folded, role, password, created_at) VALUES (?, ?, ?, ?, ?)
-                 ON CONFLICT (folded) DO NOTHING",
-            )
-            .bind(name)
-            .bind(folded(name))
-            .bind(role.name())
-            .bind(password)
-            .bind(created_at),
-            Self::Change(name, UserChange::Role(role)) => {
-                sqlx::query("UPDATE users SET role = ? WHERE folded = ?").bind(role.name()).bind(folded(name))
-            }
-            Self::Change(name, UserChange::Password(password)) => {
-                let ended = "DELETE FROM passes WHERE user = (SELECT id FROM users WHERE folded = ?)";
-                sqlx::query(ended).bind(folded(name)).execute(&mut *connection).await?;
-                sqlx::query("UPDATE users SET password = ? WHERE folded = ?")
-                    .bind(password)
+        match self {
+            Self::Add(User { id, name, role, password, created_at, .. }) => {
+                let added = sqlx::query(
+                    "INSERT INTO users (key, name, folded, role, password, created_at) VALUES (?, ?, ?, ?, ?, ?)
+                     ON CONFLICT (folded) DO NOTHING",
+                );
+                let added = added
+                    .bind(id)
+                    .bind(name)
                     .bind(folded(name))
+                    .bind(role.name())
+                    .bind(password)
+                    .bind(created_at);
+                Ok(added.execute(connection).await?.rows_affected())
             }
-            Self::Remove(name) => {
+            Self::Change(name, change, terms) => {
+                let Some(there) = Kept::find(connection, name).await? else { return Ok(0) };
+                there.change(connection, change, *terms).await?;
+                Ok(1)
+            }
+            Self::Remove(name, terms) => {
+                let Some(there) = Kept::find(connection, name).await? else { return Ok(0) };
+                there.check(connection, *terms, true).await?;
                 for sql in [
                     "DELETE FROM session_people WHERE person = ?",
                     "DELETE FROM comments_seen WHERE person = ?",
@@ -90,9 +96,124 @@ impl UserWrite {
                 ] {
                     sqlx::query(sql).bind(person_of(name)).execute(&mut *connection).await?;
                 }
-                sqlx::query("DELETE FROM users WHERE folded = ?").bind(folded(name))
+                let removed = sqlx::query("DELETE FROM users WHERE id = ?").bind(there.row);
+                Ok(removed.execute(connection).await?.rows_affected())
             }
-        };
-        Ok(query.execute(connection).await?.rows_affected())
+        }
+    }
+}
+
+/// A user's row.
+struct Kept {
+    row: i64,
+    name: String,
+    is_admin: bool,
+    revision: i64,
+}
+
+impl Kept {
+    async fn find(connection: &mut SqliteConnection, name: &str) -> Result<Option<Self>, StoreError> {
+        let found: Option<(i64, String, String, i64)> =
+            sqlx::query_as("SELECT id, name, role, revision FROM users WHERE folded = ?")
+                .bind(folded(name))
+                .fetch_optional(connection)
+                .await?;
+        Ok(found.map(|(row, name, role, revision)| Self {
+            row,
+            name,
+            is_admin: role == Role::Admin.name(),
+            revision,
+        }))
+    }
+
+    /// Whether they may be changed, who is perhaps no administrator afterwards.
+    async fn check(
+        &self,
+        connection: &mut SqliteConnection,
+        terms: Terms,
+        stops: bool,
+    ) -> Result<(), StoreError> {
+        if stale(terms.expected, self.revision) {
+            return Err(StoreError::Stale);
+        }
+        if terms.force || !stops || !self.is_admin {
+            return Ok(());
+        }
+        let others: i64 = sqlx::query_scalar("SELECT count(*) FROM users WHERE role = ? AND id <> ?")
+            .bind(Role::Admin.name())
+            .bind(self.row)
+            .fetch_one(connection)
+            .await?;
+        if others == 0 { Err(StoreError::LastAdmin) } else { Ok(()) }
+    }
+
+    async fn change(
+        &self,
+        connection: &mut SqliteConnection,
+        change: &UserChange,
+        terms: Terms,
+    ) -> Result<(), StoreError> {
+        let UserChange { name, role, password, stays } = change;
+        self.check(connection, terms, role.is_some_and(|role| role != Role::Admin)).await?;
+        if let Some(name) = name {
+            self.rename(connection, name).await?;
+        }
+        if let Some(role) = role {
+            let sql = "UPDATE users SET role = ? WHERE id = ?";
+            sqlx::query(sql).bind(role.name()).bind(self.row).execute(&mut *connection).await?;
+        }
+        if let Some(password) = password {
+            let sql = "DELETE FROM passes WHERE user = ? AND kind = 'login' AND hash IS NOT ?";
+            let ended = sqlx::query(sql).bind(self.row).bind(stays.map(|hash| hash.to_vec()));
+            ended.execute(&mut *connection).await?;
+            let sql = "UPDATE users SET password = ? WHERE id = ?";
+            sqlx::query(sql).bind(password).bind(self.row).execute(&mut *connection).await?;
+        }
+        let sql = "UPDATE users SET revision = revision + 1 WHERE id = ?";
+        sqlx::query(sql).bind(self.row).execute(connection).await?;
+        Ok(())
+    }
+
+    /// They are the same person under another name.
+    async fn rename(&self, connection: &mut SqliteConnection, name: &str) -> Result<(), StoreError> {
+        let other: Option<i64> = sqlx::query_scalar("SELECT id FROM users WHERE folded = ? AND id <> ?")
+            .bind(folded(name))
+            .bind(self.row)
+            .fetch_optional(&mut *connection)
+            .await?;
+        if other.is_some() {
+            return Err(StoreError::Taken);
+        }
+        let sql = "UPDATE users SET name = ?, folded = ? WHERE id = ?";
+        let renamed = sqlx::query(sql).bind(name).bind(folded(name)).bind(self.row);
+        renamed.execute(&mut *connection).await?;
+        let (old, new) = (person_of(&self.name), person_of(name));
+        if old == new {
+            return Ok(());
+        }
+        for sql in [
+            "UPDATE OR REPLACE session_people SET person = ?2 WHERE person = ?1",
+            "UPDATE OR REPLACE comments_seen SET person = ?2 WHERE person = ?1",
+            "UPDATE OR REPLACE favourites SET principal = ?2 WHERE principal = ?1",
+            "UPDATE OR REPLACE removals SET person = ?2 WHERE person = ?1",
+            "UPDATE comments SET person = ?2 WHERE person = ?1",
+            "UPDATE authors SET person = ?2 WHERE person = ?1",
+            "UPDATE trees SET principal = ?2 WHERE principal = ?1",
+            "UPDATE versions SET principal = ?2 WHERE principal = ?1",
+            "UPDATE trees SET owner_person = ?2 WHERE owner_person = ?1",
+        ] {
+            sqlx::query(sql).bind(&old).bind(&new).execute(&mut *connection).await?;
+        }
+        let mentioning: Vec<(i64, i64, String)> =
+            sqlx::query_as("SELECT thread, number, said FROM comments WHERE instr(said, ?) > 0")
+                .bind(&old)
+                .fetch_all(&mut *connection)
+                .await?;
+        for (thread, number, said) in mentioning {
+            let sql = "UPDATE comments SET said = ? WHERE thread = ? AND number = ?";
+            let said = mentioning_instead(&said, &old, &new);
+            sqlx::query(sql).bind(said).bind(thread).bind(number).execute(&mut *connection).await?;
+        }
+        Ok(())
     }
 }
