@@ -12,6 +12,8 @@ use crate::{bounded::LinkHours, text::Name};
 )]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
+    /// Nothing, but what they were given: trees, or collections of them (`AC22`).
+    None,
     /// Look, and take copies away.
     Viewer,
     /// Say what they think of it.
@@ -25,12 +27,13 @@ pub enum Role {
 }
 
 impl Role {
-    /// All of them, those that may least first.
+    /// All that may something everywhere, those that may least first.
     pub const ALL: [Self; 5] = [Self::Viewer, Self::Commenter, Self::Editor, Self::Owner, Self::Admin];
 
     /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
+            Self::None => "none",
             Self::Viewer => "viewer",
             Self::Commenter => "commenter",
             Self::Editor => "editor",
@@ -49,7 +52,7 @@ impl Role {
 
     /// The role of this name.
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|role| role.name() == name)
+        [Self::None].into_iter().chain(Self::ALL).find(|role| role.name() == name)
     }
 }
 
@@ -174,6 +177,8 @@ pub struct GroupMember {
 #[serde(rename_all = "snake_case")]
 pub enum GroupRole {
     /// As the role.
+    None,
+    /// As the role.
     Viewer,
     /// As the role.
     Commenter,
@@ -186,6 +191,7 @@ pub enum GroupRole {
 impl From<GroupRole> for Role {
     fn from(role: GroupRole) -> Self {
         match role {
+            GroupRole::None => Self::None,
             GroupRole::Viewer => Self::Viewer,
             GroupRole::Commenter => Self::Commenter,
             GroupRole::Editor => Self::Editor,
@@ -198,6 +204,7 @@ impl From<Role> for GroupRole {
     /// No more than a group may have.
     fn from(role: Role) -> Self {
         match role {
+            Role::None => Self::None,
             Role::Viewer => Self::Viewer,
             Role::Commenter => Self::Commenter,
             Role::Editor => Self::Editor,
@@ -228,6 +235,72 @@ pub struct ChangeGroup {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub role: Option<GroupRole>,
+}
+
+/// Somebody to whom a tree or a collection was given (`AC22`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct TreeMember {
+    /// The identifier of the user or the group.
+    pub id: String,
+    /// What they are called.
+    pub name: String,
+    /// Whether it is a group.
+    pub group: bool,
+    /// What they may do there, if they may do no more anyhow.
+    pub role: MemberRole,
+}
+
+/// `POST /api/v1/trees/{tree}/members`, `POST /api/v1/collections/{collection}/members`: give it to a user or a group
+/// (`AC22`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct NewMember {
+    /// What the user or the group is called.
+    pub name: Name,
+    /// Whether it is a group.
+    #[serde(default)]
+    #[ts(optional, as = "Option<bool>")]
+    pub group: bool,
+    /// What they may do there.
+    pub role: MemberRole,
+}
+
+/// What a tree or a collection may be given with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum MemberRole {
+    /// As the role.
+    Viewer,
+    /// As the role.
+    Commenter,
+    /// As the role.
+    Editor,
+    /// As the role.
+    Owner,
+}
+
+impl From<MemberRole> for Role {
+    fn from(role: MemberRole) -> Self {
+        match role {
+            MemberRole::Viewer => Self::Viewer,
+            MemberRole::Commenter => Self::Commenter,
+            MemberRole::Editor => Self::Editor,
+            MemberRole::Owner => Self::Owner,
+        }
+    }
+}
+
+impl From<Role> for MemberRole {
+    /// The nearest that something may be given with.
+    fn from(role: Role) -> Self {
+        match role {
+            Role::None | Role::Viewer => Self::Viewer,
+            Role::Commenter => Self::Commenter,
+            Role::Editor => Self::Editor,
+            Role::Owner | Role::Admin => Self::Owner,
+        }
+    }
 }
 
 /// A program that may ask the server (`AC21`).

@@ -66,7 +66,7 @@ table! {
     SeeObstacle: Viewer, Library;
     /// Lists trees, of which guests see theirs.
     ListTrees: Viewer, Guests;
-    /// Lists collections, tags and people.
+    /// Lists tags and people.
     SeeLibrary: Viewer, Library;
     /// Adds a tree to the library.
     SaveTree: Editor, Library;
@@ -84,13 +84,19 @@ table! {
     DeleteTree: Owner, Library;
     /// Says who comes to a tree and who owns it: makes and revokes links, removes people, locks it, hands it over.
     ShareTree: Owner, Library;
+    /// Lists collections, of which whoever has no role on the server sees those that they were given.
+    ListCollections: Viewer, Guests;
+    /// Says to whom a collection is given.
+    ShareCollection: Owner, Library;
     /// Makes, changes and deletes collections.
     ChangeCollections: Editor, Library;
     /// Sees figures of the server that name no tree and nobody.
     SeeFigures: Viewer, Library;
     /// Sees which sessions are in memory, and what they take.
     SeeServer: Owner, Library;
-    /// Lists tokens of one's own, makes and revokes them, and changes one's own password.
+    /// Changes one's own password.
+    OwnPassword: Viewer, Guests;
+    /// Lists tokens of one's own, makes and revokes them.
     OwnTokens: Viewer, Library;
     /// Sees who can come in, and what was done.
     SeePeople: Admin, Library;

@@ -226,6 +226,9 @@ pub fn declarations() -> String {
         access::GroupRole::decl(&config),
         access::NewGroup::decl(&config),
         access::ChangeGroup::decl(&config),
+        access::TreeMember::decl(&config),
+        access::NewMember::decl(&config),
+        access::MemberRole::decl(&config),
         access::ListedToken::decl(&config),
         access::NewToken::decl(&config),
         access::MadeToken::decl(&config),
@@ -322,7 +325,7 @@ fn add_tables(out: &mut String) {
     // Writing to a string cannot fail.
     let _ = writeln!(
         out,
-        "\n/** Each may do what those before it may. */\nexport const ROLES = {roles:?} as const satisfies readonly Role[];"
+        "\n/** Each may do what those before it may. */\nexport const ROLES: readonly Role[] = {roles:?};"
     );
     out.push_str("\n/** The least role that may do something (AC5). */\nexport const LEAST_ROLES = {\n");
     for (action, name) in permission::Action::ALL {

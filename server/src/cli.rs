@@ -2,6 +2,7 @@
 
 mod groups;
 pub mod library;
+mod members;
 mod people;
 mod results;
 mod serve;
@@ -18,6 +19,7 @@ use crate::{import, import_options::ImportOptions, load::Load, recipe::SeedRange
 
 pub use self::{
     groups::{Group, GroupOfRole, Members, NamedGroup, NewGroup},
+    members::{Member, MembersOf, NewMember, RemovedMember, Shared},
     people::{
         Audit, Device, Invite, Listed, NamedUser, NewToken, NewUser, RemovedUser, Revoked, RoleOfUser, Scope,
         Token, User,
@@ -91,6 +93,9 @@ pub enum Command {
     /// Give several of those who log in a role together.
     #[command(subcommand)]
     Group(Group),
+    /// Give trees and collections to users and groups.
+    #[command(subcommand)]
+    Member(Member),
     /// List the devices that are let in, or let one in no longer.
     #[command(subcommand)]
     Device(Device),

@@ -77,6 +77,7 @@ fn main() -> ExitCode {
         Some(Command::Invite(options)) => let_in(people::invite(options)),
         Some(Command::User(command)) => let_in(people::user(&command)),
         Some(Command::Group(command)) => let_in(people::group(&command)),
+        Some(Command::Member(command)) => let_in(people::member(&command)),
         Some(Command::Audit(options)) => let_in(people::audit(&options)),
         Some(Command::Device(command)) => let_in(people::device(&command)),
         Some(Command::Token(command)) => let_in(people::token(&command)),

@@ -2,6 +2,7 @@
 
 mod audit;
 mod groups;
+mod members;
 mod users;
 
 use std::{
@@ -17,11 +18,12 @@ use crate::{
     access::admission::{self, INVITATION_LIFE, NewToken},
     announce::{self, Medium},
     cli::{self, Scope},
+    similar::asked_for,
     store::{Audit, Event, OpenError, Pass, PassKind, Passes, SqliteStore, Store, StoreError},
     time::written,
 };
 
-pub use self::{audit::audit, groups::group, users::user};
+pub use self::{audit::audit, groups::group, members::member, users::user};
 
 /// It could not be done; each message is one sentence.
 #[derive(Debug, thiserror::Error)]
@@ -36,12 +38,36 @@ pub enum PeopleError {
     #[error("There is no tree {0}; GET /api/v1/trees lists them.")]
     NoTree(String),
     /// Nothing goes by the name.
-    #[error("There is no {what} {name}; `espalier {what} ls` lists them.")]
+    #[error("There is no {what} {name}{hint}; `espalier {what} ls` lists them.")]
     NoneSuch {
-        /// What was to be revoked.
+        /// What it would be.
         what: &'static str,
         /// How it was called.
         name: String,
+        /// What may have been meant.
+        hint: String,
+    },
+    /// Nothing to be given goes by the name, or several do.
+    #[error(
+        "There is no {kind} {name:?}, or several are called so{hint}; `espalier library ls` lists trees by their identifiers."
+    )]
+    NothingSuch {
+        /// A tree or a collection.
+        kind: &'static str,
+        /// How it was called.
+        name: String,
+        /// What may have been meant.
+        hint: String,
+    },
+    /// It was not given to them.
+    #[error("{what} was not given to {name}{hint}; `espalier member ls` lists to whom it was.")]
+    NotGiven {
+        /// What was to be taken back.
+        what: String,
+        /// From whom.
+        name: String,
+        /// Who may have been meant.
+        hint: String,
     },
     /// Somebody goes by the name.
     #[error("There is a user {0} already; `espalier user passwd` gives them another password.")]
@@ -50,12 +76,14 @@ pub enum PeopleError {
     #[error("There is a group {0} already; `espalier group role` gives it another role.")]
     TakenGroup(String),
     /// They are in no such group.
-    #[error("{user} is not in a group {group}; `espalier group ls` lists who is.")]
+    #[error("{user} is not in a group {group}{hint}; `espalier group ls` lists who is.")]
     NoMember {
         /// The group.
         group: String,
         /// Who was to leave it.
         user: String,
+        /// Who may have been meant.
+        hint: String,
     },
     /// Nobody else is an administrator.
     #[error(
@@ -143,21 +171,18 @@ fn list(options: &cli::Listed, kind: PassKind) -> Result<(), PeopleError> {
 
 fn revoke(options: &cli::Revoked, kind: PassKind, what: &'static str) -> Result<(), PeopleError> {
     let name = &options.name;
-    let taken = at(&options.database.path, async |store| {
+    at(&options.database.path, async |store| {
+        let all = store.passes(kind, &written(SystemTime::now())).await?;
         let mut taken = 0;
-        for pass in store.passes(kind, &written(SystemTime::now())).await? {
-            if pass.id == *name || pass.name == *name {
-                taken += u32::from(store.take_pass(&pass.id).await?);
-            }
+        for pass in all.iter().filter(|pass| pass.id == *name || pass.name == *name) {
+            taken += u32::from(store.take_pass(&pass.id).await?);
         }
-        if taken > 0 {
-            store.note(Event::at_machine("revoke", &format!("{what} {name}"))).await?;
+        if taken == 0 {
+            let hint = asked_for(name, all.iter().map(|pass| pass.name.as_str()));
+            return Err(PeopleError::NoneSuch { what, name: name.clone(), hint });
         }
-        Ok(taken)
+        Ok(store.note(Event::at_machine("revoke", &format!("{what} {name}"))).await?)
     })?;
-    if taken == 0 {
-        return Err(PeopleError::NoneSuch { what, name: name.clone() });
-    }
     print(&format!("{name} is let in no longer."));
     Ok(())
 }

@@ -86,7 +86,7 @@ export const FrameKind = {
 } as const;
 
 /** Each may do what those before it may. */
-export const ROLES = ["viewer", "commenter", "editor", "owner", "admin"] as const satisfies readonly Role[];
+export const ROLES: readonly Role[] = ["viewer", "commenter", "editor", "owner", "admin"];
 
 /** The least role that may do something (AC5). */
 export const LEAST_ROLES = {
@@ -113,9 +113,12 @@ export const LEAST_ROLES = {
   Comment: "commenter",
   DeleteTree: "owner",
   ShareTree: "owner",
+  ListCollections: "viewer",
+  ShareCollection: "owner",
   ChangeCollections: "editor",
   SeeFigures: "viewer",
   SeeServer: "owner",
+  OwnPassword: "viewer",
   OwnTokens: "viewer",
   SeePeople: "admin",
   ChangePeople: "admin",
@@ -3056,7 +3059,7 @@ author: string,
  */
 trees: number, };
 
-export type Role = "viewer" | "commenter" | "editor" | "owner" | "admin";
+export type Role = "none" | "viewer" | "commenter" | "editor" | "owner" | "admin";
 
 export type ServerStatus = { 
 /**
@@ -3276,7 +3279,7 @@ id: string,
  */
 name: string, };
 
-export type GroupRole = "viewer" | "commenter" | "editor" | "owner";
+export type GroupRole = "none" | "viewer" | "commenter" | "editor" | "owner";
 
 export type NewGroup = { 
 /**
@@ -3297,6 +3300,40 @@ name?: string,
  * What its members may do.
  */
 role?: GroupRole, };
+
+export type TreeMember = { 
+/**
+ * The identifier of the user or the group.
+ */
+id: string, 
+/**
+ * What they are called.
+ */
+name: string, 
+/**
+ * Whether it is a group.
+ */
+group: boolean, 
+/**
+ * What they may do there, if they may do no more anyhow.
+ */
+role: MemberRole, };
+
+export type NewMember = { 
+/**
+ * What the user or the group is called.
+ */
+name: string, 
+/**
+ * Whether it is a group.
+ */
+group?: boolean, 
+/**
+ * What they may do there.
+ */
+role: MemberRole, };
+
+export type MemberRole = "viewer" | "commenter" | "editor" | "owner";
 
 export type ListedToken = { 
 /**

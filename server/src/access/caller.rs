@@ -171,6 +171,9 @@ impl Caller {
             (Some(_), Object::Server) => action.reach() == Reach::Guests,
             (Some(_), Object::Loose) => false,
         };
+        // What tells nothing of any tree is for whoever is let in.
+        let is_for_all = object == Object::Server && action.reach() == Reach::Guests;
+        let role = if is_for_all { role.max(Role::Viewer) } else { role };
         is_theirs && role >= action.least()
     }
 
@@ -245,6 +248,11 @@ impl Caller {
             (Some(held), Some(Holder::User { id, .. })) => held.who() == Who::User(id.clone()),
             (Some(held), Some(Holder::Device { hash, .. })) => held.who() == Who::Pass(*hash),
         }
+    }
+
+    /// Whether the library is open to them as a whole; else they see what they were given alone.
+    pub fn sees_all(&self) -> bool {
+        self.grant.tree.is_none() && self.grant.role > Role::None
     }
 
     /// What they may do where they are given this role: a program no more than its token was made for.

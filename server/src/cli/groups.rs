@@ -80,7 +80,7 @@ pub struct NamedGroup {
 
 /// Administrators are made one by one, so that the last of them is known.
 fn roles() -> impl TypedValueParser<Value = Role> {
-    let of_groups = Role::ALL.into_iter().filter(|&role| role != Role::Admin);
+    let of_groups = [Role::None].into_iter().chain(Role::ALL).filter(|&role| role != Role::Admin);
     PossibleValuesParser::new(of_groups.map(Role::name))
         .try_map(|name| Role::named(&name).ok_or_else(|| format!("there is no role {name}")))
 }

@@ -65,7 +65,7 @@ pub struct NewUser {
     #[arg(long, conflicts_with = "role")]
     pub admin: bool,
     /// What they may do.
-    #[arg(long, default_value = Role::Editor.name(), value_parser = roles())]
+    #[arg(long, default_value = Role::Editor.name(), value_parser = roles_of_users())]
     pub role: Role,
     #[command(flatten)]
     pub database: Database,
@@ -101,7 +101,7 @@ pub struct RoleOfUser {
     #[arg(value_name = "NAME")]
     pub name: String,
     /// What they may do from now on.
-    #[arg(value_parser = roles())]
+    #[arg(value_parser = roles_of_users())]
     pub role: Role,
     /// Also where they are the last administrator.
     #[arg(long)]
@@ -185,6 +185,12 @@ pub struct Audit {
     pub limit: u32,
     #[command(flatten)]
     pub database: Database,
+}
+
+/// The same, and none, for those who see what they were given alone.
+fn roles_of_users() -> impl TypedValueParser<Value = Role> {
+    PossibleValuesParser::new([Role::None].into_iter().chain(Role::ALL).map(Role::name))
+        .try_map(|name| Role::named(&name).ok_or_else(|| format!("there is no role {name}")))
 }
 
 fn roles() -> impl TypedValueParser<Value = Role> {

@@ -8,7 +8,7 @@ use espalier_proto::{
     access::{
         Admitted, AuditEvent, ChangeGroup, ChangeLink, ChangePassword, ChangeUser, Entrance, HandOver,
         KeptOut, ListedGroup, ListedToken, ListedUser, LogIn, MadeLink, MadeToken, Me, NewGroup, NewLink,
-        NewToken, NewUser, Redeem, RemovedPerson, TreeLink, TreeLock, TreeOwner,
+        NewMember, NewToken, NewUser, Redeem, RemovedPerson, TreeLink, TreeLock, TreeMember, TreeOwner,
     },
     comment::{ChangeComment, ChangeThread, NewComment, NewThread, Seen, Thread},
     library::{
@@ -28,7 +28,7 @@ use tower::limit::GlobalConcurrencyLimitLayer;
 
 use super::{
     Shared, audit, collections, comments, description, description::About, entry, exports, failure::Path,
-    grammars, groups, guard::TIME_LIMIT, imports, jobs, keys::Shown, links, locks, obstacles,
+    grammars, groups, guard::TIME_LIMIT, imports, jobs, keys::Shown, links, locks, members, obstacles,
     origin::METRICS, owners, removals, reviews, schematic, session_list, sessions, species, status, tokens,
     trees, uploads::uploads, users, versions,
 };
@@ -222,7 +222,7 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/login", None, post(entry::log_in), About::new("Come in with a password (AC9); the answer sets a cookie.").takes::<LogIn>().gives::<Admitted>(200)),
         route("POST /api/v1/logout", None, post(entry::log_out), About::new("Be let in no longer by the cookie of the request, which goes.").gives_nothing()),
         route("GET /api/v1/me", Action::Look, get(entry::me), About::new("Who asks, and what they may do (AC8).").gives::<Me>(200)),
-        route("PUT /api/v1/me/password", Action::OwnTokens, put(users::change_own_password), About::new("Log in with another password from now on; one's other logins end (AC19).").takes::<ChangePassword>().gives_nothing()).noted("password"),
+        route("PUT /api/v1/me/password", Action::OwnPassword, put(users::change_own_password), About::new("Log in with another password from now on; one's other logins end (AC19).").takes::<ChangePassword>().gives_nothing()).noted("password"),
         route("GET /api/v1/users", Action::SeePeople, get(users::list), About::new("Who can log in, by name (AC19).").gives::<Vec<ListedUser>>(200)),
         route("POST /api/v1/users", Action::ChangePeople, post(users::add), About::new("Let somebody log in (AC19).").takes::<NewUser>().gives::<ListedUser>(201)).noted("user-add"),
         route("GET /api/v1/users/{user}", Action::SeePeople, get(users::find), About::new("Somebody who can log in, with an `ETag`.").gives::<ListedUser>(200)),
@@ -284,6 +284,9 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/trees/{tree}/links", Action::ShareTree, post(links::add), About::new("Make a link that lets one device in for this tree; it is shown this once.").takes::<NewLink>().gives::<MadeLink>(201)).noted("link").once(),
         route("PATCH /api/v1/trees/{tree}/links/{link}", Action::ShareTree, patch(links::change), About::new("Let whoever was invited do more or less; it holds at once, also where they are connected (AU3).").takes::<ChangeLink>().gives::<TreeLink>(200)).noted("link-role"),
         route("DELETE /api/v1/trees/{tree}/links/{link}", Action::ShareTree, delete(links::revoke), About::new("Revoke a link; who came by it is let in no longer.").gives_nothing()).noted("unlink"),
+        route("GET /api/v1/trees/{tree}/members", Action::ShareTree, get(members::of_tree), About::new("To whom a tree was given (AC22).").gives::<Vec<TreeMember>>(200)),
+        route("POST /api/v1/trees/{tree}/members", Action::ShareTree, post(members::add_to_tree), About::new("Give a tree to a user or a group, or with another role (AC22).").takes::<NewMember>().gives::<TreeMember>(201)).noted("give"),
+        route("DELETE /api/v1/trees/{tree}/members/{member}", Action::ShareTree, delete(members::remove_from_tree), About::new("Take a tree back from a user or a group (AC22).").gives_nothing()).noted("take-back"),
         route("GET /api/v1/trees/{tree}/lock", Action::SeeTree, get(locks::find), About::new("Whether owners alone change a tree (AC16).").gives::<TreeLock>(200)),
         route("PUT /api/v1/trees/{tree}/lock", Action::ShareTree, put(locks::lock), About::new("Owners alone change the tree from now on, also where others are connected (AC16).").gives::<TreeLock>(200)).noted("lock"),
         route("DELETE /api/v1/trees/{tree}/lock", Action::ShareTree, delete(locks::unlock), About::new("Who may draw may draw again (AC16).").gives::<TreeLock>(200)).noted("unlock"),
@@ -301,10 +304,13 @@ pub(super) fn routes() -> Vec<Route> {
         route("DELETE /api/v1/trees/{tree}/favourite", Action::SeeTree, delete(collections::unlike), About::new("It is none.").gives_nothing()),
         route("GET /api/v1/tags", Action::SeeLibrary, get(collections::tags), About::new("All tags.").gives::<Vec<TreeTag>>(200)),
         route("GET /api/v1/authors", Action::SeeLibrary, get(collections::authors), About::new("Who saved trees last, by name.").gives::<Vec<TreeAuthor>>(200)),
-        route("GET /api/v1/collections", Action::SeeLibrary, get(collections::list), About::new("All collections, by name.").gives::<Vec<TreeCollection>>(200)),
+        route("GET /api/v1/collections", Action::ListCollections, get(collections::list), About::new("All collections that one may see, by name.").gives::<Vec<TreeCollection>>(200)),
         route("POST /api/v1/collections", Action::ChangeCollections, post(collections::add), About::new("Make a collection.").takes::<NewCollection>().gives::<TreeCollection>(201)),
         route("PATCH /api/v1/collections/{collection}", Action::ChangeCollections, patch(collections::change), About::new("Rename or move a collection; 409 where it would lie in itself.").takes::<ChangeCollection>().gives::<TreeCollection>(200)),
         route("DELETE /api/v1/collections/{collection}", Action::ChangeCollections, delete(collections::delete), About::new("Delete a collection; what lies in it lies in its parent then.").gives_nothing()),
+        route("GET /api/v1/collections/{collection}/members", Action::ShareCollection, get(members::of_collection), About::new("To whom a collection was given (AC22).").gives::<Vec<TreeMember>>(200)),
+        route("POST /api/v1/collections/{collection}/members", Action::ShareCollection, post(members::add_to_collection), About::new("Give a collection with all that lies in it to a user or a group, or with another role (AC22).").takes::<NewMember>().gives::<TreeMember>(201)).noted("give"),
+        route("DELETE /api/v1/collections/{collection}/members/{member}", Action::ShareCollection, delete(members::remove_from_collection), About::new("Take a collection back from a user or a group (AC22).").gives_nothing()).noted("take-back"),
         route("GET /api/v1/trees/{tree}/versions", Action::SeeTree, get(versions::list), About::new("Versions of a tree, newest first, page by page.").asks::<versions::Page>().gives::<Vec<TreeVersion>>(200)),
         route("POST /api/v1/trees/{tree}/versions", Action::ChangeTree, post(versions::save), About::new("Save a session as the newest version of a tree.").takes::<SaveVersion>().gives::<TreeVersion>(201).revised()).up_to(MAX_TREE_BODY),
         route("POST /api/v1/trees/{tree}/versions/import", Action::ChangeTree, post(imports::upload_version).layer(files), About::new("Save a file as the newest version of a tree (IM2).").asks::<imports::VersionUpload>().takes_file("application/octet-stream").gives::<TreeVersion>(201).revised()).up_to(MAX_WOOD_BYTES),

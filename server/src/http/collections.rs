@@ -10,11 +10,21 @@ use super::{
 use crate::{
     access::Caller,
     name,
-    store::{Collection, CollectionChange, Finding, Missing},
+    store::{Collection, CollectionChange, Finding, Gifts, Missing},
 };
 
-pub(super) async fn list(State(shared): State<Shared>) -> Result<Json<Vec<TreeCollection>>, Failure> {
-    let all = shared.store.collections().await?;
+pub(super) async fn list(
+    State(shared): State<Shared>,
+    caller: Caller,
+) -> Result<Json<Vec<TreeCollection>>, Failure> {
+    let mut all = shared.store.collections().await?;
+    if !caller.sees_all() {
+        let own = shared.store.collections_of(&caller.person()).await?;
+        all.retain(|collection| own.contains(&collection.id));
+        for collection in &mut all {
+            collection.parent.take_if(|parent| !own.contains(parent));
+        }
+    }
     Ok(Json(all.into_iter().map(to_proto).collect()))
 }
 
@@ -30,14 +40,18 @@ pub(super) async fn add(
 
 pub(super) async fn change(
     State(shared): State<Shared>,
+    caller: Caller,
     Path(id): Path<String>,
     Body(change): Body<ChangeCollection>,
 ) -> Result<Json<TreeCollection>, Failure> {
+    let parent = change.parent.as_deref().filter(|id| !id.is_empty());
+    shared.ask_to_put_in(&caller, caller.role(), parent).await?;
     let change = CollectionChange {
         name: change.name.map(String::from),
         parent: change.parent.map(Some).map(|id| id.filter(|id| !id.is_empty())),
     };
     shared.store.change_collection(&id, change).await?;
+    shared.tell_standings();
     let found = shared.store.collections().await?.into_iter().find(|collection| collection.id == id);
     Ok(Json(to_proto(found.ok_or(Missing::Collection)?)))
 }
@@ -47,6 +61,7 @@ pub(super) async fn delete(
     Path(id): Path<String>,
 ) -> Result<StatusCode, Failure> {
     shared.store.delete_collection(&id).await?;
+    shared.tell_standings();
     Ok(StatusCode::NO_CONTENT)
 }
 

@@ -21,7 +21,7 @@ use super::{
 };
 use crate::{
     access::{Action, Caller, Object, Peer},
-    store::{Library, Room, Standing, Standings, StoreError},
+    store::{Gifts, Library, Missing, Room, Standing, Standings, StoreError},
     time::now,
 };
 
@@ -114,7 +114,7 @@ pub(super) async fn ask(
     let response = match asked.await {
         Ok(principal) => {
             // Guests are told of no tree but theirs.
-            let sees_all = caller.only_tree().is_none();
+            let sees_all = caller.sees_all();
             parts.extensions.insert(caller);
             parts.extensions.insert(principal);
             let response = next.run(Request::from_parts(parts, body)).await;
@@ -163,11 +163,16 @@ impl Shared {
                 tree.as_ref().map_or(Object::Loose, |tree| Object::Tree(&tree.id))
             }
         };
-        let standing = self.standing(caller, named).await?;
+        let (role, standing) = self.role_at(caller, named).await?;
         if let Some(removed) = standing.removed {
             return Err(removals::problem(&removed).into());
         }
-        let role = if standing.is_heir { caller.role_where(Role::Owner) } else { caller.role() };
+        match named {
+            // They may not know of it.
+            Named::Tree(_) if role == Role::None => return Err(Failure::no_tree("")),
+            Named::Session(_) if role == Role::None => return Err(Failure::no_session()),
+            _ => {}
+        }
         if !caller.may_as(role, action, object) {
             return Err(espalier_session::forbidden().into());
         }
@@ -180,16 +185,45 @@ impl Shared {
         }
     }
 
-    /// How somebody stands with what a request names.
-    pub(super) async fn standing(&self, caller: &Caller, named: Named<'_>) -> Result<Standing, StoreError> {
+    /// What somebody may do with what a request names: the greatest of what they may on the server, what they were given
+    /// and what was handed over to them; and how they stand with it.
+    pub(super) async fn role_at(
+        &self,
+        caller: &Caller,
+        named: Named<'_>,
+    ) -> Result<(Role, Standing), StoreError> {
         let room = match named {
             // Owners of all trees are neither locked nor kept out of one.
-            _ if caller.role() >= Role::Owner => return Ok(Standing::default()),
-            Named::Server => return Ok(Standing::default()),
+            _ if caller.role() >= Role::Owner => return Ok((caller.role(), Standing::default())),
+            Named::Server => return Ok((caller.role(), Standing::default())),
             Named::Tree(id) => Room::Tree(id),
             Named::Session(name) => Room::Session(name),
         };
-        self.store.standing(room, &caller.person(), &now()).await
+        let person = caller.person();
+        let standing = self.store.standing(room, &person, &now()).await?;
+        let given = if standing.is_heir { Role::Owner } else { self.store.role_given(room, &person).await? };
+        Ok((caller.role_where(given), standing))
+    }
+
+    /// Whether somebody may have something lie in a collection, and so be seen by whom that was given: they see it
+    /// themselves, and may do no more with it then than they may already.
+    pub(super) async fn ask_to_put_in(
+        &self,
+        caller: &Caller,
+        role: Role,
+        collection: Option<&str>,
+    ) -> Result<(), Failure> {
+        let Some(collection) = collection else { return Ok(()) };
+        let there = self.store.role_in(collection, &caller.person()).await?;
+        if there == Role::None && !caller.sees_all() {
+            return Err(Missing::Collection.into());
+        }
+        if there <= role {
+            return Ok(());
+        }
+        let sentence = "You may do more with what lies in that collection than with this.";
+        let allowed = "a collection with which you may do no more";
+        Err(Problem::new(Reason::Forbidden, sentence).at("collection", allowed).into())
     }
 }
 

@@ -21,6 +21,7 @@ mod keys;
 mod limit;
 mod links;
 mod locks;
+mod members;
 mod mentions;
 mod obstacles;
 mod origin;

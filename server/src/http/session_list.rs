@@ -55,6 +55,7 @@ pub(super) async fn list(
     let query = SessionQuery {
         person: if page.mine { Some(caller.person()) } else { seen_by(&caller) },
         tree: caller.only_tree().map(str::to_owned),
+        seen_by: (!caller.sees_all() && caller.only_tree().is_none()).then(|| caller.person()),
         is_saved: page.saved,
         limit: page.limit.get(),
         after: page.after.as_deref().map(read_place).transpose()?,

@@ -20,7 +20,7 @@ use espalier_proto::{
     library::{NewSession, SessionCreated, SessionTree},
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
-use espalier_session::{DocumentError, Principal, RestoreError, Session};
+use espalier_session::{DocumentError, Entrant, Principal, RestoreError, Session};
 
 use tokio::time::interval;
 
@@ -38,7 +38,7 @@ use crate::{
     memory::{self, Full, Growing, Need, Use},
     name,
     pool::Class,
-    store::{self, Library, Room, Standings, Store, StoreError, StoredTree, TreeDocument, Visits},
+    store::{self, Gifts, Library, Room, Standings, Store, StoreError, StoredTree, TreeDocument, Visits},
     time::now,
 };
 
@@ -315,8 +315,11 @@ async fn connect(
             if let Err(error) = shared.store.visit(name, &caller.person()).await {
                 tracing::warn!(%error, session = name, "that somebody was in the session is not kept");
             }
-            let entrant = caller.entrant();
-            let let_out = |grants| let_out(shared, name, caller, grants);
+            // Where it cannot be read now, they are told what they may as soon as it can.
+            let role =
+                shared.role_at(&caller, Named::Session(name)).await.map_or(caller.role(), |(role, _)| role);
+            let entrant = Entrant { role, ..caller.entrant() };
+            let let_out = |grants| let_out(shared, name, caller, grants, role);
             return live::serve(socket, unfinished, session, entrant, let_out).await;
         }
         Ok(None) => (CloseCode::UnknownSession, "There is no such session."),
@@ -342,14 +345,20 @@ async fn connect(
 
 /// Waits until somebody is let in no longer (`AC4`) or removed (`AC17`), and says so; tells meanwhile what they may do when
 /// that changes (`AU3`).
-async fn let_out(shared: &Shared, session: &str, caller: Caller, grants: Grants) -> (CloseCode, String) {
+async fn let_out(
+    shared: &Shared,
+    session: &str,
+    caller: Caller,
+    grants: Grants,
+    mut role: Role,
+) -> (CloseCode, String) {
     if !caller.is_revocable() {
         return pending().await;
     }
     let mut changes = shared.standings.subscribe();
     let mut ticks = interval(LOOKING);
     // As they came in.
-    let (mut role, person) = (caller.role(), caller.person());
+    let person = caller.person();
     loop {
         let caller = caller.now(&*shared.store).await;
         // A database that cannot be read locks nobody out.
@@ -367,7 +376,15 @@ async fn let_out(shared: &Shared, session: &str, caller: Caller, grants: Grants)
                 return (CloseCode::GoingAway, "You have another name; come back.".into());
             }
             Ok(Some(caller)) => {
-                let own = if standing.is_heir { caller.role_where(Role::Owner) } else { caller.role() };
+                let given = match standing.is_heir {
+                    true => Ok(Role::Owner),
+                    false => shared.store.role_given(Room::Session(session), &person).await,
+                };
+                let own = given.map_or(role, |given| caller.role_where(given));
+                if own == Role::None {
+                    grants.grant(Role::Viewer).await;
+                    return removals::close_of(&no_longer_theirs());
+                }
                 let now = if standing.locked_by.is_some() { own.under_lock() } else { own };
                 if now != role {
                     grants.grant(now).await;
@@ -383,6 +400,12 @@ async fn let_out(shared: &Shared, session: &str, caller: Caller, grants: Grants)
             _ = changes.changed() => {}
         }
     }
+}
+
+/// What somebody is told to whom a tree was given that is theirs no longer.
+fn no_longer_theirs() -> Problem {
+    Problem::new(Reason::NoSession, "There is no such session, or not for you any more.")
+        .at("session", "the name of a session")
 }
 
 /// What was saved of a tree.

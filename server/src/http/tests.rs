@@ -6,6 +6,7 @@ mod jobs;
 mod keys;
 mod links;
 mod login;
+mod members;
 mod paths;
 mod people;
 mod proxies;
@@ -171,6 +172,7 @@ fn filled(path: &str) -> String {
         .replace("{user}", "a-user")
         .replace("{group}", "a-group")
         .replace("{token}", "a-token")
+        .replace("{member}", "a-member")
 }
 
 #[tokio::test]

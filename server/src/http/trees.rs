@@ -142,6 +142,7 @@ impl Page {
             collection: self.collection.map(String::from).map(Some).map(|id| id.filter(|id| !id.is_empty())),
             favourites_of: self.favourite.then(whoever).flatten(),
             only: caller.only_tree().map(str::to_owned),
+            seen_by: (!caller.sees_all() && caller.only_tree().is_none()).then(|| caller.person()),
             species: self.species.map(String::from),
             author: self.author.map(String::from),
             saved_by: self.mine.then(whoever).flatten(),
@@ -275,7 +276,12 @@ pub(super) async fn change(
         collection: change.collection.map(Some).map(|id| id.filter(|id| !id.is_empty())),
         ..TreeChange::default()
     };
+    let (role, _) = shared.role_at(&caller, Named::Tree(&id)).await?;
+    let collection = change.collection.as_ref().and_then(Option::as_deref);
+    shared.ask_to_put_in(&caller, role, collection).await?;
     shared.store.change_tree(&id, expected, change).await?;
+    // Whoever was given what lies in a collection may have it no longer, or from now on.
+    shared.tell_standings();
     answer(&shared, &caller, &id).await
 }
 

@@ -1,10 +1,11 @@
 //! `espalier group`: users who have a role together.
 
-use super::{PeopleError, at, print};
+use super::{PeopleError, at, print, users};
 use crate::{
     cli::{self, GroupOfRole, Members, NamedGroup, NewGroup},
     name,
-    store::{Audit, Event, Group, GroupChange, Groups, Missing, StoreError},
+    similar::asked_for,
+    store::{Audit, Event, Group, GroupChange, Groups, Missing, SqliteStore, StoreError, folded},
     time::now,
 };
 
@@ -34,7 +35,7 @@ pub fn group(command: &cli::Group) -> Result<(), PeopleError> {
         cli::Group::Role(GroupOfRole { name, role, database }) => {
             at(&database.path, async |store| {
                 let change = GroupChange { role: Some(*role), ..GroupChange::default() };
-                found(store.change_group(name, change, None).await?, name)?;
+                found(store, store.change_group(name, change, None).await?, name).await?;
                 Ok(store.note(Event::at_machine("group-role", name)).await?)
             })?;
             print(&format!("Members of {name} are {} from now on.", role.name()));
@@ -42,7 +43,13 @@ pub fn group(command: &cli::Group) -> Result<(), PeopleError> {
         cli::Group::Join(Members { name, users, database }) => {
             at(&database.path, async |store| {
                 for user in users {
-                    store.join_group(name, user, None).await.map_err(|error| missing(error, name, user))?;
+                    match store.join_group(name, user, None).await {
+                        Err(StoreError::NotFound(Missing::User)) => {
+                            return Err(users::none(store, user).await?);
+                        }
+                        Err(StoreError::NotFound(_)) => return Err(none(store, name).await?),
+                        joined => joined?,
+                    }
                     store.note(Event::at_machine("group-join", &format!("{name} {user}"))).await?;
                 }
                 Ok(())
@@ -53,7 +60,18 @@ pub fn group(command: &cli::Group) -> Result<(), PeopleError> {
             at(&database.path, async |store| {
                 for user in users {
                     if !store.leave_group(name, user, None).await? {
-                        return Err(PeopleError::NoMember { group: name.clone(), user: user.clone() });
+                        let groups = store.groups().await?;
+                        let Some(group) = groups.iter().find(|group| folded(&group.name) == folded(name))
+                        else {
+                            return Err(none(store, name).await?);
+                        };
+                        let (group, user) = (group.name.clone(), user.clone());
+                        let members = groups
+                            .iter()
+                            .filter(|other| other.name == group)
+                            .flat_map(|group| &group.members);
+                        let hint = asked_for(&user, members.map(String::as_str));
+                        return Err(PeopleError::NoMember { group, user, hint });
                     }
                     store.note(Event::at_machine("group-leave", &format!("{name} {user}"))).await?;
                 }
@@ -63,7 +81,7 @@ pub fn group(command: &cli::Group) -> Result<(), PeopleError> {
         }
         cli::Group::Remove(NamedGroup { name, database }) => {
             at(&database.path, async |store| {
-                found(store.remove_group(name, None).await?, name)?;
+                found(store, store.remove_group(name, None).await?, name).await?;
                 Ok(store.note(Event::at_machine("group-remove", name)).await?)
             })?;
             print(&format!(
@@ -78,14 +96,13 @@ fn are(users: &[String]) -> String {
     format!("{} {}", users.join(", "), if users.len() == 1 { "is" } else { "are" })
 }
 
-fn found(is_there: bool, name: &str) -> Result<(), PeopleError> {
-    if is_there { Ok(()) } else { Err(PeopleError::NoneSuch { what: "group", name: name.to_owned() }) }
+async fn found(store: &SqliteStore, is_there: bool, name: &str) -> Result<(), PeopleError> {
+    if is_there { Ok(()) } else { Err(none(store, name).await?) }
 }
 
-fn missing(error: StoreError, group: &str, user: &str) -> PeopleError {
-    match error {
-        StoreError::NotFound(Missing::User) => PeopleError::NoneSuch { what: "user", name: user.to_owned() },
-        StoreError::NotFound(_) => PeopleError::NoneSuch { what: "group", name: group.to_owned() },
-        error => error.into(),
-    }
+/// There is no group of a name; which may have been meant is told.
+pub(super) async fn none(store: &SqliteStore, name: &str) -> Result<PeopleError, StoreError> {
+    let groups = store.groups().await?;
+    let hint = asked_for(name, groups.iter().map(|group| group.name.as_str()));
+    Ok(PeopleError::NoneSuch { what: "group", name: name.to_owned(), hint })
 }

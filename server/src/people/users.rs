@@ -12,6 +12,7 @@ use crate::{
     access::password::Password,
     cli::{self, NamedUser, NewUser, RemovedUser, RoleOfUser},
     name,
+    similar::asked_for,
     store::{Audit, Event, SqliteStore, StoreError, Terms, User, UserChange, Users},
     time::now,
 };
@@ -55,7 +56,7 @@ pub fn user(command: &cli::User) -> Result<(), PeopleError> {
                 let terms = Terms { expected: None, force: *force };
                 match store.remove_user(name, terms).await {
                     Err(error) => return Err(last(store, error, name).await),
-                    Ok(is_there) => found(is_there, name)?,
+                    Ok(is_there) => found(store, is_there, name).await?,
                 }
                 Ok(store.note(Event::at_machine("user-remove", name)).await?)
             })?;
@@ -67,8 +68,7 @@ pub fn user(command: &cli::User) -> Result<(), PeopleError> {
 
 /// Nobody types a password for a name that is mistyped.
 fn known(database: &Path, name: &str) -> Result<(), PeopleError> {
-    let user = at(database, async |store| Ok(store.user(name).await?))?;
-    found(user.is_some(), name)
+    at(database, async |store| found(store, store.user(name).await?.is_some(), name).await)
 }
 
 fn change(
@@ -81,7 +81,7 @@ fn change(
     at(database, async |store| {
         match store.change_user(name, change, Terms { expected: None, force }).await {
             Err(error) => return Err(last(store, error, name).await),
-            Ok(is_there) => found(is_there, name)?,
+            Ok(is_there) => found(store, is_there, name).await?,
         }
         Ok(store.note(Event::at_machine(action, name)).await?)
     })
@@ -95,8 +95,15 @@ async fn last(store: &SqliteStore, error: StoreError, name: &str) -> PeopleError
     }
 }
 
-fn found(is_there: bool, name: &str) -> Result<(), PeopleError> {
-    if is_there { Ok(()) } else { Err(PeopleError::NoneSuch { what: "user", name: name.to_owned() }) }
+async fn found(store: &SqliteStore, is_there: bool, name: &str) -> Result<(), PeopleError> {
+    if is_there { Ok(()) } else { Err(none(store, name).await?) }
+}
+
+/// Nobody goes by a name; who may have been meant is told.
+pub(super) async fn none(store: &SqliteStore, name: &str) -> Result<PeopleError, StoreError> {
+    let users = store.users().await?;
+    let hint = asked_for(name, users.iter().map(|user| user.name.as_str()));
+    Ok(PeopleError::NoneSuch { what: "user", name: name.to_owned(), hint })
 }
 
 /// Asks for a password twice, unseen; gives what is kept of it. Where nobody sits at a terminal it is the next line.

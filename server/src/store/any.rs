@@ -9,11 +9,11 @@ use espalier_session::{JournalEntry, Named, Principal};
 use super::MemoryStore;
 use super::{
     Answer, AnswerKey, Answering, Answers, Audit, Authors, Collection, CollectionChange, CommentChange,
-    Comments, Commits, Damage, Event, Finding, Group, GroupChange, Groups, Heir, Lease, Library, Locks,
-    MostAnswers, NewComment, NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes,
-    Picture, Removal, Room, SessionLine, SessionQuery, SessionTree, SqliteStore, Standing, Standings, Store,
-    StoreError, StoredSession, StoredThread, StoredTree, StoredVersion, Terms, TreeChange, TreeDocument,
-    TreeQuery, User, UserChange, Users, Visits,
+    Comments, Commits, Damage, Event, Finding, Gift, Gifts, Given, Group, GroupChange, Groups, Heir, Lease,
+    Library, Locks, MostAnswers, NewComment, NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass,
+    PassKind, Passes, Picture, Receiver, Removal, Room, SessionLine, SessionQuery, SessionTree, SqliteStore,
+    Standing, Standings, Store, StoreError, StoredSession, StoredThread, StoredTree, StoredVersion, Terms,
+    TreeChange, TreeDocument, TreeQuery, User, UserChange, Users, Visits,
 };
 use crate::access::SecretHash;
 
@@ -435,6 +435,32 @@ impl Groups for AnyStore {
 
     async fn leave_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<bool, StoreError> {
         delegate!(self.leave_group(name, user, expected))
+    }
+}
+
+impl Gifts for AnyStore {
+    async fn give(&self, what: Gift<'_>, to: &Receiver, role: Role) -> Result<(), StoreError> {
+        delegate!(self.give(what, to, role))
+    }
+
+    async fn take_back(&self, what: Gift<'_>, to: &Receiver) -> Result<bool, StoreError> {
+        delegate!(self.take_back(what, to))
+    }
+
+    async fn given(&self, what: Gift<'_>) -> Result<Vec<Given>, StoreError> {
+        delegate!(self.given(what))
+    }
+
+    async fn role_given(&self, room: Room<'_>, person: &str) -> Result<Role, StoreError> {
+        delegate!(self.role_given(room, person))
+    }
+
+    async fn role_in(&self, collection: &str, person: &str) -> Result<Role, StoreError> {
+        delegate!(self.role_in(collection, person))
+    }
+
+    async fn collections_of(&self, person: &str) -> Result<BTreeSet<String>, StoreError> {
+        delegate!(self.collections_of(person))
     }
 }
 

@@ -5,6 +5,7 @@ mod audit;
 mod authors;
 mod comments;
 mod finding;
+mod gifts;
 mod groups;
 mod library;
 mod locks;
@@ -31,6 +32,7 @@ use self::finding::{
     collections_lie_in_each_other, every_order_goes_page_by_page, filters_hold_at_once,
     searching_is_looking_into_every_text, tags_and_favourites_find_trees,
 };
+use self::gifts::{a_collection_is_given_with_what_lies_in_it, a_tree_is_given_with_its_sessions};
 use self::groups::{
     a_group_changes_at_a_revision, a_login_may_what_its_users_groups_may,
     groups_are_listed_with_their_members,
@@ -59,7 +61,7 @@ use self::visits::{
     sessions_know_their_size, who_is_removed_was_in_no_session,
 };
 use super::{
-    Answers, Audit, Authors, Comments, Damage, Finding, Groups, Lease, Library, Locks, NewSession,
+    Answers, Audit, Authors, Comments, Damage, Finding, Gifts, Groups, Lease, Library, Locks, NewSession,
     NewSnapshot, Passes, Standings, Store, StoreError, StoredSession, Users, Visits,
 };
 
@@ -71,6 +73,7 @@ pub trait Breakable:
     + Passes
     + Users
     + Groups
+    + Gifts
     + Audit
     + Answers
     + Comments
@@ -159,6 +162,8 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         groups_are_listed_with_their_members,
         a_login_may_what_its_users_groups_may,
         a_group_changes_at_a_revision,
+        a_tree_is_given_with_its_sessions,
+        a_collection_is_given_with_what_lies_in_it,
         events_are_listed_newest_first,
         events_that_come_again_are_counted,
         an_answer_is_kept_for_one_request,

@@ -70,6 +70,8 @@ pub struct TreeQuery {
     pub favourites_of: Option<String>,
     /// This one alone.
     pub only: Option<String>,
+    /// Those that this person was given, or that were handed over to them.
+    pub seen_by: Option<String>,
     /// The short name of their species.
     pub species: Option<String>,
     /// How whoever saved them last wanted to be called.
@@ -100,6 +102,7 @@ impl Default for TreeQuery {
             collection: None,
             favourites_of: None,
             only: None,
+            seen_by: None,
             species: None,
             author: None,
             saved_by: None,

@@ -5,6 +5,7 @@ mod audit;
 mod authors;
 mod comments;
 mod finding;
+mod gifts;
 mod groups;
 mod library;
 mod locks;
@@ -64,6 +65,7 @@ struct Kept {
     users: BTreeMap<String, User>,
     /// By their folded names.
     groups: BTreeMap<String, Group>,
+    gifts: Vec<gifts::KeptGift>,
 }
 
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! What is kept: sessions with their journals and snapshots, and the library of trees.
 //!
-//! [`Store`], [`Library`], [`Finding`], [`Passes`], [`Users`], [`Groups`], [`Audit`], [`Answers`], [`Comments`], [`Locks`], [`Standings`], [`Visits`] and [`Authors`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
+//! [`Store`], [`Library`], [`Finding`], [`Passes`], [`Users`], [`Groups`], [`Gifts`], [`Audit`], [`Answers`], [`Comments`], [`Locks`], [`Standings`], [`Visits`] and [`Authors`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
 //! does, the model in `memory.rs` the second. The rest of the server knows [`AnyStore`] alone.
 
 mod answers;
@@ -12,6 +12,7 @@ mod comments;
 mod contract;
 mod finding;
 mod folding;
+mod gifts;
 mod groups;
 mod lease;
 mod library;
@@ -41,6 +42,7 @@ pub use self::{
     },
     finding::{Collection, CollectionChange, Finding, Sort, TreePlace, TreeQuery},
     folding::folded,
+    gifts::{Gift, Gifts, Given, Receiver},
     groups::{Group, GroupChange, Groups},
     lease::Lease,
     library::{

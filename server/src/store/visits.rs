@@ -21,6 +21,8 @@ pub struct SessionQuery {
     pub person: Option<String>,
     /// Only those of this tree.
     pub tree: Option<String>,
+    /// Only those of trees that this person was given, or that were handed over to them.
+    pub seen_by: Option<String>,
     /// Only those that are saved as they are, or those that are not.
     pub is_saved: Option<bool>,
     /// How many at most.

@@ -113,6 +113,59 @@ async fn au3_a_role_changes_while_its_user_is_connected() {
     }
 }
 
+#[tokio::test]
+async fn ac22_what_was_given_is_told_and_taken_while_somebody_is_connected() {
+    let scratch = Scratch::new();
+    let database = scratch.path("trees.db");
+    let server = Server::start_with(&database, 0, &["--auth"]);
+    assert_eq!(user(&["add", "--admin", "Ada"], &database, "correct horse").code, 0);
+    assert_eq!(user(&["add", "Bo", "--role", "none"], &database, "battery staple").code, 0);
+    let (ada, bo) = (cookie(&server, "Ada", "correct horse"), cookie(&server, "Bo", "battery staple"));
+    let created = ask(&server, "POST", "/api/v1/sessions", &ada, r#"{"seed":7}"#).json();
+    let session = created["session"].as_str().expect("it has a name").to_owned();
+    let saved = json!({ "session": session, "name": "Old ash" }).to_string();
+    let tree = ask(&server, "POST", "/api/v1/trees", &ada, &saved).json();
+    let path = format!("/api/v1/trees/{}", tree["id"].as_str().expect("it has an identifier"));
+    assert_eq!(ask(&server, "GET", &path, &bo, "").status, 404);
+    let member = |arguments: &[&str]| {
+        program::run(&[&["member"], arguments, &["--database", name(&database)]].concat())
+    };
+    let mistyped = member(&["add", "Old ahs", "Bo"]);
+    assert!(mistyped.stderr.contains("did you mean Old ash?"), "{}", mistyped.stderr);
+    let mistyped = member(&["add", "Old ash", "Aad"]);
+    assert!(mistyped.stderr.contains("There is no user Aad (did you mean Ada?)"), "{}", mistyped.stderr);
+    let given = member(&["add", "Old ash", "Bo", "--role", "editor"]);
+    assert_eq!(
+        (given.code, &*given.stdout),
+        (0, "Bo is editor of Old ash from now on.\n"),
+        "{}",
+        given.stderr
+    );
+    assert_eq!(member(&["ls", "Old ash"]).stdout, "Bo: editor\n");
+
+    let value = bo.strip_prefix("cookie: ").expect("it is a header");
+    let mut socket = client::open_with(server.port(), &session, &[("cookie", value)]).await;
+    let hello = json!({ "type": "hello", "protocol": 2, "client": "browser-1" });
+    socket.send(client::text(&hello)).await.expect("it is sent");
+    for (role, expected, id) in [("viewer", "refused", 1), ("owner", "acknowledged", 2)] {
+        let new = json!({ "name": "Bo", "role": role }).to_string();
+        assert_eq!(ask(&server, "POST", &format!("{path}/members"), &ada, &new).status, 201);
+        assert_eq!(until(&mut socket, "role").await["role"], role);
+        let command = json!({ "type": "command", "id": id, "command": { "kind": "grow", "steps": 1 } });
+        socket.send(client::text(&command)).await.expect("it is sent");
+        assert_eq!(until(&mut socket, expected).await["id"], id);
+    }
+    assert_eq!(member(&["remove", "Old ash", "Bo"]).code, 0);
+    let (code, reason) = client::close(&mut socket).await.expect("it is said why");
+    assert!(code == 4007 && reason.starts_with("no-session: "), "{code} {reason}");
+    assert_eq!(ask(&server, "GET", &path, &bo, "").status, 404);
+    let audit = program::run(&["audit", "--database", name(&database)]).stdout;
+    assert!(
+        audit.contains("give Old ash Bo: done") && audit.contains("take-back Old ash Bo: done"),
+        "{audit}"
+    );
+}
+
 /// The next message of a type.
 async fn until(socket: &mut client::Socket, kind: &str) -> Value {
     loop {

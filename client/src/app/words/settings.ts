@@ -17,6 +17,7 @@ export const SETTINGS = {
     "Who logs out here needs a new invitation to come back.",
     "Wer sich hier abmeldet, braucht für die Rückkehr eine neue Einladung.",
   ],
+  "settings.role.none": ["may see what is given to you", "darf sehen, was dir gegeben ist"],
   "settings.role.viewer": ["may look", "darf ansehen"],
   "settings.role.commenter": ["may look and comment", "darf ansehen und kommentieren"],
   "settings.role.editor": ["may draw and save", "darf zeichnen und speichern"],

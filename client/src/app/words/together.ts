@@ -12,6 +12,7 @@ export const TOGETHER = {
   "together.replays": ["Plays the design", "Spielt den Entwurf ab"],
   "together.gone": ["Does not answer", "Antwortet nicht"],
   "together.follows": ["Follows {name}", "Folgt {name}"],
+  "together.role.none": ["May nothing here", "Darf hier nichts"],
   "together.role.viewer": ["May look", "Darf zusehen"],
   "together.role.commenter": ["May comment", "Darf kommentieren"],
   "together.role.editor": ["May draw", "Darf zeichnen"],

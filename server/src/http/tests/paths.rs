@@ -12,7 +12,7 @@ use super::{
     refusals::bodies,
     *,
 };
-use crate::store::{Comments, Group, Groups, NewComment, User, Users};
+use crate::store::{Comments, Gift, Gifts, Group, Groups, NewComment, Receiver, User, Users};
 
 /// Parts of paths that are whole numbers.
 const NUMBERS: [&str; 6] = ["version", "obstacle", "seed", "thread", "comment", "person"];
@@ -168,6 +168,9 @@ async fn what_is_not_there_is_named_by_the_part_of_the_path() {
             store.add_user(User { id: "a-user".into(), ..ada }).await.unwrap();
             let studio = Group { id: "a-group".into(), ..group("Studio", Role::Viewer) };
             store.add_group(studio).await.unwrap();
+            for gift in [Gift::Tree("ash"), Gift::Collection("wood")] {
+                store.give(gift, &Receiver::User("Ada".into()), Role::Viewer).await.unwrap();
+            }
             let unknown = if NUMBERS.contains(&part) { "77" } else { "no-such-thing-there" };
             let query = if path.ends_with("/versions/import") { "?format=csv" } else { "" };
             let asked = filled_with(path, part, unknown) + query;

@@ -19,13 +19,13 @@ pub(super) fn group(name: &str, role: Role) -> Group {
 }
 
 /// A server on which somebody at its machine asks.
-struct Asking(Router);
+pub(super) struct Asking(pub(super) Router);
 
 /// Status, body and tag of an answer.
-type Answered = (u16, Value, Option<String>);
+pub(super) type Answered = (u16, Value, Option<String>);
 
 impl Asking {
-    async fn ask(&self, asked: Builder, body: &Value) -> Answered {
+    pub(super) async fn ask(&self, asked: Builder, body: &Value) -> Answered {
         let asked = asked.header(header::CONTENT_TYPE, "application/json");
         let body = if body.is_null() { Body::empty() } else { Body::from(body.to_string()) };
         let answer = self.0.clone().oneshot(asked.body(body).unwrap()).await.unwrap();
@@ -35,11 +35,11 @@ impl Asking {
         (status, serde_json::from_slice(&bytes).unwrap_or_default(), tag)
     }
 
-    async fn get(&self, path: &str) -> Value {
+    pub(super) async fn get(&self, path: &str) -> Value {
         self.ask(request(&Method::GET, path), &Value::Null).await.1
     }
 
-    async fn send(&self, method: Method, path: &str, body: Value) -> Answered {
+    pub(super) async fn send(&self, method: Method, path: &str, body: Value) -> Answered {
         self.ask(request(&method, path), &body).await
     }
 
@@ -48,11 +48,11 @@ impl Asking {
     }
 
     /// The same of whoever has logged in, from another machine.
-    async fn as_user(&self, cookie: &str, method: Method, path: &str, body: Value) -> Answered {
+    pub(super) async fn as_user(&self, cookie: &str, method: Method, path: &str, body: Value) -> Answered {
         self.ask(from_afar(&method, path).header(header::COOKIE, cookie), &body).await
     }
 
-    async fn log_in(&self, name: &str, password: &str) -> Option<String> {
+    pub(super) async fn log_in(&self, name: &str, password: &str) -> Option<String> {
         let body = json!({ "name": name, "password": password }).to_string();
         let asked =
             from_afar(&Method::POST, "/api/v1/login").header(header::CONTENT_TYPE, "application/json");
@@ -62,7 +62,7 @@ impl Asking {
     }
 
     /// The newest event on the list of what was done.
-    async fn noted(&self) -> [Value; 2] {
+    pub(super) async fn noted(&self) -> [Value; 2] {
         let events = self.get("/api/v1/audit?limit=1").await;
         ["action", "object"].map(|field| events[0][field].clone())
     }

@@ -107,6 +107,16 @@ pub(super) fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
             names(&["old", "new"]),
             json!({ "old": "correct horse", "new": "battery staple" }),
         ),
+        (
+            "POST /api/v1/trees/{tree}/members",
+            names(&["name", "role"]),
+            json!({ "name": "Ada", "role": "editor", "group": false }),
+        ),
+        (
+            "POST /api/v1/collections/{collection}/members",
+            names(&["name", "role"]),
+            json!({ "name": "Studio", "role": "editor", "group": true }),
+        ),
         ("POST /api/v1/groups", names(&["name", "role"]), json!({ "name": "Studio", "role": "editor" })),
         ("PATCH /api/v1/groups/{group}", vec![], json!({ "name": "Studio", "role": "editor" })),
         (

@@ -10,7 +10,7 @@ use super::{
     users::user,
 };
 
-fn group(name: &str, role: Role, members: &[&str]) -> Group {
+pub(super) fn group(name: &str, role: Role, members: &[&str]) -> Group {
     let members = members.iter().map(|&name| name.to_owned()).collect();
     let (id, created_at) = (format!("key of {name}"), "2026-04-01T12:00:00.000Z".into());
     Group { id, name: name.into(), role, created_at, members, revision: 1 }

@@ -92,6 +92,7 @@ impl Finding for MemoryStore {
         inner.filter(is_it).for_each(|lies_in| lies_in.clone_from(&parent));
         let trees = kept.trees.values_mut().map(|tree| &mut tree.collection);
         trees.filter(is_it).for_each(|lies_in| lies_in.clone_from(&parent));
+        kept.forget_gifts(|gift| gift.is_collection(id));
         Ok(())
     }
 

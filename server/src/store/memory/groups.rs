@@ -44,7 +44,8 @@ impl Groups for MemoryStore {
 
     async fn remove_group(&self, name: &str, expected: Option<u64>) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
-        kept.group_at(name, expected)?;
+        let Some(id) = kept.group_at(name, expected)?.map(|group| group.id.clone()) else { return Ok(false) };
+        kept.forget_gifts(|gift| gift.is_to_group(&id));
         Ok(kept.groups.remove(&folded(name)).is_some())
     }
 

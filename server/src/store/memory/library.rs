@@ -237,6 +237,7 @@ impl Library for MemoryStore {
         trees.retain(|tree| {
             let by = kept.trees[&tree.id].versions.last().map_or("", |version| &version.new.principal);
             finding::is_wanted(tree, query, by, &kept.favourites)
+                && query.seen_by.as_ref().is_none_or(|person| kept.is_seen(&tree.id, person))
         });
         trees.sort_by_key(|tree| query.place_of(tree));
         if !query.is_ascending() {
@@ -306,6 +307,7 @@ impl Library for MemoryStore {
             kept.threads.remove(id);
             kept.locks.remove(id);
             kept.heirs.remove(id);
+            kept.forget_gifts(|gift| gift.is_tree(id));
             kept.favourites.retain(|(_, tree)| tree != id);
             kept.passes.retain(|(_, pass)| pass.tree.as_ref() != Some(id));
         }

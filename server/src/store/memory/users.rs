@@ -62,6 +62,7 @@ impl Users for MemoryStore {
         let Some(user) = kept.users.get(&folded(name)).cloned() else { return Ok(false) };
         kept.check(&user, terms, true)?;
         kept.passes.retain(|(_, pass)| !is_of(pass, &user));
+        kept.forget_gifts(|gift| gift.is_to_user(&user.id));
         kept.leave_all(name);
         let person = person_of(name);
         kept.sessions.values_mut().for_each(|session| _ = session.people.remove(&person));

@@ -22,7 +22,11 @@ impl Visits for MemoryStore {
                 .tree
                 .as_ref()
                 .is_none_or(|tree| session.tree.as_ref().is_some_and(|(of, _)| of == tree));
-            is_theirs && is_of_tree && !session.is_forgotten
+            let is_seen = query
+                .seen_by
+                .as_ref()
+                .is_none_or(|person| session.tree.as_ref().is_some_and(|(of, _)| kept.is_seen(of, person)));
+            is_theirs && is_of_tree && is_seen && !session.is_forgotten
         });
         let mut lines: Vec<_> = listed.map(|(name, session)| line(&kept, name, session)).collect();
         lines.retain(|line| query.is_saved.is_none_or(|is_saved| line.is_saved == is_saved));

@@ -4,9 +4,12 @@ use std::collections::BTreeSet;
 
 use sqlx::{QueryBuilder, Sqlite, SqlitePool, sqlite::SqliteConnection};
 
-use super::super::{
-    Collection, CollectionChange, Missing, Sort, StoreError, TreeQuery,
-    folding::{alternatives, folded, searched, uncased},
+use super::{
+    super::{
+        Collection, CollectionChange, Missing, Sort, StoreError, TreeQuery,
+        folding::{alternatives, folded, searched, uncased},
+    },
+    gifts,
 };
 
 #[derive(Debug)]
@@ -55,6 +58,9 @@ pub(super) fn narrow(sql: &mut QueryBuilder<Sqlite>, query: &TreeQuery) {
     if let Some(principal) = &query.favourites_of {
         sql.push(" AND id IN (SELECT tree FROM favourites WHERE principal = ");
         sql.push_bind(principal.clone()).push(")");
+    }
+    if let Some(person) = &query.seen_by {
+        gifts::narrow(sql, person);
     }
     for (condition, value) in [
         (" AND key = ", &query.only),

@@ -6,6 +6,7 @@ mod authors;
 mod care;
 mod comments;
 mod finding;
+mod gifts;
 mod groups;
 mod identity;
 mod library_file;

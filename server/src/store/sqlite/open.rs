@@ -45,6 +45,7 @@ const MIGRATIONS: &[(&str, &str)] = &[
     ("0020_tags_without_case", include_str!("../../../../migrations/0020_tags_without_case.sql")),
     ("0021_authors", include_str!("../../../../migrations/0021_authors.sql")),
     ("0022_people_over_http", include_str!("../../../../migrations/0022_people_over_http.sql")),
+    ("0023_gifts", include_str!("../../../../migrations/0023_gifts.sql")),
 ];
 
 /// Releases before this one can lose a committed transaction when the write-ahead log starts over.

@@ -59,7 +59,7 @@ type Row = (String, String, String, String, String, i64, Option<String>);
 fn read((id, name, role, password, created_at, revision, of_groups): Row) -> Result<User, StoreError> {
     let role = Role::named(&role)
         .ok_or_else(|| StoreError::Damaged(format!("the user {name} has no known role")))?;
-    let group_role = of_groups.map(|roles| most(Role::Viewer, Some(&roles))).transpose()?;
+    let group_role = of_groups.map(|roles| most(Role::None, Some(&roles))).transpose()?;
     let revision = revision.try_into().unwrap_or_default();
     Ok(User { id, name, role, group_role, password, created_at, revision })
 }

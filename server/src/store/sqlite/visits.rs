@@ -8,6 +8,7 @@ use sqlx::{
 use super::{
     super::{LineTree, SessionLine, SessionQuery, StoreError, Visits},
     SqliteStore,
+    gifts::trees_seen,
     writer::Write,
 };
 
@@ -47,7 +48,7 @@ impl Visits for SqliteStore {
 
 /// Some sessions, in order.
 pub(super) async fn list(readers: &SqlitePool, query: &SessionQuery) -> Result<Vec<SessionLine>, StoreError> {
-    let rows = sqlx::query(
+    let rows = sqlx::query(concat!(
         "SELECT sessions.name, entered_at, sessions.metamers, tree_version, key, trees.name AS tree_name,
                 last_entry <= saved_through AND (tree IS NOT NULL OR last_entry = 0) AS is_saved
          FROM sessions LEFT JOIN trees ON trees.id = tree
@@ -57,14 +58,17 @@ pub(super) async fn list(readers: &SqlitePool, query: &SessionQuery) -> Result<V
            AND (?2 IS NULL OR key = ?2)
            AND (?3 IS NULL OR (last_entry <= saved_through AND (tree IS NOT NULL OR last_entry = 0)) = ?3)
            AND (?4 IS NULL OR (entered_at, sessions.name) < (?4, ?5))
-         ORDER BY entered_at DESC, sessions.name DESC LIMIT ?6",
-    )
+           AND (?7 IS NULL OR sessions.tree IN ",
+        trees_seen!("substr(?7, 7)"),
+        ") ORDER BY entered_at DESC, sessions.name DESC LIMIT ?6",
+    ))
     .bind(&query.person)
     .bind(&query.tree)
     .bind(query.is_saved)
     .bind(query.after.as_ref().map(|place| &place.used_at))
     .bind(query.after.as_ref().map(|place| &place.name))
     .bind(query.limit)
+    .bind(&query.seen_by)
     .fetch_all(readers)
     .await?;
     rows.iter().map(|row| line(row).map_err(StoreError::from)).collect()

@@ -1,0 +1,185 @@
+//! Trees and collections that are given to users and groups.
+
+use serde_json::{Value, json};
+
+use super::{
+    people::{Asking, group, user},
+    *,
+};
+use crate::{
+    access::password::Password,
+    store::{Groups, TreeChange, Users},
+};
+
+/// A server with users who have no role there.
+async fn with_users(names: &[&str]) -> (Asking, Arc<AnyStore>) {
+    let (server, store) = server().await;
+    let password = Password::parse("correct horse").unwrap().kept().unwrap();
+    for name in names {
+        store.add_user(user(name, Role::None, password.clone())).await.unwrap();
+    }
+    (Asking(server), store)
+}
+
+async fn put_in_wood(store: &AnyStore, tree: &str) {
+    let collection = Some(Some("wood".to_owned()));
+    store.change_tree(tree, None, TreeChange { collection, ..TreeChange::default() }).await.unwrap();
+}
+
+fn listed(page: &Value, field: &str, key: &str) -> Vec<String> {
+    let all = page[field].as_array().unwrap_or_else(|| panic!("{page}"));
+    all.iter().map(|one| one[key].as_str().unwrap().to_owned()).collect()
+}
+
+/// At each address that names a tree, a session or a collection, and at the rest.
+#[tokio::test]
+async fn ac22_who_has_no_role_may_know_of_nothing() {
+    let (server, _) = with_users(&["Ada"]).await;
+    let ada = server.log_in("Ada", "correct horse").await.unwrap();
+    for Route { address, action, .. } in routes().into_iter().chain(downloads()) {
+        let Some(action) = action else { continue };
+        let path = filled(path_of(&address));
+        let (status, problem, _) = server.as_user(&ada, method_of(&address), &path, Value::Null).await;
+        if address.contains("{tree}") || address.contains("{session}") {
+            let named = if address.contains("{session}") { "no-session" } else { "no-tree" };
+            assert_eq!((status, &problem["reason"]), (404, &json!(named)), "{address}");
+        } else {
+            assert_eq!(status == 403, action.reach() == Reach::Library, "{address}: {status}");
+        }
+    }
+    let get = async |path: &str| server.as_user(&ada, Method::GET, path, Value::Null).await.1;
+    assert_eq!(listed(&get("/api/v1/trees").await, "trees", "id"), [""; 0]);
+    assert_eq!(listed(&get("/api/v1/sessions").await, "sessions", "session"), [""; 0]);
+    assert_eq!(get("/api/v1/collections").await, json!([]));
+    assert_eq!(get("/api/v1/me").await["role"], "none");
+    for body in [json!({ "tree": "ash" }), json!({ "tree": "of-nobody" })] {
+        let (status, problem, _) = server.as_user(&ada, Method::POST, "/api/v1/sessions", body).await;
+        assert_eq!(
+            (status, &problem["detail"]),
+            (404, &json!("There is no such tree.")),
+            "not to be told apart"
+        );
+    }
+    let begun = server.as_user(&ada, Method::POST, "/api/v1/sessions", json!({})).await;
+    assert_eq!(begun.0, 403);
+}
+
+#[tokio::test]
+async fn ac22_a_tree_is_given_with_each_role_and_taken_back() {
+    let (server, store) = with_users(&["Ada"]).await;
+    let ada = server.log_in("Ada", "correct horse").await.unwrap();
+    let members = "/api/v1/trees/ash/members";
+    for role in [Role::Viewer, Role::Commenter, Role::Editor, Role::Owner] {
+        let (status, member, _) =
+            server.send(Method::POST, members, json!({ "name": "ada", "role": role })).await;
+        let expected = json!({ "id": "key of Ada", "name": "Ada", "group": false, "role": role });
+        assert_eq!((status, &member), (201, &expected));
+        assert_eq!(server.get(members).await, json!([expected]));
+        for Route { address, action, .. } in routes() {
+            let (Some(action), true) = (action, address.contains("{tree}")) else { continue };
+            if address.starts_with("DELETE /api/v1/trees/{tree}") && !address.contains("members/") {
+                // Others are still to ask for the tree.
+                continue;
+            }
+            let path = filled(path_of(&address));
+            let (status, ..) = server.as_user(&ada, method_of(&address), &path, Value::Null).await;
+            // Copies go into the library.
+            let is_for_all = !address.ends_with("/copies");
+            assert_eq!(
+                status != 403,
+                role >= action.least() && is_for_all || !is_for_all && status == 400,
+                "{role:?}: {address} {status}"
+            );
+        }
+        let (status, ..) = server.as_user(&ada, Method::GET, "/api/v1/trees/yew", Value::Null).await;
+        assert_eq!(status, 404, "of no other tree");
+        let (status, found, _) =
+            server.as_user(&ada, Method::GET, "/api/v1/sessions/ashen", Value::Null).await;
+        assert_eq!((status, &found["session"]), (200, &json!("ashen")), "with its sessions");
+        assert_eq!(server.as_user(&ada, Method::GET, "/api/v1/sessions/oak", Value::Null).await.0, 404);
+    }
+    let trees = async || server.as_user(&ada, Method::GET, "/api/v1/trees", Value::Null).await.1;
+    assert_eq!(listed(&trees().await, "trees", "id"), ["ash"]);
+    // Who owns one gives it on, and no more of the server.
+    store.add_user(user("Bo", Role::None, String::new())).await.unwrap();
+    let bo = json!({ "name": "Bo", "role": "viewer" });
+    assert_eq!(server.as_user(&ada, Method::POST, members, bo.clone()).await.0, 201);
+    assert_eq!(server.as_user(&ada, Method::POST, "/api/v1/trees/yew/members", bo).await.0, 404);
+    let missing = json!({ "name": "Cy", "role": "viewer" });
+    let (status, problem, _) = server.as_user(&ada, Method::POST, members, missing).await;
+    assert_eq!((status, &problem["field"]), (404, &json!("name")));
+    let own = format!("{members}/key%20of%20Ada");
+    assert_eq!(server.send(Method::DELETE, &own, Value::Null).await.0, 204);
+    assert_eq!(server.noted().await[0], "take-back");
+    assert_eq!(server.send(Method::DELETE, &own, Value::Null).await.1["field"], "member");
+    assert_eq!(server.as_user(&ada, Method::GET, "/api/v1/trees/ash", Value::Null).await.0, 404);
+    assert_eq!(listed(&trees().await, "trees", "id"), [""; 0]);
+}
+
+#[tokio::test]
+async fn ac22_a_collection_is_given_to_a_group_with_what_lies_in_it() {
+    let (server, store) = with_users(&["Ada"]).await;
+    put_in_wood(&store, "ash").await;
+    store.add_group(group("Studio", Role::None)).await.unwrap();
+    store.join_group("Studio", "Ada", None).await.unwrap();
+    let ada = server.log_in("Ada", "correct horse").await.unwrap();
+    let members = "/api/v1/collections/wood/members";
+    let studio = json!({ "name": "Studio", "group": true, "role": "editor" });
+    assert_eq!(server.send(Method::POST, members, studio).await.0, 201);
+    let get = async |path: &str| server.as_user(&ada, Method::GET, path, Value::Null).await.1;
+    assert_eq!(listed(&get("/api/v1/trees").await, "trees", "id"), ["ash"]);
+    let wood = get("/api/v1/collections").await;
+    assert_eq!((&wood[0]["id"], &wood[0]["trees"]), (&json!("wood"), &json!(1)), "{wood}");
+    let patch = async |tree: &str, change: Value| {
+        server.as_user(&ada, Method::PATCH, &format!("/api/v1/trees/{tree}"), change).await
+    };
+    assert_eq!(patch("ash", json!({ "name": "Ash" })).await.0, 200);
+    assert_eq!(patch("yew", json!({ "name": "Yew" })).await.0, 404);
+    // Nobody comes to own a tree by putting it where they own.
+    let owner = json!({ "name": "Ada", "role": "owner" });
+    store
+        .add_collection(Collection { id: "park".into(), name: "Park".into(), parent: None, trees: 0 })
+        .await
+        .unwrap();
+    assert_eq!(patch("ash", json!({ "collection": "park" })).await.1["reason"], "no-collection");
+    assert_eq!(server.send(Method::POST, "/api/v1/collections/park/members", owner).await.0, 201);
+    let (status, problem, _) = patch("ash", json!({ "collection": "park" })).await;
+    assert_eq!((status, &problem["field"]), (403, &json!("collection")));
+    assert_eq!(
+        server.send(Method::DELETE, &format!("{members}/key%20of%20Studio"), Value::Null).await.0,
+        204
+    );
+    assert_eq!(patch("ash", json!({ "name": "Ash" })).await.0, 404);
+    assert_eq!(listed(&get("/api/v1/trees").await, "trees", "id"), [""; 0]);
+}
+
+#[tokio::test]
+async fn ac22_the_greatest_role_counts_and_a_program_has_no_more_than_its_token() {
+    let (server, store) = with_users(&["Ada"]).await;
+    let change = json!({ "role": "viewer" });
+    assert_eq!(server.send(Method::PATCH, "/api/v1/users/key%20of%20Ada", change).await.0, 200);
+    let ada = server.log_in("Ada", "correct horse").await.unwrap();
+    let give = async |role: &str| {
+        let member = json!({ "name": "Ada", "role": role });
+        server.send(Method::POST, "/api/v1/trees/ash/members", member).await.0
+    };
+    let token = json!({ "name": "farm", "role": "viewer" });
+    let made = server.as_user(&ada, Method::POST, "/api/v1/tokens", token).await.1;
+    let program = format!("Bearer {}", made["token"].as_str().unwrap());
+    let lock = "/api/v1/trees/ash/lock";
+    let locks = async || {
+        let asked = request_of(&program, &Method::PUT, lock);
+        let by_program = status(&server.0, asked, "").await.as_u16();
+        (server.as_user(&ada, Method::PUT, lock, Value::Null).await.0, by_program)
+    };
+    assert_eq!(give("viewer").await, 201);
+    assert_eq!(locks().await, (403, 403));
+    assert_eq!(give("owner").await, 201);
+    assert_eq!(locks().await, (200, 403));
+    assert_eq!(
+        server.as_user(&ada, Method::PUT, "/api/v1/trees/yew/lock", Value::Null).await.0,
+        403,
+        "she sees it"
+    );
+    assert_eq!(store.groups().await.unwrap(), []);
+}
