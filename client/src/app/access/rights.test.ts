@@ -24,6 +24,7 @@ it.each([
   [{ role: "editor" }, [true, true, true, false, false]],
   [{ role: "commenter" }, [false, false, false, false, false]],
   [{ role: "viewer" }, [false, false, false, false, false]],
+  [{ role: "none" }, [false, false, false, false, false]],
   [{ role: "owner", tree: "ash" }, [true, false, false, false, false]],
   [{ role: "editor", tree: "ash" }, [true, false, false, false, false]],
 ] as const)("AC8: %j is told what they may", async (me, may) => {

@@ -54,6 +54,16 @@ export class Rights {
     return may(this.#here, "ResumeSession");
   }
 
+  /** Whether they say who comes in (`AC19`). */
+  get mayChangePeople(): boolean {
+    return may(this.#everywhere, "ChangePeople") && this.onlyTree.value === null;
+  }
+
+  /** Whether they may let programs act as themselves, and change their own password (`AC21`). */
+  get mayOwnTokens(): boolean {
+    return may(this.#everywhere, "OwnTokens") && this.onlyTree.value === null;
+  }
+
   /** Whether they may see how the server is (`SV2`). */
   get maySeeServer(): boolean {
     return may(this.#everywhere, "SeeServer") && this.onlyTree.value === null;
@@ -106,5 +116,10 @@ function askWho(): Promise<Me> {
 }
 
 function isMe(value: unknown): boolean {
-  return typeof value === "object" && value !== null && "role" in value && ROLES.includes(value.role as Role);
+  return (
+    typeof value === "object" &&
+    value !== null &&
+    "role" in value &&
+    (value.role === "none" || ROLES.includes(value.role as Role))
+  );
 }

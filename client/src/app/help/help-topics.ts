@@ -94,6 +94,7 @@ const WHOLE = [
   ["library", { sheet: "library" }],
   ["share", { sheet: "share" }],
   ["people", { sheet: "people" }],
+  ["accounts", { sheet: "accounts" }],
   ["comments", { panel: "comments" }],
   ["variations", { sheet: "variations" }],
   ["download", { sheet: "download" }],

@@ -10,6 +10,7 @@ export const SHEET_NAMES = [
   "versions",
   "share",
   "people",
+  "accounts",
   "variations",
   "download",
   "help",

@@ -62,6 +62,12 @@ export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
     height: "14rem",
     part: new Part(async () => (await import("./sheets/people-sheet")).PeopleSheet),
   },
+  accounts: {
+    title: "sheets.accounts",
+    size: "wide",
+    height: "30rem",
+    part: new Part(async () => (await import("./sheets/accounts/accounts-sheet")).AccountsSheet),
+  },
   variations: {
     title: "sheets.variations",
     size: "wide",

@@ -247,6 +247,15 @@ export const HELP = {
     "note pin thread answer reply review mention feedback discuss summary",
     "Notiz Nadel Faden Antwort Rückmeldung besprechen erwähnen Zusammenfassung",
   ],
+  "help.topic.accounts": ["Accounts", "Konten"],
+  "help.topic.accounts.text": [
+    "Your password, and tokens for programs that act as you; administrators add people and groups there and say who may what (in Settings)",
+    "Dein Passwort und Tokens für Programme, die in deinem Namen handeln; wer verwaltet, fügt dort Menschen und Gruppen hinzu und bestimmt, wer was darf (in den Einstellungen)",
+  ],
+  "help.topic.accounts.words": [
+    "user users group groups login log in password role rights permission administrator token api program",
+    "Benutzer Nutzer Gruppe Gruppen Anmeldung anmelden Passwort Kennwort Rolle Rechte Erlaubnis Verwaltung Token Programm",
+  ],
   "help.topic.people": ["Who is here", "Wer hier ist"],
   "help.topic.people.text": [
     "Others who have this tree open: their pointers in their colours, the tool they hold, and whether they are away. Follow what somebody sees until your first own touch, or bring everyone to what you see",

@@ -1,3 +1,4 @@
+import { ACCOUNTS } from "./accounts";
 import { ARCHITECTURE } from "./architecture";
 import { BACKGROUND } from "./background";
 import { BRANCHES } from "./branches";
@@ -33,6 +34,7 @@ import { WIND } from "./wind";
 
 /** The texts of the parts that are loaded when they are first needed; a page loads them in one language. */
 export const LATER = {
+  ...ACCOUNTS,
   ...COLOURS,
   ...COMMENTS,
   ...DRAWMODE,

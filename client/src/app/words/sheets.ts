@@ -88,6 +88,7 @@ export const SHEET_TITLES = {
   "sheets.library": ["Library", "Bibliothek"],
   "sheets.versions": ["Versions", "Versionen"],
   "sheets.download": ["Download this tree", "Diesen Baum herunterladen"],
+  "sheets.accounts": ["Accounts", "Konten"],
   "sheets.people": ["Who is here", "Wer hier ist"],
   "sheets.share": ["Share this tree", "Diesen Baum teilen"],
   "sheets.variations": ["Grow variations", "Variationen wachsen lassen"],

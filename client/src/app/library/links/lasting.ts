@@ -1,4 +1,4 @@
-import { BOUNDS, type LinkRole, type NewLink } from "../../../wire/generated";
+import { BOUNDS, type LinkRole, type NewLink, type NewToken } from "../../../wire/generated";
 
 /** For how long somebody can be let in; `open` is as long as they come. */
 export const LASTING = ["day", "week", "month", "year", "open"] as const;
@@ -25,6 +25,14 @@ export interface Wish {
 }
 
 export const FIRST_WISH: Wish = { role: "viewer", lasting: "week", name: "" };
+
+/** For how long a program can be let in. */
+export const LASTING_TOKENS = ["week", "month", "year"] as const satisfies readonly Lasting[];
+
+/** The same for a program. */
+export function tokenOf({ role, lasting, name }: Wish): NewToken {
+  return { role, name: name.trim(), ...(lasting === "open" ? {} : { hours: HOURS[lasting] }) };
+}
 
 /** The same as the server takes it; who has no name is called as others say. */
 export function linkOf({ role, lasting, name }: Wish, unnamed: string): NewLink {

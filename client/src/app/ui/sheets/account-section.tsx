@@ -5,11 +5,14 @@ import { explained } from "../../problems/explained";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 
-/** As whom this browser is let in, and the way out. Nobody has to be let in at the machine itself. */
+/** As whom this browser is let in, what they can say of themselves and others, and the way out. */
 export function AccountSection({ studio }: { studio: Studio }) {
   const [trouble, setTrouble] = useState("");
   const me = studio.rights.me.value;
-  if (me === null || me.way === "machine") {
+  const { mayChangePeople, mayOwnTokens } = studio.rights;
+  // Nobody has to be let in at the machine itself.
+  const isLetIn = me !== null && me.way !== "machine";
+  if (me === null || !(isLetIn || mayChangePeople)) {
     return null;
   }
   const leave = async () => {
@@ -24,11 +27,28 @@ export function AccountSection({ studio }: { studio: Studio }) {
   return (
     <section class="account" aria-label={say("settings.account")}>
       <h3>{say("settings.account")}</h3>
-      <p>{say(me.way === "login" ? "settings.account.login" : "settings.account.device", { name, role })}</p>
+      {isLetIn && (
+        <p>{say(me.way === "login" ? "settings.account.login" : "settings.account.device", { name, role })}</p>
+      )}
       {me.way === "device" && <p class="quiet">{say("settings.account.again")}</p>}
-      <button type="button" class="small" onClick={leave}>
-        {say("settings.account.leave")}
-      </button>
+      <div class="account-acts">
+        {(mayChangePeople || mayOwnTokens) && (
+          <button
+            type="button"
+            class="small"
+            onClick={() => {
+              studio.layout.sheet.value = "accounts";
+            }}
+          >
+            {say(mayChangePeople ? "accounts.open" : "accounts.open.own")}
+          </button>
+        )}
+        {isLetIn && (
+          <button type="button" class="small" onClick={leave}>
+            {say("settings.account.leave")}
+          </button>
+        )}
+      </div>
       {trouble !== "" && <p role="alert">{trouble}</p>}
     </section>
   );

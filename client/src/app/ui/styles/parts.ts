@@ -14,6 +14,7 @@ import "./library.css";
 import "./finding.css";
 import "./collections.css";
 import "./share.css";
+import "./accounts.css";
 import "./variations.css";
 import "./help.css";
 import "./recent.css";
