@@ -100,7 +100,7 @@ async fn au3_a_role_changes_while_its_user_is_connected() {
     let session = created["session"].as_str().expect("it has a name").to_owned();
     let value = bo.strip_prefix("cookie: ").expect("it is a header");
     let mut socket = client::open_with(server.port(), &session, &[("cookie", value)]).await;
-    let hello = json!({ "type": "hello", "protocol": 2, "client": "browser-1" });
+    let hello = json!({ "type": "hello", "protocol": 3, "client": "browser-1" });
     socket.send(client::text(&hello)).await.expect("it is sent");
     for (role, expected) in [("viewer", "refused"), ("owner", "acknowledged")] {
         assert_eq!(user(&["role", "Bo", role], &database, "").code, 0);
@@ -145,7 +145,7 @@ async fn ac22_what_was_given_is_told_and_taken_while_somebody_is_connected() {
 
     let value = bo.strip_prefix("cookie: ").expect("it is a header");
     let mut socket = client::open_with(server.port(), &session, &[("cookie", value)]).await;
-    let hello = json!({ "type": "hello", "protocol": 2, "client": "browser-1" });
+    let hello = json!({ "type": "hello", "protocol": 3, "client": "browser-1" });
     socket.send(client::text(&hello)).await.expect("it is sent");
     for (role, expected, id) in [("viewer", "refused", 1), ("owner", "acknowledged", 2)] {
         let new = json!({ "name": "Bo", "role": role }).to_string();
