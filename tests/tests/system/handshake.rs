@@ -122,7 +122,11 @@ async fn hs2_the_welcome_says_what_is_durable() {
 async fn hs3_an_unknown_session_closes_4003() {
     let (server, _scratch) = server();
     for session in ["nowhere", "%2e%2e", &"x".repeat(500)] {
-        let hello = ClientMessage::Hello { protocol: 3, client: "browser-1".into(), resume: None };
+        let hello = ClientMessage::Hello {
+            protocol: espalier_proto::version::PROTOCOL_VERSION,
+            client: "browser-1".into(),
+            resume: None,
+        };
         assert_eq!(code_after(&server, session, client::text(&hello)).await, Some(4003), "{session}");
     }
 }

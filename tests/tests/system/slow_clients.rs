@@ -21,7 +21,11 @@ const BYTES_PER_CLIENT: u64 = 1024 * 1024;
 
 async fn greeted(port: u16, session: &str, key: &str) -> client::Socket {
     let mut socket = client::open(port, session).await;
-    let hello = ClientMessage::Hello { protocol: 2, client: key.into(), resume: None };
+    let hello = ClientMessage::Hello {
+        protocol: espalier_proto::version::PROTOCOL_VERSION,
+        client: key.into(),
+        resume: None,
+    };
     socket.send(client::text(&hello)).await.expect("the hello is sent");
     socket
 }
