@@ -130,7 +130,7 @@ mod tests {
             written.contains("| `background.backdrop` | 226, 222, 214 | three whole numbers, 0 to 255 |")
         );
         assert!(written.contains("| `nothing-to-undo` | `refused` | There is nothing to undo. |"));
-        assert!(written.contains("| 0 | change, the first | number |"));
+        assert!(written.contains("| 0 | code of a change, the first | number |"));
         assert_eq!(with_tables(&written), Ok(written.clone()));
     }
 

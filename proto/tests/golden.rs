@@ -39,6 +39,31 @@ fn packed() -> Frame {
     }
 }
 
+/// One change of each kind, with gaps and numbers of all lengths, packed by models.
+fn packed_all() -> Frame {
+    let rows: Vec<u8> = (0..=255).filter(|row| row % 7 < 3 && row % 11 != 5).collect();
+    let patch =
+        |chunk, values: Values| ChunkChange::Patch { chunk, generation: 4, rows: rows.clone(), values };
+    let waves = |count: usize| (0..count as u32).map(|i| (i * i * 37 % 251) as u8).collect::<Vec<_>>();
+    let mut farthest = sapling();
+    farthest.position[2] = [i32::MIN, i32::MAX, 1 << 20];
+    farthest.position[3] = [i32::MAX, i32::MIN, -1];
+    farthest.born[4] = u32::MAX;
+    Frame {
+        epoch: 7,
+        sequence: 4,
+        catch_up: false,
+        changes: vec![
+            ChunkChange::Truncate { rows: u32::MAX },
+            ChunkChange::Replace { chunk: 9, generation: u32::MAX, rows: farthest },
+            ChunkChange::Append { chunk: 3, generation: 4, start: 17, rows: sapling() },
+            patch(2, Values::Radius((0..rows.len() as u16).map(|i| 300 + i * i % 97).collect())),
+            patch(2, Values::Foliage(waves(rows.len()))),
+            patch(u32::MAX, Values::Light(waves(rows.len()))),
+        ],
+    }
+}
+
 /// A full chunk, and the first rows of the next; long enough to be deflated.
 fn catch_up() -> Frame {
     let zigzag_of_the_axis = |i: usize| if i.is_multiple_of(2) { 9 } else { -9 };
@@ -269,6 +294,8 @@ fn a_short_body_travels_raw() {
 fn fr9_a_short_change_is_packed_by_models() {
     assert_eq!(packed().encode()[2], 2);
     check("packed", &packed());
+    assert_eq!(packed_all().encode()[2], 2);
+    check("packed-all", &packed_all());
 }
 
 #[test]

@@ -46,15 +46,15 @@ macro_rules! fields {
 
 fields! {
     /// The first change.
-    FirstChange "change, the first" Number,
+    FirstChange "code of a change, the first" Number,
     /// What follows a change that forgets rows.
-    ChangeAfterTruncate "change after truncate" Number,
+    ChangeAfterTruncate "code of a change after truncate" Number,
     /// What follows whole chunks.
-    ChangeAfterReplace "change after replace" Number,
+    ChangeAfterReplace "code of a change after replace" Number,
     /// What follows new rows.
-    ChangeAfterAppend "change after append" Number,
+    ChangeAfterAppend "code of a change after append" Number,
     /// What follows new values.
-    ChangeAfterPatch "change after patch" Number,
+    ChangeAfterPatch "code of a change after patch" Number,
     /// Rows that stay.
     Truncate "rows of truncate" Number,
     /// Which chunk the first change is about.
@@ -108,19 +108,19 @@ fields! {
     /// The first row whose radius is patched.
     FirstRadiusGap "gap of radii, the first" Number,
     /// Rows skipped behind one that none was skipped before.
-    RadiusGapAfterNone "gap of radii after 0" Number,
+    RadiusGapAfterNone "gap of radii after a gap of 0" Number,
     /// Rows skipped behind one that some were skipped before.
     RadiusGap "gap of radii" Number,
     /// The first row whose leaves or vigor are patched.
     FirstFoliageGap "gap of foliage, the first" Number,
     /// As of radii.
-    FoliageGapAfterNone "gap of foliage after 0" Number,
+    FoliageGapAfterNone "gap of foliage after a gap of 0" Number,
     /// As of radii.
     FoliageGap "gap of foliage" Number,
     /// The first row whose light is patched.
     FirstLightGap "gap of light, the first" Number,
     /// As of radii.
-    LightGapAfterNone "gap of light after 0" Number,
+    LightGapAfterNone "gap of light after a gap of 0" Number,
     /// As of radii.
     LightGap "gap of light" Number,
     /// Gaps of other columns.
@@ -128,19 +128,19 @@ fields! {
     /// The first patched radius.
     FirstNewRadius "new radius, the first" Number,
     /// Of the row behind the one before.
-    NewRadiusBeside "new radius after gap 0" Number,
+    NewRadiusBeside "new radius with a gap of 0" Number,
     /// Of a row farther on.
     NewRadius "new radius" Number,
     /// The first patched leaves and vigor.
     FirstNewFoliage "new foliage, the first" Byte,
     /// Of the row behind the one before.
-    NewFoliageBeside "new foliage after gap 0" Byte,
+    NewFoliageBeside "new foliage with a gap of 0" Byte,
     /// Of a row farther on.
     NewFoliage "new foliage" Byte,
     /// The first patched light.
     FirstNewLight "new light, the first" Byte,
     /// Of the row behind the one before.
-    NewLightBeside "new light after gap 0" Byte,
+    NewLightBeside "new light with a gap of 0" Byte,
     /// Of a row farther on.
     NewLight "new light" Byte,
     /// New parents and births.

@@ -147,6 +147,8 @@ async fn ac22_what_was_given_is_told_and_taken_while_somebody_is_connected() {
     let mut socket = client::open_with(server.port(), &session, &[("cookie", value)]).await;
     let hello = json!({ "type": "hello", "protocol": 3, "client": "browser-1" });
     socket.send(client::text(&hello)).await.expect("it is sent");
+    // With what was given so far; what changes from now on is told.
+    until(&mut socket, "welcome").await;
     for (role, expected, id) in [("viewer", "refused", 1), ("owner", "acknowledged", 2)] {
         let new = json!({ "name": "Bo", "role": role }).to_string();
         assert_eq!(ask(&server, "POST", &format!("{path}/members"), &ada, &new).status, 201);
