@@ -16,7 +16,8 @@ SwaggerUI({
   url: DESCRIPTION,
   deepLinking: true,
   filter: true,
-  docExpansion: "list",
+  // Addresses by what they are about: more than 126 at once are not all drawn.
+  docExpansion: "none",
   defaultModelsExpandDepth: 0,
   tryItOutEnabled: true,
   displayRequestDuration: true,

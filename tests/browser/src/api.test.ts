@@ -26,6 +26,7 @@ test.each(SCREENS)("every address can be read and tried by touch: $width × $hei
   });
   await page.goto(`${workshop.server.address}/api`);
   const species = page.locator(".opblock", { has: page.locator('[data-path="/api/v1/species"]') });
+  await page.locator('.opblock-tag[data-tag="species"]').tap();
   await species.locator(".opblock-summary-control").tap();
   await species.getByRole("button", { name: "Execute" }).tap();
   await expect.poll(() => species.locator(".live-responses-table").textContent()).toContain("scots-pine");

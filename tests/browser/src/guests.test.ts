@@ -104,7 +104,7 @@ it.each([
   await page.getByRole("dialog", { name: "Library" }).waitFor();
   expect(await page.getByRole("button", { name: /^(Open a file|Select|New collection)/ }).count()).toBe(0);
   await page.getByRole("button", { name: "More for Oak" }).tap();
-  expect(await page.locator(".card-menu button").allTextContents()).toEqual(["Open", "Versions (1)"]);
+  expect(await page.locator(".card-menu button").allTextContents()).toEqual(["Open", "Versions (1)", "Download…"]);
   await page.keyboard.press("Escape");
   await page.getByRole("button", { name: "Open Oak" }).tap();
   await page.waitForURL(/\/s\//);
