@@ -93,7 +93,9 @@ pub async fn redeem(
 
 /// Lets in a user whose password was right.
 pub async fn log_in(store: &impl Passes, user: User, now: SystemTime) -> Result<(Secret, Pass), StoreError> {
-    let (role, name, holder, most) = (user.allowed(), user.name, None, None);
+    let (role, name, most) = (user.allowed(), user.name, None);
+    // Whoever goes by the name by the time it is kept may be somebody else.
+    let holder = Some(Holder::User { id: user.id, name: name.clone() });
     let ends_at = written(now + DEVICE_LIFE);
     let (id, created_at, expires_at) = (name::unguessable(), String::new(), ends_at.clone());
     let pass = Pass {

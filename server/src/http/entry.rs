@@ -139,11 +139,18 @@ pub(super) async fn check(shared: &Shared, name: &str, field: &str, password: &s
 }
 
 async fn let_in(shared: &Shared, user: User) -> Result<(Secret, Pass), Failure> {
-    match admission::log_in(&*shared.store, user, SystemTime::now()).await {
+    let (id, password) = (user.id.clone(), user.password.clone());
+    let come = match admission::log_in(&*shared.store, user, SystemTime::now()).await {
         // They were removed just now.
-        Err(StoreError::NotFound(Missing::User)) => Err(wrong_password("password")),
-        come => Ok(come?),
+        Err(StoreError::NotFound(Missing::User)) => return Err(wrong_password("password")),
+        come => come?,
+    };
+    // Another password ends the logins that there are; this one may have come right after.
+    if shared.store.users().await?.iter().any(|user| user.id == id && user.password == password) {
+        return Ok(come);
     }
+    shared.store.take_pass(&come.1.id).await?;
+    Err(wrong_password("password"))
 }
 
 /// Ends what a browser came in by.

@@ -21,7 +21,7 @@ use super::{
 };
 use crate::{
     access::{Action, Caller, Object, Peer},
-    store::{Gifts, Library, Missing, Room, Standing, Standings, StoreError},
+    store::{Finding, Gift, Gifts, Library, Missing, Room, Standing, Standings, StoreError},
     time::now,
 };
 
@@ -205,8 +205,22 @@ impl Shared {
         Ok((caller.role_where(given), standing))
     }
 
-    /// Whether somebody may have something lie in a collection, and so be seen by whom that was given: they see it
-    /// themselves, and may do no more with it then than they may already.
+    /// Whether a collection, or one that it lies in, was given to anybody.
+    async fn is_given(&self, collection: &str) -> Result<bool, StoreError> {
+        let all = self.store.collections().await?;
+        let mut next = Some(collection);
+        while let Some(id) = next {
+            if !self.store.given(Gift::Collection(id)).await?.is_empty() {
+                return Ok(true);
+            }
+            next =
+                all.iter().find(|collection| collection.id == id).and_then(|found| found.parent.as_deref());
+        }
+        Ok(false)
+    }
+
+    /// Whether somebody may have something lie in a collection, and so be seen by whom that was given: they own it, or
+    /// that was given to nobody; they see it themselves, and may do no more with it then than they may already.
     pub(super) async fn ask_to_put_in(
         &self,
         caller: &Caller,
@@ -217,6 +231,11 @@ impl Shared {
         let there = self.store.role_in(collection, &caller.person()).await?;
         if there == Role::None && !caller.sees_all() {
             return Err(Missing::Collection.into());
+        }
+        if role < Role::Owner && self.is_given(collection).await? {
+            let sentence = "That collection was given to people: only whom this belongs to can put it there.";
+            let allowed = "a collection that was given to nobody";
+            return Err(Problem::new(Reason::Forbidden, sentence).at("collection", allowed).into());
         }
         if there <= role {
             return Ok(());

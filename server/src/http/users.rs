@@ -106,12 +106,15 @@ pub(super) async fn change_own_password(
     let peer = peer.map(|Extension(peer)| peer);
     let tried = entry::Tried::count(&shared, peer, name, Instant::now());
     let tried = tried.map_err(Failure::into_response)?;
-    entry::check(&shared, name, "old", &old).await.map_err(Failure::into_response)?;
+    let User { revision, .. } =
+        entry::check(&shared, name, "old", &old).await.map_err(Failure::into_response)?;
     tried.was_right(&shared);
     let changed = async {
         let password = Some(kept(&shared, "new", &new).await?);
         let change = UserChange { password, stays: Some(login), ..UserChange::default() };
-        shared.store.change_user(name, change, Terms::default()).await?;
+        // Not over one that was set meanwhile.
+        let terms = Terms { expected: Some(revision), ..Terms::default() };
+        shared.store.change_user(name, change, terms).await?;
         shared.tell_standings();
         Ok(StatusCode::NO_CONTENT)
     };

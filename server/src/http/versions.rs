@@ -87,7 +87,9 @@ pub(super) async fn read(shared: &Shared, caller: &Caller, saving: Saving) -> Re
     let document = TreeDocument { simulation_version: SIMULATION_VERSION, bytes: read.bytes };
     let saved = Saved { document, metamers: read.metamers, species: read.species, thumbnail };
     let version = new(caller, said, Contents::New(Box::new(saved)));
-    Ok(NewVersion { session: Some((session, read.through)), ..version })
+    // The session belongs to the tree from then on: that is for those who may change what it holds.
+    let takes = shared.ask(caller, Action::EditSession, Named::Session(&session)).await.is_ok();
+    Ok(NewVersion { session: takes.then_some((session, read.through)), ..version })
 }
 
 /// What is said of what is saved, and by whom.

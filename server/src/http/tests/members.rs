@@ -153,6 +153,29 @@ async fn ac22_a_collection_is_given_to_a_group_with_what_lies_in_it() {
     assert_eq!(listed(&get("/api/v1/trees").await, "trees", "id"), [""; 0]);
 }
 
+/// Else an editor would come to own what others own, by a helper who owns a collection.
+#[tokio::test]
+async fn ac22_nobody_but_owners_puts_what_is_not_theirs_where_others_own() {
+    let (server, store) = with_users(&["Ada", "Bo"]).await;
+    let park = Collection { id: "park".into(), name: "Park".into(), parent: None, trees: 0 };
+    let pond = Collection { id: "pond".into(), name: "Pond".into(), parent: Some("park".into()), trees: 0 };
+    store.add_collection(park).await.unwrap();
+    store.add_collection(pond).await.unwrap();
+    let editor = json!({ "role": "editor" });
+    assert_eq!(server.send(Method::PATCH, "/api/v1/users/key%20of%20Ada", editor).await.0, 200);
+    let bo = json!({ "name": "Bo", "role": "owner" });
+    assert_eq!(server.send(Method::POST, "/api/v1/collections/park/members", bo).await.0, 201);
+    let ada = server.log_in("Ada", "correct horse").await.unwrap();
+    for path in ["/api/v1/trees/ash", "/api/v1/collections/wood"] {
+        let key = if path.contains("trees") { "collection" } else { "parent" };
+        for into in ["park", "pond"] {
+            let (status, problem, _) = server.as_user(&ada, Method::PATCH, path, json!({ key: into })).await;
+            assert_eq!((status, &problem["field"]), (403, &json!("collection")), "{path} into {into}");
+        }
+    }
+    assert_eq!(server.send(Method::PATCH, "/api/v1/trees/ash", json!({ "collection": "pond" })).await.0, 200);
+}
+
 #[tokio::test]
 async fn ac22_the_greatest_role_counts_and_a_program_has_no_more_than_its_token() {
     let (server, store) = with_users(&["Ada"]).await;

@@ -7,7 +7,7 @@ use super::{
         Group, GroupChange, Groups, Missing, Pass, PassKind, Passes, StoreError, Terms, UserChange, Users,
     },
     passes::{NOW, hash, pass},
-    users::user,
+    users::{login_of, user},
 };
 
 pub(super) fn group(name: &str, role: Role, members: &[&str]) -> Group {
@@ -65,7 +65,7 @@ pub(super) async fn groups_are_listed_with_their_members(store: &(impl Groups + 
 pub(super) async fn a_login_may_what_its_users_groups_may(store: &(impl Groups + Passes + Users)) {
     add_users(store, &[("Ada", Role::Viewer), ("Bo", Role::Owner)]).await;
     for (byte, name) in [(1, "Ada"), (2, "Bo")] {
-        store.add_pass(hash(byte), Pass { name: name.into(), ..pass(name, PassKind::Login) }).await.unwrap();
+        store.add_pass(hash(byte), login_of(name, name)).await.unwrap();
     }
     // A device may be called as somebody is.
     store.add_pass(hash(3), Pass { name: "Ada".into(), ..pass("device", PassKind::Device) }).await.unwrap();

@@ -18,6 +18,12 @@ pub(super) fn user(name: &str, role: Role) -> User {
     User { id, name: name.into(), role, group_role: None, password, created_at, revision: 1 }
 }
 
+/// A login of the user that [`user`] makes by a name.
+pub(super) fn login_of(name: &str, id: &str) -> Pass {
+    let holder = Holder::User { id: format!("{name}'s key"), name: name.into() };
+    Pass { name: name.into(), holder: Some(holder), ..pass(id, PassKind::Login) }
+}
+
 const FORCE: Terms = Terms { expected: None, force: true };
 
 pub(super) async fn a_name_is_one_person(store: &impl Users) {
@@ -34,8 +40,7 @@ pub(super) async fn a_name_is_one_person(store: &impl Users) {
 }
 
 pub(super) async fn a_login_has_the_role_of_its_user(store: &(impl Passes + Users)) {
-    let login = |name: &str| pass(name, PassKind::Login);
-    let of = |name: &str| Pass { name: name.into(), ..login(name) };
+    let of = |name: &str| login_of(name, name);
     let missing = store.add_pass(hash(1), of("Ada")).await;
     assert!(matches!(missing, Err(StoreError::NotFound(Missing::User))));
     store.add_user(user("Ada", Role::Viewer)).await.unwrap();
@@ -123,7 +128,7 @@ pub(super) async fn under_another_name_one_is_the_same(
         name: "Ada".into(),
     };
     store.name_author(&named(&ada), NOW).await.unwrap();
-    store.add_pass(hash(1), Pass { name: "Ada".into(), ..pass("login", PassKind::Login) }).await.unwrap();
+    store.add_pass(hash(1), login_of("Ada", "login")).await.unwrap();
     let (id, name, created_at, members) = ("g".into(), "Studio".into(), "2026".into(), Vec::new());
     let studio = Group { id, name, role: Role::Editor, created_at, members, revision: 1 };
     store.add_group(studio).await.unwrap();
@@ -189,8 +194,8 @@ pub(super) async fn a_token_may_what_whoever_holds_it_may(store: &(impl Passes +
     assert!(store.change_pass("tablet", Role::Commenter).await.unwrap());
     assert_eq!(role(3).await, Some(Role::Commenter));
     // Another password ends logins; programs are revoked one by one.
-    store.add_pass(hash(4), Pass { name: "Ada".into(), ..pass("one", PassKind::Login) }).await.unwrap();
-    store.add_pass(hash(5), Pass { name: "Ada".into(), ..pass("two", PassKind::Login) }).await.unwrap();
+    store.add_pass(hash(4), login_of("Ada", "one")).await.unwrap();
+    store.add_pass(hash(5), login_of("Ada", "two")).await.unwrap();
     let another = UserChange { stays: Some(hash(5)), ..UserChange::password("another".into()) };
     assert!(store.change_user("Ada", another, Terms::default()).await.unwrap());
     assert_eq!((role(4).await, role(5).await, role(2).await), (None, Some(Role::Admin), Some(Role::Editor)));

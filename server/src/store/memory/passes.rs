@@ -3,20 +3,16 @@
 use espalier_proto::access::Role;
 
 use super::{
-    super::{Holder, Missing, Pass, PassKind, Passes, StoreError, folding::folded},
+    super::{Holder, Missing, Pass, PassKind, Passes, StoreError},
     MemoryStore,
 };
 use crate::access::SecretHash;
 
 impl Passes for MemoryStore {
-    async fn add_pass(&self, hash: SecretHash, mut pass: Pass) -> Result<(), StoreError> {
+    async fn add_pass(&self, hash: SecretHash, pass: Pass) -> Result<(), StoreError> {
         let mut kept = self.writing()?;
         if pass.tree.as_ref().is_some_and(|tree| !kept.trees.contains_key(tree)) {
             return Err(StoreError::NotFound(Missing::Tree));
-        }
-        if pass.kind == PassKind::Login {
-            let user = kept.users.get(&folded(&pass.name)).ok_or(StoreError::NotFound(Missing::User))?;
-            pass.holder = Some(Holder::User { id: user.id.clone(), name: user.name.clone() });
         }
         match &pass.holder {
             Some(Holder::User { id, .. }) if kept.users.values().all(|user| user.id != *id) => {

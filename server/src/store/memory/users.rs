@@ -70,6 +70,10 @@ impl Users for MemoryStore {
         for (_, named) in kept.authors.values_mut() {
             named.person.take_if(|of| **of == *person);
         }
+        // Nothing of theirs is left to whoever has the name after them.
+        kept.heirs.retain(|_, heir| heir.person != person);
+        kept.favourites.retain(|(who, _)| *who != person);
+        kept.removals.retain(|removal| removal.person != person);
         Ok(kept.users.remove(&folded(name)).is_some())
     }
 }

@@ -46,6 +46,7 @@ const MIGRATIONS: &[(&str, &str)] = &[
     ("0021_authors", include_str!("../../../../migrations/0021_authors.sql")),
     ("0022_people_over_http", include_str!("../../../../migrations/0022_people_over_http.sql")),
     ("0023_gifts", include_str!("../../../../migrations/0023_gifts.sql")),
+    ("0024_trees_in_collections", include_str!("../../../../migrations/0024_trees_in_collections.sql")),
 ];
 
 /// Releases before this one can lose a committed transaction when the write-ahead log starts over.

@@ -4,7 +4,7 @@ use espalier_proto::access::Role;
 use sqlx::sqlite::SqliteConnection;
 
 use super::{
-    super::{Holder, Missing, Pass, PassKind, Passes, StoreError, folding::folded},
+    super::{Holder, Missing, Pass, PassKind, Passes, StoreError},
     SqliteStore,
     groups::most,
     writer::Write,
@@ -116,13 +116,8 @@ impl PassWrite {
                     }
                 };
                 let holder = pass.holder.as_ref();
-                let user = match (pass.kind, holder) {
-                    (PassKind::Login, _) => {
-                        let found = sqlx::query_scalar("SELECT id FROM users WHERE folded = ?");
-                        let found = found.bind(folded(&pass.name)).fetch_optional(&mut *connection).await?;
-                        Some(id(found, Missing::User)?)
-                    }
-                    (_, Some(Holder::User { id: key, .. })) => {
+                let user = match holder {
+                    Some(Holder::User { id: key, .. }) => {
                         let found = sqlx::query_scalar("SELECT id FROM users WHERE key = ?").bind(key);
                         Some(id(found.fetch_optional(&mut *connection).await?, Missing::User)?)
                     }

@@ -93,6 +93,10 @@ impl UserWrite {
                     "DELETE FROM session_people WHERE person = ?",
                     "DELETE FROM comments_seen WHERE person = ?",
                     "UPDATE authors SET person = NULL WHERE person = ?",
+                    // Nothing of theirs is left to whoever has the name after them.
+                    "UPDATE trees SET owner_person = NULL, owner_name = NULL WHERE owner_person = ?",
+                    "DELETE FROM favourites WHERE principal = ?",
+                    "DELETE FROM removals WHERE person = ?",
                 ] {
                     sqlx::query(sql).bind(person_of(name)).execute(&mut *connection).await?;
                 }
