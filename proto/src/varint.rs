@@ -9,7 +9,7 @@ pub fn write(out: &mut Vec<u8>, mut value: u32) {
     out.push(value as u8);
 }
 
-/// How many bytes [`write`] appends.
+/// How many bytes [`write()`] appends.
 pub fn length(value: u32) -> usize {
     (value | 1).ilog2() as usize / 7 + 1
 }
