@@ -1,5 +1,6 @@
 //! Connections: accepted, served over HTTP/1.1, and ended when the server stops.
 
+mod crowd;
 mod paced;
 mod unfinished;
 mod unread;
@@ -16,14 +17,16 @@ use hyper_util::{
 use ipnet::IpNet;
 use tokio::{
     net::{TcpListener, TcpStream},
-    sync::Semaphore,
     time::{sleep, timeout},
 };
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
 use tower::util::MapRequest;
 
-use self::paced::{PATIENCE, Paced};
 pub use self::unfinished::Unfinished;
+use self::{
+    crowd::Crowd,
+    paced::{PATIENCE, Paced},
+};
 use crate::{access::Peer, places::Places};
 
 /// A client that takes longer to send a request's head is let go: it would hold a connection for nothing.
@@ -42,7 +45,7 @@ pub struct Limits {
     pub connections: usize,
     /// Those of one network, but for this machine.
     pub of_one: usize,
-    /// Beyond those for which there is a place, so many are told so; further ones wait to be accepted.
+    /// Of those for which there is no place so many are told so at a time; further ones close the oldest of them.
     pub told: usize,
     /// How long a peer may take nothing of what is sent.
     pub patience: Duration,
@@ -67,7 +70,7 @@ struct Listening {
     answers: Answers,
     limits: Limits,
     places: Places,
-    told: Arc<Semaphore>,
+    crowd: Crowd,
     connections: TaskTracker,
     stop: CancellationToken,
 }
@@ -84,7 +87,7 @@ pub async fn serve(
         answers,
         limits,
         places: Places::with_proxies(limits.connections, limits.of_one, proxies),
-        told: Arc::new(Semaphore::new(limits.told)),
+        crowd: Crowd::new(limits.told),
         connections: TaskTracker::new(),
         stop,
     });
@@ -97,13 +100,9 @@ impl Listening {
     /// Accepts connections at one address.
     async fn accept(self: Arc<Self>, listener: TcpListener) {
         loop {
-            let accepted = async {
-                let told = Arc::clone(&self.told).acquire_owned().await;
-                (told, listener.accept().await)
-            };
-            let (told, accepted) = tokio::select! {
+            let accepted = tokio::select! {
                 () = self.stop.cancelled() => break,
-                accepted = accepted => accepted,
+                accepted = listener.accept() => accepted,
             };
             match accepted {
                 Ok((stream, from)) => {
@@ -111,11 +110,9 @@ impl Listening {
                     let place = self.places.take(from.ip());
                     self.connections.spawn(async move {
                         if let Some(_place) = place {
-                            drop(told);
                             listening.converse(stream, peer).await;
                         } else {
                             listening.tell(stream, peer).await;
-                            drop(told);
                         }
                     });
                 }
@@ -152,6 +149,7 @@ impl Listening {
 
     /// Answers one request of somebody for whom there is no place.
     async fn tell(&self, stream: TcpStream, peer: Peer) {
+        let told = self.crowd.enter();
         let unfinished = Unfinished::default();
         let service =
             TowerToHyperService::new(of_peer(self.answers.crowded.clone(), peer, unfinished.clone()));
@@ -159,7 +157,11 @@ impl Listening {
             .keep_alive(false)
             .max_buf_size(BUFFER)
             .serve_connection(TokioIo::new(self.paced(stream, unfinished)), service);
-        if !matches!(timeout(BRIEF, connection).await, Ok(Ok(()))) {
+        let ended = tokio::select! {
+            ended = timeout(BRIEF, connection) => matches!(ended, Ok(Ok(()))),
+            () = told.makes_way.cancelled() => false,
+        };
+        if !ended {
             tracing::debug!("a connection without a place broke");
         }
     }

@@ -48,7 +48,7 @@ pub use principal::Principal;
 pub use rights::{Access, forbidden};
 pub use room::HasRoom;
 pub use schematic::schematic;
-pub use session::{Session, Tail};
+pub use session::{Restoring, Session, Tail};
 pub use snapshot::RestoreError;
 pub use species_script::{script, wire_species};
 pub use to_proto::{delta, style_options};

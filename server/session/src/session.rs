@@ -45,11 +45,8 @@ use crate::{
 };
 
 pub(crate) use self::branches::LookedAt;
-pub use self::restoring::Tail;
-use self::{
-    acts::Act, commands::Queue, pausing::Pausing, pins::Pins, presence::Room, restoring::Restored,
-    upkeep::Upkeep,
-};
+pub use self::restoring::{Restoring, Tail};
+use self::{acts::Act, commands::Queue, pausing::Pausing, pins::Pins, presence::Room, upkeep::Upkeep};
 
 /// One shared document with its clients. Feed it with [`Session::handle`], then drain [`Session::poll_output`].
 #[derive(Debug)]
@@ -170,7 +167,7 @@ impl Session {
         // Strokes and bends in progress go on in the session that the tree was saved from.
         document.end_gestures();
         let snapshot = snapshot::to_bytes(0, &BTreeMap::new(), &document);
-        Ok((Self::with_document(name.into(), epoch, Restored::new(document)), snapshot))
+        Ok((Restoring::of_document(name.into(), epoch, document).session(), snapshot))
     }
 
     /// Makes the frame of the whole tree before anybody comes who waits for it.
@@ -181,17 +178,15 @@ impl Session {
         }
     }
 
-    fn with_document(name: String, epoch: u32, restored: Restored) -> Self {
-        let Restored { document, snapshotted, applied, done_by, last, taken_by, rest, .. } = restored;
+    fn restored(restoring: Restoring) -> Self {
+        let Restoring { name, epoch, mut work, snapshotted, last, taken_by } = restoring;
+        work.show();
         let mut authors = Authors::default();
         if last > 0 {
             authors = Authors::restored(&taken_by);
         }
-        let mut work = Box::new(Work::new(document, epoch, applied, done_by));
         let mut queue = Queue::default();
-        queue.came_back(&rest.orders);
-        let pausing = Pausing::new(rest.hold);
-        work.resume(rest);
+        queue.came_back(&work.orders);
         let bends = work.take_report().bends;
         let mut room = Room::default();
         let timeline = work.document.timeline_of(|author| room.register.author(author));
@@ -225,9 +220,9 @@ impl Session {
             grammar_mark: work.document.grammar_mark(),
             bends: bends.into_iter().map(|update| (update.bend, update)).collect(),
             predictions: 0,
+            pausing: Pausing::new(work.hold),
             home: Some(work),
             upkeep: Upkeep::new(snapshotted),
-            pausing,
             room,
             is_replay: false,
             pins: Pins::default(),

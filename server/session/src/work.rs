@@ -69,17 +69,6 @@ pub(crate) struct Order {
     pub(crate) act: Option<ActId>,
 }
 
-/// What was not done when a document was restored.
-#[derive(Debug, Default)]
-pub(crate) struct Rest {
-    pub(crate) orders: VecDeque<Order>,
-    pub(crate) stops: Stops,
-    /// Why it was not done.
-    pub(crate) hold: Option<Pause>,
-    /// The command that was begun and is not done: whose, its number, what it asks for.
-    pub(crate) doing: Option<(Principal, u32, Action)>,
-}
-
 /// A client that needs a frame of its own.
 #[derive(Debug)]
 pub(crate) struct CatchUp {
@@ -167,6 +156,8 @@ pub struct Work {
     doing: Option<(Principal, u32)>,
     /// Whether the tree grows by it alone, without a hand.
     doing_alone: bool,
+    /// The document is read when this entry is done: all that was acknowledged before the session was opened is in it.
+    reads_from: u64,
     /// Who waits for the outcome of that command, if it came from outside and is still open.
     owed: Option<ActId>,
     /// The frame with all rows, kept while it is current: clients often join at the same time.
@@ -181,14 +172,11 @@ pub struct Work {
 impl Work {
     /// A document nobody has seen yet.
     pub(crate) fn new(
-        mut document: Document,
+        document: Document,
         epoch: u32,
         applied: u64,
         last_commands: BTreeMap<Principal, LastCommand>,
     ) -> Self {
-        // Answers to replayed entries are for clients that are gone.
-        document.take_drawn_in_vain();
-        document.take_switched();
         let busy = document.pending_steps() > 0;
         let style = Style::new(to_proto::style_options(&document.parameters()));
         let mut work = Self {
@@ -217,6 +205,7 @@ impl Work {
             triangles: 0,
             doing: None,
             doing_alone: true,
+            reads_from: applied,
             owed: None,
             complete: None,
             bends: BTreeMap::new(),
@@ -224,19 +213,30 @@ impl Work {
             report: Report::default(),
         };
         work.triangles = work.document.held_triangles() as u64;
-        work.sync();
-        work.report_bends();
         work
     }
 
-    /// Goes on with orders that were not done when the document was restored. The first of them was begun where
-    /// somebody is named for whom.
-    pub(crate) fn resume(&mut self, tail: Rest) {
-        let Rest { orders, stops, hold, doing } = tail;
-        if let Some((author, id, action)) = doing {
-            (self.busy, self.doing, self.doing_alone) = (true, Some((author, id)), grows_alone(&action));
-        }
+    /// Takes over what a journal holds that is not done yet, or waits for a reason.
+    pub(crate) fn take_over(&mut self, orders: VecDeque<Order>, stops: Stops, hold: Option<Pause>) {
+        self.reads_from = orders.back().map_or(self.applied, |order| order.number);
         (self.orders, self.stops, self.hold) = (orders, stops, hold);
+    }
+
+    /// Whether more of what was taken over is to be done before anybody comes: growth that nobody has stopped is not.
+    pub(crate) fn follows(&self) -> bool {
+        let grows_on = self.busy && self.doing_alone && self.stops.end_of(self.applied).is_none();
+        self.hold.is_none() && (self.busy || !self.orders.is_empty()) && !grows_on
+    }
+
+    /// Does a slice of it, of which nothing is shown yet.
+    pub(crate) fn follow(&mut self, is_over: impl Fn() -> bool, has_room: HasRoom<'_>) {
+        self.simulate(is_over, has_room);
+    }
+
+    /// Shows the tree as it is now to whoever comes first.
+    pub(crate) fn show(&mut self) {
+        self.sync();
+        self.report_bends();
     }
 
     /// Does one slice of what is to be done, which ends after the step or command at which `is_over` says so. Takes a
@@ -248,8 +248,7 @@ impl Work {
     /// The same where there may be no room for what grows: then it rests, and the session asks again after a while.
     pub fn run_within(&mut self, is_over: impl Fn() -> bool, has_room: HasRoom<'_>) {
         self.simulate(is_over, has_room);
-        self.sync();
-        self.report_bends();
+        self.show();
         for CatchUp { client, held } in std::mem::take(&mut self.catch_ups) {
             let frame = self.catch_up(&held);
             self.report.catch_ups.push((client, frame));
@@ -458,7 +457,8 @@ impl Work {
             let snapshot = snapshot::to_bytes(self.applied, &self.last_commands, &self.document);
             self.report.snapshot = Some((self.applied, snapshot));
         }
-        if !self.reads.is_empty() {
+        let is_there = self.applied >= self.reads_from || self.hold.is_some();
+        if is_there && !self.reads.is_empty() {
             let document = ReadDocument {
                 bytes: self.document.to_saved_bytes(),
                 metamers: self.document.metamers(),

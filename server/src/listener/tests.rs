@@ -64,9 +64,23 @@ async fn lm16_where_all_places_are_taken_health_answers_and_others_are_told() {
     }
     assert_eq!(house.answer("/health").await, "ok");
     assert_eq!(house.answer("/endless").await, "no place");
-    // Whoever says nothing where there is no place holds up nobody for long.
-    let _silent = [house.ask("", 0).await, house.ask("", 0).await];
-    assert_eq!(house.answer("/health").await, "ok");
+}
+
+#[tokio::test]
+async fn lm16_whoever_says_nothing_where_there_is_no_place_holds_up_nobody() {
+    let house = House::new(Limits { connections: 2, of_one: 1, told: 2, patience: LONG }).await;
+    let asked = house.ask("/endless", 20).await;
+    let mut silent = Vec::new();
+    for _ in 0..40 {
+        silent.push(house.ask("", 0).await);
+        assert_eq!(house.answer("/health").await, "ok");
+    }
+    // The first of them had the last place, and those who came first of all others made way.
+    let mut rest = silent.split_off(3);
+    for mut made_way in silent.into_iter().skip(1) {
+        assert_eq!(made_way.read(&mut [0]).await.unwrap(), 0, "it is closed");
+    }
+    drop((asked, rest.pop()));
 }
 
 #[tokio::test]

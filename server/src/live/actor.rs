@@ -176,6 +176,8 @@ impl Actor {
         self.read_names().await;
         self.drain()?;
         self.read_pins().await?;
+        // What the journal holds may not all be done, and nobody may come.
+        self.handle(Input::Woken)?;
         loop {
             let wake_at = self.wake_at;
             let was_empty = self.clients.is_empty();

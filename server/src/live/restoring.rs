@@ -1,7 +1,7 @@
 //! Restoring a session from what is stored of it: which snapshot, what was damaged, what people are notified of.
 
 use espalier_proto::{Notice, Problem, Reason};
-use espalier_session::{DocumentError, JournalEntry, RestoreError, Session, Tail};
+use espalier_session::{DocumentError, JournalEntry, RestoreError, Restoring, Session, Tail};
 
 use super::{actor::Services, handle::Ended, loading::Progress, readers::Unread};
 use crate::{
@@ -13,6 +13,10 @@ use crate::{
 
 /// After so many tries that came to no end what the journal holds waits (`OP5`).
 const MOST_TRIES: u32 = 2;
+
+/// The share of a snapshot in the time that it takes to load a session, where entries follow: nobody knows before how
+/// long those take.
+const SNAPSHOT_SHARE: f32 = 0.5;
 
 /// A session exists but cannot be opened.
 #[derive(Debug, thiserror::Error)]
@@ -111,16 +115,9 @@ impl From<StoreError> for OpenError {
     }
 }
 
-/// Makes a session of its name, epoch, snapshot, seed and entries.
-pub(super) type Make = fn(
-    String,
-    u32,
-    Option<&[u8]>,
-    u32,
-    Vec<JournalEntry>,
-    Tail<'_>,
-    &mut dyn FnMut(f32),
-) -> Result<Session, RestoreError>;
+/// Begins a session with its name, epoch, snapshot, seed and entries.
+pub(super) type Begin =
+    fn(String, u32, Option<&[u8]>, u32, Vec<JournalEntry>, Tail) -> Result<Restoring, RestoreError>;
 
 /// Restores a session, if there is one, from its newest snapshot, or from the one before if that is of no use.
 pub(super) async fn restored(
@@ -129,14 +126,14 @@ pub(super) async fn restored(
     lease: &Lease,
     progress: &Progress,
 ) -> Result<Option<Opened>, OpenError> {
-    let make: Make = |name, epoch, snapshot, seed, entries, tail, tell| {
-        Session::restore_with(name, epoch, snapshot, seed, entries, tail, tell)
+    let begin: Begin = |name, epoch, snapshot, seed, entries, tail| {
+        Restoring::new(name, epoch, snapshot, seed, entries, tail)
     };
-    restored_by(make, services, name, lease, progress).await
+    restored_by(begin, services, name, lease, progress).await
 }
 
 pub(super) async fn restored_by(
-    make: Make,
+    begin: Begin,
     services: &Services,
     name: &str,
     lease: &Lease,
@@ -150,7 +147,7 @@ pub(super) async fn restored_by(
     progress.read();
     let (through, passed_over) = (stored.through, stored.damage.clone());
     let tries = tries(services, name, lease, &stored).await;
-    let error = match restore(make, services, name, lease, (stored, tries), progress).await {
+    let error = match restore(begin, services, name, lease, (stored, tries), progress).await {
         Err(error) if error.is_of_snapshot() => error,
         restored => return restored.map(Some),
     };
@@ -162,7 +159,7 @@ pub(super) async fn restored_by(
     // The checksum of its row is right, but no session can be made of it.
     older.damage.push(Damage::Snapshot(through));
     older.damage.extend(passed_over.into_iter().filter(|damage| matches!(damage, Damage::Snapshot(_))));
-    let older = restore(make, services, name, lease, (older, tries), progress);
+    let older = restore(begin, services, name, lease, (older, tries), progress);
     older.await.map(Some).map_err(|_| error)
 }
 
@@ -191,7 +188,7 @@ async fn tries(services: &Services, name: &str, lease: &Lease, stored: &StoredSe
 
 /// Makes a session of what was read of it, sets aside what was damaged, and logs that.
 async fn restore(
-    make: Make,
+    begin: Begin,
     services: &Services,
     name: &str,
     lease: &Lease,
@@ -217,15 +214,13 @@ async fn restore(
     let bytes =
         snapshot.as_ref().map_or(0, Vec::len) + entries.iter().map(|e| e.command.len()).sum::<usize>();
     let room = Growing::new(services.memory.take_soon(Use::Session, memory::restore(bytes)).await?);
-    let made = services.pool.run(Class::Whole, name.into(), {
-        let (name, room, progress) = (name.to_owned(), room.clone(), progress.clone());
-        move |_| {
-            let mut has_room = |rows, urgency| room.has_room(rows, urgency);
-            let tail = if waits { Tail::Waits } else { Tail::Done(&mut has_room) };
-            make(name, epoch, snapshot.as_deref(), seed, entries, tail, &mut |share| progress.made(share))
-        }
+    let follow = entries.len();
+    let begun = services.pool.run(Class::Whole, name.into(), {
+        let name = name.to_owned();
+        let tail = if waits { Tail::Waits } else { Tail::Follows };
+        move |_| begin(name, epoch, snapshot.as_deref(), seed, entries, tail)
     });
-    let mut session = made.await?.map_err(|error| match error {
+    let restoring = begun.await?.map_err(|error| match error {
         // Its row is sealed, so this is what was written.
         RestoreError::Entry { number, problem } => {
             tracing::error!(session = name, number, %problem, "an entry of the journal cannot be read");
@@ -234,6 +229,7 @@ async fn restore(
         }
         error => error.into(),
     })?;
+    let mut session = followed(services, name, restoring, follow, &room, progress).await?;
     if !damage.is_empty() || !fresh.is_empty() {
         services.store.set_aside(lease, &damage, &fresh).await?;
     }
@@ -243,6 +239,36 @@ async fn restore(
         session.notify(all);
     }
     Ok(Opened { session, room, is_counted: tries > 0 })
+}
+
+/// Does what the journal holds behind the snapshot, slice by slice, so that others have their turns between and a server
+/// that stops need not wait for it.
+async fn followed(
+    services: &Services,
+    name: &str,
+    mut restoring: Restoring,
+    follow: usize,
+    room: &Growing,
+    progress: &Progress,
+) -> Result<Session, OpenError> {
+    let mut goes_on = follow > 0;
+    progress.made(if goes_on { SNAPSHOT_SHARE } else { 1.0 });
+    while goes_on {
+        if services.stop.is_cancelled() {
+            return Err(OpenError::Stopping);
+        }
+        let room = room.clone();
+        // It is as much somebody's as a tree that grows while they look on.
+        let slice = services.pool.run(Class::Growing, name.into(), move |turn| {
+            let goes_on =
+                restoring.follow(|| turn.is_over(), &mut |rows, urgency| room.has_room(rows, urgency));
+            (restoring, goes_on)
+        });
+        (restoring, goes_on) = slice.await?;
+        let done = 1.0 - restoring.to_follow() as f32 / follow as f32;
+        progress.made(SNAPSHOT_SHARE + (1.0 - SNAPSHOT_SHARE) * done);
+    }
+    Ok(services.pool.run(Class::Whole, name.into(), move |_| restoring.session()).await?)
 }
 
 /// What everybody who comes into the session is notified of.

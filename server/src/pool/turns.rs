@@ -2,7 +2,8 @@
 //!
 //! Slices of a more urgent class go first. Within a class people take turns by deficit round robin (Shreedhar and
 //! Varghese 1995): each round gives everybody the same time, and whoever used more of it waits the longer. While
-//! anybody draws, one worker is kept free of everything else, for a slice that was begun cannot be interrupted.
+//! anybody draws, one worker is kept free of everything else, for a slice that was begun cannot be interrupted; and one
+//! is always kept free of what is long in one piece, so that whoever begins to draw finds it.
 
 use std::{
     collections::{BTreeMap, VecDeque},
@@ -34,6 +35,9 @@ impl Class {
         (Self::Upkeep, "upkeep"),
     ];
 }
+
+/// Of these a slice may take as long as a whole tree does.
+const LONG: [Class; 2] = [Class::Whole, Class::Upkeep];
 
 /// Who a slice is for. Whose name is not known shares one turn with all such.
 pub type Person = Arc<str>;
@@ -157,7 +161,11 @@ impl<T> Turns<T> {
     }
 
     fn next_class(&self, now: Duration) -> Option<Class> {
-        let waits = |class: Class| self.queues[class as usize].waiting > 0;
+        // What is long may have all workers but one.
+        let long: usize = LONG.iter().map(|&class| self.at_work[class as usize]).sum();
+        let may_long = long + 1 < self.workers.max(2);
+        let waits =
+            |class: Class| self.queues[class as usize].waiting > 0 && (may_long || !LONG.contains(&class));
         let others = self.at_work.iter().sum::<usize>() - self.at_work[Class::Drawing as usize];
         let may_others = now >= self.kept_until || others + 1 < self.workers;
         if !may_others {

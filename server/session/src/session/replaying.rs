@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use espalier_proto::{Author, ServerMessage};
 
-use super::{Session, restoring::Restored};
+use super::{Restoring, Session};
 use crate::{
     author::Authors, document::Document, io::Named, presence::Register, principal::Principal,
     snapshot::RestoreError,
@@ -21,7 +21,7 @@ impl Session {
     ) -> Result<Self, RestoreError> {
         let mut document = Document::from_bytes(document)?;
         document.end_gestures();
-        let mut session = Self::with_document(name.into(), epoch, Restored::new(document));
+        let mut session = Restoring::of_document(name.into(), epoch, document).session();
         session.is_replay = true;
         // Whoever comes back after a copy was lost goes on counting their commands.
         session.authors = Authors::restored(&BTreeMap::new());

@@ -11,123 +11,49 @@ use crate::{
     form::read_command,
     io::JournalEntry,
     principal::Principal,
-    room::{self, HasRoom},
+    room::HasRoom,
     snapshot::{self, RestoreError, Snapshot},
     stops::Stops,
-    work::{Order, Rest, Urgency},
+    work::{Order, Work},
 };
 
-/// The share of a snapshot in the time that it takes to load a session, where entries follow: nobody knows before how
-/// long those take.
-const SNAPSHOT_SHARE: f32 = 0.5;
-
 /// What becomes of the entries that no snapshot contains.
-pub enum Tail<'a> {
-    /// They are done at once, as far as there is room; the rest is done when there is.
-    Done(HasRoom<'a>),
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tail {
+    /// They are done slice by slice ([`Restoring::follow`]).
+    Follows,
     /// They wait until somebody says that they are to be done (`OP5`).
     Waits,
 }
 
-/// A document that was restored, and how far.
+/// A session that is being loaded, into which nobody can come yet.
 #[derive(Debug)]
-pub(super) struct Restored {
-    pub(super) document: Document,
+pub struct Restoring {
+    pub(super) name: String,
+    pub(super) epoch: u32,
+    pub(super) work: Box<Work>,
     /// The last entry in the snapshot,
     pub(super) snapshotted: u64,
-    /// that the document has taken on,
-    pub(super) applied: u64,
     /// and of all.
     pub(super) last: u64,
-    /// The last command of each author that the document has taken on,
-    pub(super) done_by: BTreeMap<Principal, LastCommand>,
-    /// and of all.
+    /// The last command of each author.
     pub(super) taken_by: BTreeMap<Principal, LastCommand>,
-    pub(super) rest: Rest,
-    /// Triangles of its obstacles.
-    triangles: u64,
 }
 
-impl Restored {
-    /// A document to which nothing was done yet.
-    pub(super) fn new(document: Document) -> Self {
-        Self {
-            triangles: document.held_triangles() as u64,
-            document,
-            snapshotted: 0,
-            applied: 0,
-            last: 0,
-            done_by: BTreeMap::new(),
-            taken_by: BTreeMap::new(),
-            rest: Rest::default(),
-        }
-    }
-
-    /// Does an order, as far as there is room; whether it is done.
-    fn does(&mut self, order: &Order, has_room: HasRoom<'_>) -> bool {
-        let Order { number, author, id, command, .. } = order;
-        let held = self.document.held_rows(self.triangles);
-        let taken_on = room::after_taking_on(&command.action, held);
-        if taken_on > held && !has_room(taken_on, Urgency::Keeping) {
-            self.rest.hold = Some(Pause::Memory);
-            return false;
-        }
-        self.rest.stops.forget_through(*number);
-        let end = self.rest.stops.end_of(*number);
-        self.document.stop_at(end);
-        self.applied = *number;
-        note_last(&mut self.done_by, author, LastCommand { id: *id, entry: *number });
-        // Under the same simulation, what the document refuses now it refused the first time as well; under a later one
-        // a row may be gone, and the notice of a replayed tail says so (OP2).
-        let begun = self.document.begin(author, command);
-        if room::changes_triangles(&command.action) {
-            self.triangles = self.document.held_triangles() as u64;
-        }
-        if begun.is_err() {
-            return true;
-        }
-        loop {
-            let grows = self.document.pending_steps() > 0 && end.is_none();
-            if grows && !has_room(room::after_step(self.document.held_rows(self.triangles)), Urgency::Keeping)
-            {
-                self.rest.hold = Some(Pause::Memory);
-                self.rest.doing = Some((author.clone(), *id, command.action.clone()));
-                return true;
-            }
-            if !self.document.advance() {
-                return true;
-            }
-        }
-    }
-}
-
-impl Session {
-    /// Loads a session: its last snapshot, if there is one, and the journal entries behind it.
+impl Restoring {
+    /// Reads a snapshot, if there is one, and the journal entries behind it.
     ///
     /// Without a snapshot the document starts from `seed`; without entries either, the session is new.
     /// `epoch` must differ from load to load (`RS2`). Entries the snapshot contains are skipped.
     /// The snapshot may be that of an earlier simulation: what stands in it stays as it is, and only the entries
     /// behind it are done by the present one.
-    pub fn restore(
+    pub fn new(
         name: impl Into<String>,
         epoch: u32,
         snapshot: Option<&[u8]>,
         seed: u32,
         entries: impl IntoIterator<Item = JournalEntry>,
-    ) -> Result<Self, RestoreError> {
-        let mut always = |_, _| true;
-        Self::restore_with(name, epoch, snapshot, seed, entries, Tail::Done(&mut always), &mut |_| {})
-    }
-
-    /// The same where the entries may have to wait, telling now and then which share is done, from 0 to 1.
-    pub fn restore_with(
-        name: impl Into<String>,
-        epoch: u32,
-        snapshot: Option<&[u8]>,
-        seed: u32,
-        entries: impl IntoIterator<Item = JournalEntry>,
-        mut tail: Tail<'_>,
-        tell: &mut dyn FnMut(f32),
+        tail: Tail,
     ) -> Result<Self, RestoreError> {
         let Snapshot { through, last_commands, document } = match snapshot {
             Some(bytes) => snapshot::from_bytes(bytes)?,
@@ -139,35 +65,54 @@ impl Session {
         for Order { number, author, id, .. } in &orders {
             note_last(&mut taken_by, author, LastCommand { id: *id, entry: *number });
         }
-        let hold = (matches!(tail, Tail::Waits) && !orders.is_empty()).then_some(Pause::Crashes);
-        let mut restored = Restored {
-            triangles: document.held_triangles() as u64,
-            document,
-            snapshotted: through,
-            applied: through,
-            last,
-            done_by: last_commands,
-            taken_by,
-            rest: Rest { orders, stops, hold, doing: None },
-        };
-        let all = restored.rest.orders.len() as f32;
-        let begun = match snapshot {
-            _ if restored.rest.orders.is_empty() => 1.0,
-            Some(_) => SNAPSHOT_SHARE,
-            None => 0.0,
-        };
-        if let Tail::Done(has_room) = &mut tail {
-            tell(begun);
-            while restored.rest.hold.is_none()
-                && let Some(order) = restored.rest.orders.pop_front()
-            {
-                if !restored.does(&order, *has_room) {
-                    restored.rest.orders.push_front(order);
-                }
-                tell(1.0 - (1.0 - begun) * restored.rest.orders.len() as f32 / all);
-            }
+        let hold = (tail == Tail::Waits && !orders.is_empty()).then_some(Pause::Crashes);
+        let mut work = Box::new(Work::new(document, epoch, through, last_commands));
+        work.take_over(orders, stops, hold);
+        Ok(Self { name: name.into(), epoch, work, snapshotted: through, last, taken_by })
+    }
+
+    /// A document to which nothing was done yet.
+    pub(super) fn of_document(name: String, epoch: u32, document: Document) -> Self {
+        let work = Box::new(Work::new(document, epoch, 0, BTreeMap::new()));
+        Self { name, epoch, work, snapshotted: 0, last: 0, taken_by: BTreeMap::new() }
+    }
+
+    /// Does a slice of what the journal holds; whether more is to follow before anybody comes.
+    ///
+    /// Nothing more follows when all is done, when there is no room for it (`LM19`), and when what comes next is growth
+    /// that nobody has stopped: that goes on in the session, where people look on and may stop it.
+    pub fn follow(&mut self, is_over: impl Fn() -> bool, has_room: HasRoom<'_>) -> bool {
+        if self.work.follows() {
+            self.work.follow(is_over, has_room);
         }
-        Ok(Self::with_document(name.into(), epoch, restored))
+        self.work.follows()
+    }
+
+    /// Entries that are still to follow.
+    pub fn to_follow(&self) -> usize {
+        self.work.orders.len()
+    }
+
+    /// The session, as far as it is loaded.
+    pub fn session(self) -> Session {
+        Session::restored(self)
+    }
+}
+
+impl Session {
+    /// Loads a session to the end of its journal, growth as well; see [`Restoring::new`].
+    pub fn restore(
+        name: impl Into<String>,
+        epoch: u32,
+        snapshot: Option<&[u8]>,
+        seed: u32,
+        entries: impl IntoIterator<Item = JournalEntry>,
+    ) -> Result<Self, RestoreError> {
+        let mut restoring = Restoring::new(name, epoch, snapshot, seed, entries, Tail::Follows)?;
+        while restoring.work.is_needed() {
+            restoring.work.follow(|| false, &mut |_, _| true);
+        }
+        Ok(restoring.session())
     }
 }
 

@@ -74,6 +74,7 @@ fn tt5_lines_keep_their_numbers() {
     let found = timeline(world.peer(ann));
     world.crash();
     let ann = world.join("birch-01");
+    world.settle();
     assert_eq!(timeline(world.peer(ann)), found, "a restart changes none");
 }
 

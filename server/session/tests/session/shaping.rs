@@ -216,6 +216,7 @@ fn tt1_the_timeline_names_no_keys() {
     assert_eq!(timeline(world.peer(carol)), notified);
     world.crash();
     let ann = world.join("birch-01");
+    world.settle();
     assert_eq!(timeline(world.peer(ann)), notified, "TT3: futures survive a restart");
 }
 

@@ -1,5 +1,6 @@
 //! `ST`: growth that somebody ends.
 
+use espalier_session::{Input, ReadId, Tail};
 use serde_json::{Value, json};
 
 use crate::{
@@ -102,6 +103,33 @@ fn st1_a_stop_lost_in_a_crash_stops_nothing() {
     world.crash();
     world.write_ms = 5;
     assert_eq!(world.document().figures().step, 30);
+    check_replays(&mut world);
+}
+
+#[test]
+fn st1_growth_that_a_crash_interrupted_goes_on_and_can_be_stopped() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(3));
+    world.command(client, 2, json!({ "kind": "stroke_begin", "stroke": 1 }));
+    world.command(client, 3, json!({ "kind": "stroke_end", "stroke": 1 }));
+    world.command(client, 4, grow(1000));
+    world.command(client, 5, grow(2));
+    world.pass(30);
+    world.crash_to(Tail::Follows);
+    // What was asked for is all there to be seen as people come, and the growth that nobody stopped has hardly begun.
+    let client = world.join("birch-01");
+    assert_eq!(world.peer(client).welcome_acknowledged(), 5);
+    world.handle(Input::Read(ReadId(1)));
+    world.pass(10);
+    let state = world.peer(client).last_state().unwrap();
+    assert!(state.pending_steps > 900 && state.step < 100, "{state:?}");
+    world.command(client, 6, stop());
+    world.settle();
+    let state = world.peer(client).last_state().unwrap();
+    assert!(state.step < 120 && state.pending_steps == 0, "{state:?}");
+    let (_, read) = world.documents.pop().expect("it was read");
+    assert_eq!(read.through, 5, "all that was asked for before the crash is in what is read");
     check_replays(&mut world);
 }
 

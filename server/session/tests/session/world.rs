@@ -10,7 +10,7 @@ use espalier_proto::{
 };
 use espalier_session::{
     Access, ActId, Anchor, ClientId, Document, Entrant, Input, JournalEntry, Named, Output, PredictionRun,
-    Principal, ReadDocument, ReadId, Session, Tail, Urgency, Work,
+    Principal, ReadDocument, ReadId, Restoring, Session, Tail, Urgency, Work,
 };
 use serde_json::{Value, json};
 
@@ -135,19 +135,23 @@ impl World {
         }
     }
 
-    /// The process dies and the session is loaded from what the disk holds.
+    /// The process dies, the session is loaded from what the disk holds, and nobody comes before all of that is done.
     pub fn crash(&mut self) {
-        let room = self.room;
-        self.crash_to(Tail::Done(&mut |rows, urgency| rows <= room_for(room, urgency)));
+        self.crash_to(Tail::Follows);
+        self.handle(Input::Woken);
+        while self.working.is_some() {
+            self.work();
+        }
     }
 
-    /// The same where it is said what becomes of the journal.
-    pub fn crash_to(&mut self, tail: Tail<'_>) {
+    /// The process dies and the session is loaded, where it is said what becomes of the journal.
+    pub fn crash_to(&mut self, tail: Tail) {
         let snapshot = self.snapshot.as_ref().map(|(_, bytes)| bytes.as_slice()).or(self.origin.as_deref());
-        let entries = self.disk.iter().cloned();
-        self.session =
-            Session::restore_with("plane-tree", self.next_epoch, snapshot, SEED, entries, tail, &mut |_| {})
-                .unwrap();
+        let (entries, room) = (self.disk.iter().cloned(), self.room);
+        let mut restoring =
+            Restoring::new("plane-tree", self.next_epoch, snapshot, SEED, entries, tail).unwrap();
+        while restoring.follow(|| true, &mut |rows, urgency| rows <= room_for(room, urgency)) {}
+        self.session = restoring.session();
         self.session.remember(self.named.iter().cloned());
         self.next_epoch += 1;
         self.peers.clear();
@@ -279,16 +283,21 @@ impl World {
                 self.disk.extend(entries);
                 self.handle(Input::Journaled(through));
             } else if work == Some(due) {
-                let (_, mut work) = self.working.take().unwrap();
-                let room = self.room;
-                work.run_within(|| false, &mut |rows, urgency| rows <= room_for(room, urgency));
-                self.handle(Input::Worked(work));
+                self.work();
             } else {
                 self.wake_at = None;
                 self.handle(Input::Woken);
             }
         }
         self.now = end;
+    }
+
+    /// The slice of work under way is done.
+    fn work(&mut self) {
+        let (_, mut work) = self.working.take().unwrap();
+        let room = self.room;
+        work.run_within(|| false, &mut |rows, urgency| rows <= room_for(room, urgency));
+        self.handle(Input::Worked(work));
     }
 
     /// Answers of clients that answer at once.

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use espalier_proto::{Notice, ServerMessage, access::Role, version::CloseCode};
 use espalier_session::{
-    ClientId, Document, Entrant, JournalEntry, Principal, ReadDocument, RestoreError, Session,
+    ClientId, Document, Entrant, JournalEntry, Principal, ReadDocument, RestoreError, Restoring, Session,
 };
 use tokio::time::timeout;
 
@@ -402,12 +402,12 @@ async fn op4_a_panic_while_restoring_falls_back_to_the_snapshot_before() {
     let bytes = b"deadly".to_vec();
     let deadly = NewSnapshot { through: 1, simulation_version: SIMULATION_VERSION, bytes, metamers: 1 };
     house.store.keep_snapshot(&lease, deadly).await.unwrap();
-    let make: restoring::Make = |name, epoch, snapshot, seed, entries, tail, tell| {
+    let begin: restoring::Begin = |name, epoch, snapshot, seed, entries, tail| {
         assert_ne!(snapshot, Some(b"deadly".as_slice()), "on purpose, for a test");
-        Session::restore_with(name, epoch, snapshot, seed, entries, tail, tell)
+        Restoring::new(name, epoch, snapshot, seed, entries, tail)
     };
     let (services, progress) = (&house.sessions.0.services, Progress::default());
-    let session = restoring::restored_by(make, services, "elm", &lease, &progress).await;
+    let session = restoring::restored_by(begin, services, "elm", &lease, &progress).await;
     let Opened { session, .. } = session.unwrap().unwrap();
     assert_eq!(session.document().unwrap().figures().step, 2);
     let stored = house.store.load_session("elm", None).await.unwrap().unwrap();

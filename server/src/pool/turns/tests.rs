@@ -157,6 +157,22 @@ fn one_worker_is_kept_while_somebody_draws_and_no_longer() {
 }
 
 #[test]
+fn whoever_begins_to_draw_finds_a_worker_however_many_trees_are_read() {
+    let reading = (0..6).map(|person| Sender { class: Class::Whole, person, takes: ms(400.0), every: None });
+    let keeping = Sender { class: Class::Upkeep, person: 6, takes: ms(900.0), every: None };
+    // So seldom that no worker is kept for it.
+    let seldom = Sender { every: Some(3 * SECOND), ..drawer(7) };
+    assert!(seldom.every > Some(KEPT_FOR));
+    let senders: Vec<_> = reading.chain([keeping, seldom]).collect();
+    for workers in [2, 4] {
+        let had = run(workers, &senders, 60 * SECOND);
+        assert!(had[7].delays.len() > 15 && had[7].at(1.0) < ms(2.0), "{workers}: {:?}", had[7].at(1.0));
+        let read: Duration = had[..7].iter().map(|had| had.worked).sum();
+        assert!(read > 58 * (workers as u32 - 1) * SECOND, "{workers}: the others work: {read:?}");
+    }
+}
+
+#[test]
 fn what_is_alone_may_have_all_cores() {
     let mut turns = Turns::new(2);
     let person: Person = "oak".into();

@@ -16,9 +16,9 @@ async fn op5_what_was_tried_twice_and_came_to_no_end_waits_for_an_owner() {
     let house = House::new().await;
     let lease = with_growth(&house).await;
     for tried in 1..=2 {
-        let make: restoring::Make = |_, _, _, _, _, _, _| panic!("on purpose, for a test");
+        let begin: restoring::Begin = |_, _, _, _, _, _| panic!("on purpose, for a test");
         let (services, progress) = (&house.sessions.0.services, Progress::default());
-        let opened = restoring::restored_by(make, services, "oak", &lease, &progress).await;
+        let opened = restoring::restored_by(begin, services, "oak", &lease, &progress).await;
         assert!(matches!(opened, Err(OpenError::Panicked(_))), "{tried}");
     }
     let mut visitor = house.visit().await;
@@ -59,4 +59,16 @@ async fn op5_a_session_that_opens_is_not_counted() {
         _ => None,
     };
     assert_eq!(visitor.hear(paused).await, None);
+}
+
+#[tokio::test]
+async fn a_server_that_stops_waits_for_no_journal() {
+    let house = House::new().await;
+    let lease = with_growth(&house).await;
+    let (services, progress) = (&house.sessions.0.services, Progress::default());
+    services.stop.cancel();
+    let opened = restoring::restored(services, "oak", &lease, &progress).await;
+    assert!(matches!(opened, Err(OpenError::Stopping)));
+    let stored = house.store.load_session("oak", None).await.unwrap().unwrap();
+    assert_eq!((stored.entries.len(), stored.damage), (2, vec![]), "all of it is there for the next time");
 }
