@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { Box } from "./picture";
+import { type Box, changed } from "./picture";
 import { COARSE, PHONE, type Screen, SMALL } from "./screens";
 import { until } from "./server";
 import type { Tablet } from "./tablet";
@@ -43,6 +43,23 @@ async function choose(tablet: Tablet, text: string): Promise<void> {
   await choice.tap();
   await until(`${text} is chosen`, () => choice.locator("input").isChecked());
 }
+
+it("draws what is behind a menu that scrolls on the smallest glass", async () => {
+  const { tablet } = await workshop.fresh({ ...PHONE, width: 320, height: 568, detail: 1 });
+  const closed = await tablet.photograph("81-menu-closed-smallest");
+  await tablet.press(tablet.page.getByRole("button", { name: "More", exact: true }));
+  const menu = tablet.page.locator(".more > .menu");
+  await menu.waitFor();
+  const open = await tablet.photograph("81-menu-smallest");
+  const { x, y, width, height } = await tablet.boxOf(menu);
+  expect(height).toBeLessThan(await menu.evaluate(({ scrollHeight }) => scrollHeight));
+  // Between it and the bar is the sky, in the shadow of both.
+  const bar = await tablet.boxOf(tablet.page.locator(".tool-bar"));
+  const foot = Math.ceil(bar.y + bar.height) + 1;
+  const strip = { x: Math.round(x) + 12, y: foot, width: Math.round(width) - 24, height: Math.floor(y) - foot - 1 };
+  expect(strip.height).toBeGreaterThan(1);
+  expect(changed(closed, open, strip)).toBeLessThan(0.05);
+});
 
 describe("panels", () => {
   it("shrink the workspace, which stays in use", async () => {
