@@ -90,7 +90,7 @@ async function lookAtSharing(tablet: Tablet, look: (where: string, within: strin
   const { page } = tablet;
   await press(tablet, "Library");
   await page.getByRole("button", { name: "More for A tree that was saved" }).first().click();
-  await page.locator(".card-menu").getByRole("button", { name: "Share…" }).click();
+  await page.locator(".card-menu").getByRole("button", { name: "Share by link…" }).click();
   await page.getByText("Nobody has been invited").waitFor();
   await tablet.untilSettled();
   await look("what a link is to be for", "dialog");

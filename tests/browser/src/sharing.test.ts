@@ -35,7 +35,7 @@ async function shareFromLibrary(tablet: Tablet, name: string): Promise<void> {
   const { page } = tablet;
   await press(tablet, "Library");
   await page.getByRole("button", { name: `More for ${name}`, exact: true }).tap();
-  await page.locator(".card-menu").getByRole("button", { name: "Share…" }).tap();
+  await page.locator(".card-menu").getByRole("button", { name: "Share by link…" }).tap();
   await page.getByText("Nobody has been invited").waitFor();
 }
 

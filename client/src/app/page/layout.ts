@@ -1,5 +1,6 @@
 import { signal } from "@preact/signals";
 import type { SavedTree } from "../../wire/generated";
+import type { Gift } from "../library/gifts/gift-api";
 import type { Pattern } from "../library/variations/order";
 
 /** Cards over the workspace, one at a time. */
@@ -9,6 +10,7 @@ export const SHEET_NAMES = [
   "library",
   "versions",
   "share",
+  "gifts",
   "people",
   "accounts",
   "variations",
@@ -37,6 +39,13 @@ export type PanelName = (typeof PANEL_NAMES)[number] | "comments";
 export const SECTION_NAMES = ["trees", "templates", "deleted"] as const;
 export type SectionName = (typeof SECTION_NAMES)[number];
 
+/** What is given to people and groups, and what is gone back to. */
+export interface Given extends Gift {
+  readonly from: "library" | "share";
+  /** The collection that it lies in. */
+  readonly within?: string | undefined;
+}
+
 /** What stands on the page around the picture. */
 export class Layout {
   readonly sheet = signal<SheetName | null>(null);
@@ -45,7 +54,9 @@ export class Layout {
   /** The tree of the library that the sheet of versions is about. */
   readonly subject = signal<SavedTree | null>(null);
   /** The tree of the library that is shared; null for the one on the page. */
-  readonly shared = signal<SavedTree | null>(null);
+  readonly shared = signal<Pick<SavedTree, "id" | "name"> | null>(null);
+  /** What is given to people and groups. */
+  readonly given = signal<Given | null>(null);
   /** The tree of the library that is downloaded; null for the one on the page. */
   readonly taken = signal<SavedTree | null>(null);
   /** What the trees that are ordered are to be like; null where what was ordered is only looked at. */

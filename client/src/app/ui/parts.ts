@@ -57,6 +57,12 @@ export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
     height: "9rem",
     part: new Part(async () => (await import("./sheets/share/share-sheet")).ShareSheet),
   },
+  gifts: {
+    title: "sheets.gifts",
+    size: "wide",
+    height: "26rem",
+    part: new Part(async () => (await import("./sheets/gifts/gifts-sheet")).GiftsSheet),
+  },
   people: {
     title: "sheets.people",
     height: "14rem",

@@ -231,12 +231,12 @@ export const HELP = {
   ],
   "help.topic.share": ["Share", "Teilen"],
   "help.topic.share.text": [
-    "A link by which others see the tree grow and draw along; and for a saved tree links that let people in for it alone, to look or to draw, for a day up to a year, as a QR code too, listed and revoked there",
-    "Ein Link, mit dem andere den Baum wachsen sehen und mitzeichnen; und zu einem gespeicherten Baum Links, die Leute nur zu ihm einlassen, zum Ansehen oder Zeichnen, für einen Tag bis ein Jahr, auch als QR-Code, dort aufgelistet und zu widerrufen",
+    "A link by which others see the tree grow and draw along; and for a saved tree links that let people in for it alone, to look or to draw, for a day up to a year, as a QR code too, listed and revoked there. With people who log in you share trees and collections by name, from their menu in the library",
+    "Ein Link, mit dem andere den Baum wachsen sehen und mitzeichnen; und zu einem gespeicherten Baum Links, die Leute nur zu ihm einlassen, zum Ansehen oder Zeichnen, für einen Tag bis ein Jahr, auch als QR-Code, dort aufgelistet und zu widerrufen. Mit allen, die sich anmelden, teilst du Bäume und Sammlungen namentlich, aus deren Menü in der Bibliothek",
   ],
   "help.topic.share.words": [
-    "link together people invite collaborate multiplayer url send qr code guest revoke",
-    "Link zusammen Leute einladen gemeinsam schicken Adresse QR-Code Gast widerrufen",
+    "link together people invite collaborate multiplayer url send qr code guest revoke give user group collection",
+    "Link zusammen Leute einladen gemeinsam schicken Adresse QR-Code Gast widerrufen geben Gruppe Sammlung",
   ],
   "help.topic.comments": ["Comments", "Kommentare"],
   "help.topic.comments.text": [

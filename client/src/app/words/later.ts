@@ -11,6 +11,7 @@ import { DRAWMODE } from "./drawmode";
 import { ENTRY } from "./entry";
 import { EXPORTS } from "./exports";
 import { FINDING } from "./finding";
+import { GIFTS } from "./gifts";
 import { GRAMMARS } from "./grammars";
 import { HELP } from "./help";
 import { LEAVES } from "./leaves";
@@ -55,6 +56,7 @@ export const LATER = {
   ...ENTRY,
   ...EXPORTS,
   ...FINDING,
+  ...GIFTS,
   ...LIBRARY,
   ...LINKS,
   ...SUN,

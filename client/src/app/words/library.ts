@@ -45,7 +45,7 @@ export const LIBRARY = {
   "library.mark": ["Make it a template", "Zur Vorlage machen"],
   "library.unmark": ["No longer a template", "Nicht mehr als Vorlage"],
   "library.variations": ["Grow variations…", "Variationen wachsen lassen…"],
-  "library.share": ["Share…", "Teilen…"],
+  "library.share": ["Share by link…", "Per Link teilen…"],
   "library.delete": ["Delete", "Löschen"],
   "library.cancel": ["Cancel", "Abbrechen"],
   "library.save": ["Save", "Speichern"],

@@ -91,6 +91,7 @@ export const SHEET_TITLES = {
   "sheets.accounts": ["Accounts", "Konten"],
   "sheets.people": ["Who is here", "Wer hier ist"],
   "sheets.share": ["Share this tree", "Diesen Baum teilen"],
+  "sheets.gifts": ["Share with people", "Mit Menschen teilen"],
   "sheets.variations": ["Grow variations", "Variationen wachsen lassen"],
   "sheets.help": ["How to draw a tree", "So zeichnet man einen Baum"],
   "sheets.settings": ["Settings", "Einstellungen"],

@@ -15,6 +15,7 @@ import "./finding.css";
 import "./collections.css";
 import "./share.css";
 import "./accounts.css";
+import "./gifts.css";
 import "./variations.css";
 import "./help.css";
 import "./recent.css";

@@ -5,20 +5,22 @@ interface BackBarProps {
   readonly studio: Studio;
   /** What the sheet is about. */
   readonly title: string;
+  /** Where it was opened. */
+  readonly to?: "library" | "share";
 }
 
-/** The way back to the library from a sheet about one thing of it. */
-export function BackBar({ studio, title }: BackBarProps) {
+/** The way back to the library, or to what else it was opened from, from a sheet about one thing of it. */
+export function BackBar({ studio, title, to = "library" }: BackBarProps) {
   return (
     <div class="library-bar">
       <button
         type="button"
         class="small"
         onClick={() => {
-          studio.layout.sheet.value = "library";
+          studio.layout.sheet.value = to;
         }}
       >
-        {say("library.to-library")}
+        {say(to === "library" ? "library.to-library" : "gifts.back")}
       </button>
       <strong class="library-title">{title}</strong>
     </div>

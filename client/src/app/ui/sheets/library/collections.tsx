@@ -1,9 +1,9 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { type Folder, placesFor } from "../../../library/catalogue";
-import { say } from "../../../words/say";
+import { type Key, say } from "../../../words/say";
 import { CardForm } from "./card-form";
-import { CardMenu } from "./card-menu";
+import { CardMenu, only } from "./card-menu";
 import { AddIcon, FolderIcon } from "./icons";
 import type { LibraryDesk } from "./library-desk";
 import { MoveForm } from "./move-form";
@@ -94,20 +94,26 @@ function Entry({ desk, folder, isNew, add }: EntryProps) {
       studio.toasts.show(say("finding.gone", { name }));
     }
   };
-  const deeds = (["rename", "new", "move", "delete"] as const).map((one) => ({
-    label: say(
-      ({ rename: "library.rename", new: "finding.new-in", move: "finding.move", delete: "finding.delete" } as const)[
-        one
-      ],
-    ),
-    act: () => {
-      if (one === "delete") {
+  const begin = (label: Key, one: Deed) => ({ label: say(label), act: () => setDeed(one) });
+  const share = () => {
+    const within = above.length === 0 ? undefined : above.join(" › ");
+    studio.layout.given.value = { kind: "collection", id, name, from: "library", within };
+    studio.layout.sheet.value = "gifts";
+  };
+  const deeds = [
+    begin("library.rename", "rename"),
+    begin("finding.new-in", "new"),
+    begin("finding.move", "move"),
+    ...only(studio.rights.mayShare, { label: say("gifts.open"), act: share }),
+    {
+      label: say("finding.delete"),
+      act: () => {
         // The question tells how many trees lie there now.
         void catalogue.refresh();
-      }
-      setDeed(one);
+        setDeed("delete");
+      },
     },
-  }));
+  ];
   const menu = studio.rights.mayChange.value && wanted.value.collection === id && deed === null && (
     <CardMenu label={say("finding.more-of", { name })} deeds={deeds} />
   );

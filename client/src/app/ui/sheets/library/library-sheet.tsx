@@ -16,7 +16,7 @@ import { DragGhost } from "./tree-drag";
 import { TreeGrid } from "./tree-grid";
 
 /** Sheets about one thing of the library, from which one comes back to it. */
-const ABOUT_ONE: ReadonlySet<SheetName | null> = new Set(["versions", "share", "variations"] as const);
+const ABOUT_ONE: ReadonlySet<SheetName | null> = new Set(["versions", "share", "gifts", "variations"] as const);
 
 /** The library: its trees, templates, and what was deleted, and ways to find them; a tap opens a tree. */
 export function LibrarySheet({ studio }: { studio: Studio }) {

@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
 import type { SavedTree } from "../../../../wire/generated";
 import { speciesName } from "../../../document/species/species-choice";
+import { pathOf } from "../../../library/catalogue";
 import { isNamed } from "../../../library/species-words";
 import { turntableOf } from "../../../library/turntable";
 import { dateText } from "../../../words/date-text";
@@ -90,13 +91,25 @@ export function TreeCard({ desk, tree }: TreeCardProps) {
         studio.layout.sheet.value = "variations";
       },
     }),
-    ...only(rights.mayShare, {
-      label: say("library.share"),
-      act: () => {
-        studio.layout.shared.value = tree;
-        studio.layout.sheet.value = "share";
+    ...only(
+      rights.mayShare,
+      {
+        label: say("gifts.open"),
+        act: () => {
+          const folder = desk.catalogue.folder(tree.collection);
+          const { id } = tree;
+          studio.layout.given.value = { kind: "tree", id, name, from: "library", within: folder && pathOf(folder) };
+          studio.layout.sheet.value = "gifts";
+        },
       },
-    }),
+      {
+        label: say("library.share"),
+        act: () => {
+          studio.layout.shared.value = tree;
+          studio.layout.sheet.value = "share";
+        },
+      },
+    ),
     ...only(mayDelete, { label: say("library.delete"), act: () => void section.remove([tree]) }),
   ];
   const label = chosen === null ? (isTemplate ? "library.begin-which" : "sheets.library.open") : "library.choose";

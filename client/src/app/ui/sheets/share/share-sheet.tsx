@@ -1,4 +1,5 @@
 import { useEffect } from "preact/hooks";
+import type { SavedTree } from "../../../../wire/generated";
 import { isOnlyHere } from "../../../library/links/only-here";
 import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
@@ -49,7 +50,13 @@ function OnPage({ studio }: { studio: Studio }) {
     return <Looking belonging={belonging} />;
   }
   if (belonging.of !== null) {
-    return <Invitations studio={studio} tree={belonging.of.tree} />;
+    const { tree } = belonging.of;
+    return (
+      <>
+        <WithPeople studio={studio} tree={tree} />
+        <Invitations studio={studio} tree={tree} />
+      </>
+    );
   }
   return (
     <section class="stack" aria-label={say("links.head")}>
@@ -67,5 +74,28 @@ function OnPage({ studio }: { studio: Studio }) {
         </button>
       </div>
     </section>
+  );
+}
+
+interface WithPeopleProps {
+  readonly studio: Studio;
+  readonly tree: SavedTree;
+}
+
+/** The way to give the tree to those who log in. */
+function WithPeople({ studio: { layout }, tree: { id, name } }: WithPeopleProps) {
+  return (
+    <div class="actions">
+      <button
+        type="button"
+        class="small"
+        onClick={() => {
+          layout.given.value = { kind: "tree", id, name, from: "share" };
+          layout.sheet.value = "gifts";
+        }}
+      >
+        {say("gifts.open")}
+      </button>
+    </div>
   );
 }

@@ -1,0 +1,63 @@
+import type { MemberRole, TreeMember } from "../../../../wire/generated";
+import type { Gifts } from "../../../library/gifts/gifts";
+import type { Studio } from "../../../studio";
+import { say } from "../../../words/say";
+import { RoleSelect } from "../accounts/role-select";
+
+/** What somebody can be given something as, the least first. */
+export const MEMBER_ROLES = ["viewer", "commenter", "editor", "owner"] as const satisfies readonly MemberRole[];
+
+interface GiftRowProps {
+  readonly studio: Studio;
+  readonly gifts: Gifts;
+  readonly member: TreeMember;
+}
+
+/** Who was given it: what they may do with it, and a way to take it back. */
+export function GiftRow({ studio, gifts, member }: GiftRowProps) {
+  const { name, group, role } = member;
+  const give = (as: MemberRole) => gifts.give({ name, group, role: as });
+  const show = (text: string) =>
+    studio.toasts.show(text, { label: say("gifts.undo"), act: () => void give(role as MemberRole) });
+  const allow = async (next: MemberRole) => {
+    if ((await give(next)) === "given") {
+      show(mayText(member, next));
+    }
+  };
+  const takeBack = async () => {
+    if (await gifts.takeBack(member)) {
+      show(say("gifts.taken", { name }));
+    }
+  };
+  return (
+    <li class="account-row gift-row" data-member={name}>
+      <div class="account-head">
+        <div>
+          <strong>{name}</strong>
+          {group && <span class="quiet gift-group">{say("gifts.group")}</span>}
+        </div>
+        <RoleSelect
+          label={say("accounts.role.of", { name })}
+          roles={MEMBER_ROLES}
+          chosen={role as MemberRole}
+          disabled={gifts.busy.value}
+          onChoose={(next) => void allow(next)}
+        />
+        <button
+          type="button"
+          class="small"
+          aria-label={say("gifts.take-back.which", { name })}
+          disabled={gifts.busy.value}
+          onClick={() => void takeBack()}
+        >
+          {say("gifts.take-back")}
+        </button>
+      </div>
+    </li>
+  );
+}
+
+/** What somebody may from now on. */
+export function mayText({ name, group = false }: { name: string; group?: boolean }, role: MemberRole): string {
+  return say(group ? "accounts.groups.may" : "accounts.people.may", { name, role: say(`accounts.role.${role}`) });
+}
