@@ -34,8 +34,9 @@ const READERS = {
     const texture = new EXRLoader().setDataType(HalfFloatType).parse(bytes("tree_pivot_index.exr"));
     return { tree: scene, generator: asset.generator, texture };
   },
-  usda: async (address) => stageOf(address),
-  usdz: async (address) => stageOf(address),
+  usda: async (address) => stageOf(await new USDLoader().loadAsync(address)),
+  "usda.zip": async (address) => stageOf(await unpackedStage(await bytesAt(address))),
+  usdz: async (address) => stageOf(await new USDLoader().loadAsync(address)),
   ply: async (address) => ({ tree: cloudOf(await bytesAt(address)), generator: null }),
 };
 
@@ -67,9 +68,20 @@ async function objOf(archive) {
   return tree;
 }
 
+/** A stage whose text names its textures, from the archive they come in together, as where it was unpacked. */
+async function unpackedStage(archive) {
+  const files = unzipSync(new Uint8Array(archive));
+  const manager = new LoadingManager();
+  manager.setURLModifier((path) => {
+    const picture = files[path.slice(path.lastIndexOf("/") + 1)];
+    return URL.createObjectURL(new Blob([picture], { type: "image/png" }));
+  });
+  const text = new TextDecoder().decode(files["tree.usda"]);
+  return new Promise((done, failed) => new USDLoader(manager).parse(text, "folder/", done, failed));
+}
+
 /** A stage of USD. */
-async function stageOf(address) {
-  const stage = await new USDLoader().loadAsync(address);
+function stageOf(stage) {
   // USDLoader passes over `doubleSided`, which all meshes but wood say; wood is closed.
   stage.traverse((node) => {
     for (const material of node.isMesh ? [node.material].flat() : []) material.side = DoubleSide;
