@@ -25,6 +25,7 @@ export function CardForm({ kind, label, value, onSave, onEnd }: CardFormProps) {
   const field = {
     name: "text",
     "aria-label": label,
+    placeholder: label,
     autocomplete: "off",
     defaultValue: value,
     onKeyDown: (event: KeyboardEvent) => {

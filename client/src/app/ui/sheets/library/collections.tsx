@@ -6,12 +6,19 @@ import { CardForm } from "./card-form";
 import { CardMenu, only } from "./card-menu";
 import { AddIcon, FolderIcon } from "./icons";
 import type { LibraryDesk } from "./library-desk";
-import { MoveForm } from "./move-form";
+import { MoveForm, placesIn } from "./move-form";
+import { Pick } from "./pick";
 
 /** What is done with a collection; a new one may lie in it. */
 type Deed = "rename" | "new" | "move" | "delete";
 
-/** The collections, beside the trees where there is room, else above them; trees are dragged onto them. */
+/** What stands for all trees among the collections to pick from. */
+const ALL = "all";
+
+/**
+ * The collections, beside the trees where there is room, else above them; trees are dragged onto them. On a phone they
+ * are picked from a list, and stand in a row while trees are chosen or dragged.
+ */
 export function Collections({ desk }: { readonly desk: LibraryDesk }) {
   const { catalogue, wanted, studio } = desk;
   const [making, setMaking] = useState(false);
@@ -34,7 +41,19 @@ export function Collections({ desk }: { readonly desk: LibraryDesk }) {
   };
   return (
     <nav aria-label={say("finding.collections")}>
-      <ul class="collections" data-dragged={desk.drag.held.value !== null}>
+      <ul class="collections" data-dragged={desk.drag.held.value !== null} data-row={isRow(desk)}>
+        {folders !== null && folders.length > 0 && (
+          <li class="collection-pick">
+            <Pick
+              label={say("finding.collections")}
+              value={here ?? ALL}
+              options={[[ALL, say("finding.all")], ...placesIn(folders)]}
+              onPick={(to) => {
+                wanted.value = { ...wanted.value, collection: to === ALL ? null : to };
+              }}
+            />
+          </li>
+        )}
         <Place desk={desk} to={null}>
           {say("finding.all")}
         </Place>
@@ -72,6 +91,11 @@ export function Collections({ desk }: { readonly desk: LibraryDesk }) {
       </ul>
     </nav>
   );
+}
+
+/** Whether they stand in a row on a phone as well: trees are dropped there. */
+function isRow({ drag, section }: LibraryDesk): boolean {
+  return drag.held.value !== null || section.chosen.value !== null;
 }
 
 interface EntryProps {
@@ -188,15 +212,17 @@ interface PlaceProps {
 }
 
 /** Where trees lie: a press lists them, trees are dropped on it. What is new, looked into or asked about comes into sight. */
-function Place({ desk: { wanted, drag }, to, depth = 0, isNew = false, children, beside, below }: PlaceProps) {
+function Place({ desk, to, depth = 0, isNew = false, children, beside, below }: PlaceProps) {
+  const { wanted, drag } = desk;
   const row = useRef<HTMLLIElement>(null);
+  const isShown = isRow(desk);
   const isHere = wanted.value.collection === to;
   const isAsking = Boolean(below);
   useEffect(() => {
     if (isHere || isAsking || isNew) {
       row.current?.scrollIntoView({ block: "nearest", inline: "nearest" });
     }
-  }, [isHere, isAsking, isNew]);
+  }, [isHere, isAsking, isNew, isShown]);
   return (
     <li class="collection-row" ref={row} style={{ "--depth": depth }} data-here={isHere}>
       <button

@@ -16,6 +16,7 @@ export function FinderBar({ desk }: { readonly desk: LibraryDesk }) {
   const { wanted, section } = desk;
   const { tags, favourite, species, author, mine, size, from, to, sort } = wanted.value;
   const count = [species, author, mine, size !== "any", from, to].filter(Boolean).length + tags.length;
+  const filters = count === 0 ? say("finding.filters") : say("finding.filters.on", { count });
   return (
     <div class="finder" data-open={open}>
       <div class="finder-bar">
@@ -32,9 +33,16 @@ export function FinderBar({ desk }: { readonly desk: LibraryDesk }) {
           <StarIcon />
           <span>{say("finding.favourites")}</span>
         </button>
-        <button type="button" class="small finder-toggle" aria-expanded={open} onClick={() => setOpen(!open)}>
+        <button
+          type="button"
+          class="small finder-toggle"
+          aria-label={filters}
+          aria-expanded={open}
+          data-on={count > 0}
+          onClick={() => setOpen(!open)}
+        >
           <FilterIcon />
-          <span>{count === 0 ? say("finding.filters") : say("finding.filters.on", { count })}</span>
+          <span>{filters}</span>
         </button>
         {section.name !== "deleted" && (
           <Pick
