@@ -55,6 +55,20 @@ describe("a choice", () => {
     expect([isExportChoice(choice), isExportChoice({ ...choice, camera: true })]).toEqual([true, false]);
   });
 
+  it("asks for pictures of so many pixels, also from the page's own view", () => {
+    const picture = { ...GLB, options: ["size", "turn"] };
+    const seen = new Map([
+      ["size", "800x500"],
+      ["turn", "30"],
+    ]);
+    const choice = { ...FIRST_CHOICE, size: "1920x1080" };
+    expect([...optionsOf(choice, picture)]).toEqual([["size", "1920x1080"]]);
+    expect(optionsOf({ ...choice, camera: "seen" }, picture, seen).get("size")).toBe("1920x1080");
+    expect(optionsOf({ ...choice, size: "", camera: "seen" }, picture, seen).get("size")).toBe("800x500");
+    expect([...optionsOf(choice, GLB), ...optionsOf(FIRST_CHOICE, picture)]).toEqual([]);
+    expect([isExportChoice(choice), isExportChoice({ ...choice, size: 1080 })]).toEqual([true, false]);
+  });
+
   it("asks for so many points where the format is made of them", () => {
     const cloud = { ...GLB, options: ["points"] };
     expect([...optionsOf(FIRST_CHOICE, cloud)]).toEqual([["points", "1000000"]]);

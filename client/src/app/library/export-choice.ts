@@ -12,6 +12,8 @@ export interface ExportChoice {
   readonly sway?: string;
   /** `seen`, for pictures that the server makes from where the page looks; missing in what was kept before there was that. */
   readonly camera?: string;
+  /** Pixels of a picture across and down, as options have it; none for the usual ones, missing in what was kept before. */
+  readonly size?: string;
   /** Points of a cloud; missing in what was kept before there was a choice. */
   readonly points?: string;
   /** Switches that are on, for all formats that have them. */
@@ -38,7 +40,7 @@ export function isExportChoice(value: unknown): boolean {
     [choice.format, choice.lod, choice.frames, choice.author, choice.licence].every(
       (text) => typeof text === "string",
     ) &&
-    [choice.lightmap, choice.sway, choice.camera, choice.points].every((text) =>
+    [choice.lightmap, choice.sway, choice.camera, choice.size, choice.points].every((text) =>
       ["undefined", "string"].includes(typeof text),
     ) &&
     Array.isArray(choice.on) &&
@@ -70,6 +72,8 @@ export function optionsOf(
     ["frames", choice.frames],
     ["points", choice.points ?? POINTS],
     ...(choice.camera === "seen" && seen ? seen : []),
+    // After that of the page's own view.
+    ["size", choice.size ?? ""],
     ["author", choice.author.trim()],
     ["licence", choice.licence.trim()],
   ];

@@ -77,6 +77,14 @@ describe("the size of a file", () => {
     expect(bytesExpected(GLB, new Map(), { ...tree, sprays: true })).toBe(2450);
   });
 
+  it("of pictures goes by their pixels", () => {
+    const tree = { metamers: 100, leaves: 10, sprays: false, borne: 0 };
+    const picture = { ...GLB, ending: "png", options: ["size", "frames"], bytes: [1000, 0, 0] } as ExportFormat;
+    const bytes = (options: Record<string, string>) => bytesExpected(picture, new Map(Object.entries(options)), tree);
+    expect(bytes({})).toBe(1000);
+    expect(bytes({ size: "2000x2000", frames: "3" })).toBe(12_000);
+  });
+
   it("is within a factor of 1.5 of five species in every format with triangles or structure", () => {
     const known = formats();
     expect(sizes.files.length).toBeGreaterThan(30);

@@ -4,6 +4,7 @@ import { isBearing } from "../../scene/foliage/places";
 import type { TreeTable } from "../../scene/table/tree-table";
 import { type Appearance, type ExportFormat, LEAF_NATURES } from "../../wire/generated";
 import { POINTS } from "./export-choice";
+import { pixelsDrawn, USUAL_SIZES } from "./picture-size";
 
 /** What of a tree the size of its files goes by. */
 export interface Amount {
@@ -57,10 +58,11 @@ export function bytesExpected(
     const [ofWood, ofLeaves] = format.shares[name] ?? [1, 1];
     [wood, foliage] = [wood * ofWood, foliage * ofLeaves];
   }
-  const frames = Number(options.get("frames") ?? 1);
+  const usual = USUAL_SIZES[format.ending];
+  const pictures = usual ? pixelsDrawn(format, options) / (usual.width * usual.height) : 1;
   const share = Number(options.get("points") ?? POINTS) / Number(POINTS);
   const ofTree = (each: number) =>
-    least * share * frames + level * (metamers * metamer * wood + each * leaves * leaf * foliage);
+    least * share * pictures + level * (metamers * metamer * wood + each * leaves * leaf * foliage);
   if (!format.options.includes("lod")) {
     return ofTree(1);
   }

@@ -1,8 +1,15 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
-import { DEFAULT_APPEARANCE, DEFAULT_PARAMETERS, MAX_NAME_CHARACTERS, type SavedTree } from "../../../wire/generated";
+import {
+  DEFAULT_APPEARANCE,
+  DEFAULT_PARAMETERS,
+  type ExportFormat,
+  MAX_NAME_CHARACTERS,
+  type SavedTree,
+} from "../../../wire/generated";
 import { cameraOptions } from "../../library/export-camera";
 import { type ExportChoice, optionsOf } from "../../library/export-choice";
 import { amountOf, bytesExpected } from "../../library/export-size";
+import { isDrawn, MOST_DRAWN, pixelsDrawn } from "../../library/picture-size";
 import type { Studio } from "../../studio";
 import { numberText } from "../../words/number-text";
 import { say } from "../../words/say";
@@ -61,15 +68,35 @@ function OfLibrary({ studio, tree }: { studio: Studio; tree: SavedTree }) {
           />
           <p class="quiet">{say(format.text)}</p>
           <ExportOptions format={format} choice={choice} choose={choose} />
+          <TooMuch format={format} options={optionsOf(choice, format)} />
         </>
       )}
       {formats === null && <Lost askAgain={askAgain} />}
       <div class="actions">
-        <button type="submit" class="primary" disabled={format === undefined}>
+        <button
+          type="submit"
+          class="primary"
+          disabled={format === undefined || !isDrawn(format, optionsOf(choice, format))}
+        >
           {say("sheets.download.act")}
         </button>
       </div>
     </form>
+  );
+}
+
+interface TooMuchProps {
+  readonly format: ExportFormat;
+  readonly options: ReadonlyMap<string, string>;
+}
+
+/** Why the server would not make pictures of so many pixels. */
+function TooMuch({ format, options }: TooMuchProps) {
+  const millions = (pixels: number) => numberText(pixels / 1e6, 1);
+  return isDrawn(format, options) ? null : (
+    <p role="alert">
+      {say("exports.size.too-much", { count: millions(pixelsDrawn(format, options)), most: millions(MOST_DRAWN) })}
+    </p>
   );
 }
 
@@ -157,7 +184,10 @@ function OnPage({ studio }: { studio: Studio }) {
       <p class="quiet">{say(format?.text ?? "exports.picture.text")}</p>
       {formats === null && <Lost askAgain={askAgain} />}
       {format ? (
-        <ExportOptions format={format} choice={choice} choose={choose} sees={screen !== null} />
+        <>
+          <ExportOptions format={format} choice={choice} choose={choose} sees={screen !== null} />
+          {options && <TooMuch format={format} options={options} />}
+        </>
       ) : (
         <Segments
           legend={say("sheets.download.size")}
@@ -176,7 +206,11 @@ function OnPage({ studio }: { studio: Studio }) {
             })}
           </p>
         )}
-        <button type="submit" class="primary" disabled={!format && size === undefined}>
+        <button
+          type="submit"
+          class="primary"
+          disabled={format && options ? !isDrawn(format, options) : size === undefined}
+        >
           {say("sheets.download.act")}
         </button>
       </div>

@@ -1,15 +1,17 @@
 import { useEffect, useState } from "preact/hooks";
 import { type ExportFormat, MAX_NAME_CHARACTERS } from "../../../wire/generated";
 import { type ExportChoice, moves, POINTS } from "../../library/export-choice";
+import { USUAL_SIZES } from "../../library/picture-size";
 import { ask } from "../../requests/request";
 import { type Key, say } from "../../words/say";
 import { Segments } from "../controls/segments";
+import { SizeField } from "./size-field";
 
 const LODS = ["0", "1", "2", "3", "set"] as const;
 const LIGHTMAPS = ["", "512", "1024", "2048", "4096"] as const;
 /** The most bones of a plant; some programs take 64, most 256. */
 const BONES = ["", "64", "256", "1024"] as const;
-const FRAMES = ["24", "36", "72"] as const;
+const FRAMES = ["1", "24", "36", "72"] as const;
 const CLOUDS = ["100000", POINTS, "5000000", "20000000"] as const;
 const CAMERAS = ["", "seen"] as const;
 const SWITCHES = ["quantised", "compressed", "instanced", "hull", "by_limb", "wind_weights"] as const;
@@ -86,6 +88,13 @@ export function ExportOptions({ format, choice, choose, sees = false }: OptionsP
           chosen={choice.camera ?? ""}
           text={(camera) => say(camera === "seen" ? "exports.camera.seen" : "exports.camera.whole")}
           onChoose={(camera) => choose({ camera })}
+        />
+      )}
+      {has("size") && (
+        <SizeField
+          usual={sees && choice.camera === "seen" ? null : (USUAL_SIZES[format.ending] ?? null)}
+          chosen={choice.size ?? ""}
+          onChoose={(size) => choose({ size })}
         />
       )}
       {SWITCHES.filter(has).map((option) => (

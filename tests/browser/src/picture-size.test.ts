@@ -1,0 +1,57 @@
+import { buffer } from "node:stream/consumers";
+import { expect, test } from "vitest";
+import { misses } from "./hits";
+import { LANDSCAPE, PHONE, type Screen } from "./screens";
+import { until } from "./server";
+import { press } from "./visits";
+import { Workshop } from "./workshop";
+
+const workshop = Workshop.forThisFile();
+
+test.each<[string, Screen]>([
+  ["tablet", LANDSCAPE],
+  ["phone", PHONE],
+])("EX6: a picture of the server's has the size that is chosen on a %s", async (name, screen) => {
+  const { tablet, address } = await workshop.fresh(screen);
+  const { page } = tablet;
+  await workshop.act(address, [{ kind: "grow", steps: 3 }]);
+  await tablet.until("it has grown", ({ metamers }) => metamers > 0);
+  const card = page.getByRole("dialog");
+  const choose = (choice: string) => tablet.press(card.getByRole("radio", { name: choice, exact: true }));
+  await press(tablet, "Download");
+  await choose("Turntable (PNG)");
+
+  // More than the server makes for one file is told, and not asked for.
+  await choose("72");
+  await choose("3840 × 2160");
+  await card.getByText("Together that is 597 million pixels", { exact: false }).waitFor();
+  const download = card.getByRole("button", { name: "Download file" });
+  expect(await download.isDisabled()).toBe(true);
+  await tablet.show(`picture-size-too-much-${name}`);
+
+  await choose("1");
+  await until("one picture can be", async () => !(await download.isDisabled()));
+  await choose("Other…");
+  for (const [side, pixels] of [
+    ["Pixels across", "320"],
+    ["Pixels down", "200"],
+  ] as const) {
+    const field = card.getByLabel(`${side}: value`, { exact: true });
+    await tablet.press(field);
+    await field.fill(pixels);
+    await field.blur();
+  }
+  expect(await misses(tablet, "the size of a picture", ".sheet", false)).toEqual([]);
+  await tablet.show(`picture-size-${name}`);
+  const coming = page.waitForEvent("download", { timeout: 120_000 });
+  await tablet.press(download);
+  const png = await buffer(await (await coming).createReadStream());
+  expect([png.readUInt32BE(16), png.readUInt32BE(20)], "width and height in its head").toEqual([320, 200]);
+
+  // It is kept for the next time.
+  await press(tablet, "Download");
+  await card.getByRole("radio", { name: "Other…", exact: true, checked: true }).waitFor();
+  expect(await card.getByLabel("Pixels across: value", { exact: true }).inputValue()).toBe("320");
+  await choose("1920 × 1080");
+  await card.getByLabel("Pixels across: value", { exact: true }).waitFor({ state: "detached" });
+});
