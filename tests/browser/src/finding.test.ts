@@ -356,25 +356,33 @@ test.each(Object.entries(SCREENS))("files become trees of the library: %s", asyn
   await page.getByRole("dialog").waitFor({ state: "detached" });
 });
 
-test.each(Object.entries(SCREENS))("a scan is taken again in other units: %s", async (name, screen) => {
-  const tablet = await library(screen, []);
-  const { page } = tablet;
-  const file = `Young ${name}.mtg`;
-  await page.locator(".library-deeds input[type=file]").setInputFiles(fileOf("units.mtg", file));
-  // Its diameters are in millimetres.
-  await page.getByText(/Its trunk is as thick as 5714 % of its height/).waitFor();
-  await page.getByRole("button", { name: `Open Young ${name}` }).waitFor();
-  await page.getByRole("combobox", { name: "Unit of diameters" }).selectOption("Diameters in mm");
-  await page.locator(".toast-row").first().waitFor({ state: "detached" });
-  const again = page.getByRole("button", { name: `Take ${file} again` });
-  await again.scrollIntoViewIfNeeded();
-  await tablet.show(`library-units-${name}`);
-  expect(await misses(tablet, "units of a scan", ".library-deeds")).toEqual([]);
-  await again.tap();
-  await page
-    .getByRole("button", { name: `Open Young ${name}` })
-    .nth(1)
-    .waitFor();
-  await page.getByText(`“Young ${name}” is in the library now`).waitFor();
-  expect(await page.getByText("Its trunk is as thick").count()).toBe(0);
-});
+test.each(Object.entries(SCREENS))(
+  "a scan is taken again in other units and as another species: %s",
+  async (name, screen) => {
+    const tablet = await library(screen, []);
+    const { page } = tablet;
+    const file = `Young ${name}.mtg`;
+    await page.locator(".library-deeds input[type=file]").setInputFiles(fileOf("units.mtg", file));
+    // Its diameters are in millimetres.
+    await page.getByText(/Its trunk is as thick as 5714 % of its height/).waitFor();
+    await page.getByRole("button", { name: `Open Young ${name}` }).waitFor();
+    await page.getByRole("combobox", { name: "Unit of diameters" }).selectOption("Diameters in mm");
+    await page.getByRole("combobox", { name: "Species", exact: true }).selectOption("Oak");
+    await page.locator(".toast-row").first().waitFor({ state: "detached" });
+    const again = page.getByRole("button", { name: `Take ${file} again` });
+    await again.scrollIntoViewIfNeeded();
+    await tablet.show(`library-units-${name}`);
+    expect(await misses(tablet, "units of a scan", ".library-deeds")).toEqual([]);
+    const taken = page.waitForResponse((answer) => answer.url().includes("/trees/import?"));
+    await again.tap();
+    const answer = await taken;
+    const asked = new URL(answer.url()).searchParams;
+    expect([asked.get("species"), asked.get("diameter_unit"), answer.status()]).toEqual(["oak", "0.001", 201]);
+    await page
+      .getByRole("button", { name: `Open Young ${name}` })
+      .nth(1)
+      .waitFor();
+    await page.getByText(`“Young ${name}” is in the library now`).waitFor();
+    expect(await page.getByText("Its trunk is as thick").count()).toBe(0);
+  },
+);

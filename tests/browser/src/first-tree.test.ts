@@ -150,7 +150,7 @@ test.each(Object.entries(SCREENS))(
       .setInputFiles({ name: `${scanned}.csv`, mimeType: "text/csv", buffer: scan! });
     const told = page.locator(".toast-row", { hasText: `“${scanned}” is in the library now` });
     await told.waitFor();
-    await page.getByRole("group", { name: `Units of ${scanned}.csv` }).waitFor();
+    await page.getByRole("group", { name: `How ${scanned}.csv is taken` }).waitFor();
     await tablet.show(`library-scan-${orientation}`);
     await told.getByRole("button", { name: "Open" }).tap();
     // As many internodes; the seed is no cylinder.

@@ -58,7 +58,7 @@ describe("files", () => {
     ]);
   });
 
-  it("IM3: of scans are taken in the units chosen, and can be taken again in others", async () => {
+  it("IM3: of scans are taken in the units and as the species chosen, and can be taken again otherwise", async () => {
     const { files, take, sent } = library();
     expect(files.scan.value).toBeNull();
     await take(file("oak.espalier"));
@@ -69,11 +69,15 @@ describe("files", () => {
     await take(file("walnut.mtg"), file("oak.json"));
     files.units.value = { length: "in", diameter: "same" };
     await take(file("ash.csv"));
+    files.species.value = "ash";
+    await take(file("ash.csv"), file("ash.json"));
     expect(sent.slice(1)).toEqual([
       "/api/v1/trees/import?name=walnut&format=mtg",
       "/api/v1/trees/import?name=walnut&format=mtg&unit=0.01&diameter_unit=0.0001",
       "/api/v1/trees/import?name=oak&format=json",
       "/api/v1/trees/import?name=ash&format=csv&unit=0.0254",
+      "/api/v1/trees/import?name=ash&format=csv&unit=0.0254&species=ash",
+      "/api/v1/trees/import?name=ash&format=json",
     ]);
   });
 

@@ -27,7 +27,9 @@ export class TreeFiles {
   readonly added = signal<SavedTree | null>(null);
   /** The units in which scans are taken. */
   readonly units = signal<ScanUnits>(METRES);
-  /** The last file that was taken in these units, which can be taken again in others. */
+  /** The species that scans are taken as, by its short name; empty for what they say themselves. */
+  readonly species = signal("");
+  /** The last file that was taken so, which can be taken again otherwise. */
   readonly scan = signal<TreeFile | null>(null);
   #post: Post;
 
@@ -68,12 +70,13 @@ export class TreeFiles {
     if (file.size > MAX_WOOD_BYTES) {
       throw new Error(say("library.file.too-large", { limit: MAX_WOOD_BYTES / MEGABYTE }));
     }
-    let units: Readonly<Record<string, string>> = {};
+    let taken: Readonly<Record<string, string>> = {};
     if (isScan(format)) {
       this.scan.value = file;
-      units = fieldsOf(this.units.peek());
+      const species = this.species.peek();
+      taken = { ...fieldsOf(this.units.peek()), ...(species === "" ? {} : { species }) };
     }
-    const path = `/api/v1/trees/import?${new URLSearchParams({ name: nameOf(file.name), format, ...units })}`;
+    const path = `/api/v1/trees/import?${new URLSearchParams({ name: nameOf(file.name), format, ...taken })}`;
     const body = new Uint8Array(await file.arrayBuffer());
     return (await this.#post(path, { type: "application/octet-stream", body }, stop, tell)) as SavedTree;
   }

@@ -41,7 +41,7 @@ export function OpenFile({ desk: { studio, section } }: { readonly desk: Library
           });
         }}
       />
-      <ScanUnits onAgain={() => void takeAgain(studio)} />
+      <ScanUnits studio={studio} onAgain={() => void takeAgain(studio)} />
       <TransferChip transfer={treeFiles.transfer} name="tree" />
     </>
   );
