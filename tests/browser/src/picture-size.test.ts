@@ -29,7 +29,7 @@ test.each<[string, Screen]>([
   expect(await download.isDisabled()).toBe(true);
   await tablet.show(`picture-size-too-much-${name}`);
 
-  await choose("1");
+  await choose("Only one");
   await until("one picture can be", async () => !(await download.isDisabled()));
   await choose("Other…");
   for (const [side, pixels] of [

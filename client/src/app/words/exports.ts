@@ -30,6 +30,7 @@ export const EXPORTS = {
     "Together that is {count} million pixels; the server makes {most} million for one file. Choose fewer pictures or fewer pixels.",
     "Zusammen sind das {count} Millionen Pixel; der Server macht {most} Millionen für eine Datei. Wähle weniger Bilder oder weniger Pixel.",
   ],
+  "exports.frames.one": ["Only one", "Nur eines"],
   "exports.points": ["Millions of points", "Millionen Punkte"],
   "exports.camera": ["Camera", "Kamera"],
   "exports.camera.whole": ["Whole tree", "Ganzer Baum"],

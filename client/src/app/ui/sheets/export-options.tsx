@@ -66,7 +66,7 @@ export function ExportOptions({ format, choice, choose, sees = false }: OptionsP
           name="frames"
           values={FRAMES}
           chosen={choice.frames}
-          text={(frames) => frames}
+          text={(frames) => (frames === "1" ? say("exports.frames.one") : frames)}
           onChoose={(frames) => choose({ frames })}
         />
       )}
