@@ -89,7 +89,7 @@ export const LIBRARY = {
   "library.scan.diameters-same": ["Diameters too", "Durchmesser auch"],
   "library.scan.diameters-in": ["Diameters in {unit}", "Durchmesser in {unit}"],
   "library.scan.species": ["Species", "Art"],
-  "library.scan.species-own": ["Species as the file says", "Art wie in der Datei"],
+  "library.scan.species-own": ["Its own species", "Eigene Art"],
   "library.scan.again": ["Take {file} again", "{file} noch einmal nehmen"],
   "library.not-added": ["{file}: {reason}", "{file}: {reason}"],
   "library.file.kind": [
