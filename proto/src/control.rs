@@ -351,6 +351,10 @@ pub enum ServerMessage {
     Done {
         /// Its last command.
         id: u32,
+        /// The step at which the tree is then.
+        step: u32,
+        /// Living metamers of all plants.
+        metamers: u32,
     },
     /// A command was not done; nothing in the document changed (`CM3`).
     Refused {

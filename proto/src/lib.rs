@@ -75,5 +75,6 @@ pub use programme::{ParameterName, Programme, Slug, Stage};
 pub use reason::Reason;
 pub use schematic::Schematic;
 pub use timeline::{
-    OperationKind, Timeline, TimelineChange, TimelineFuture, TimelineOperation, TimelinePart, WidthConstraint,
+    ChangedOperation, OperationKind, Timeline, TimelineChange, TimelineFuture, TimelineOperation,
+    TimelinePart, WidthConstraint,
 };

@@ -124,21 +124,44 @@ pub struct TimelineChange {
     pub last_step: u32,
     /// How many of the operations are in force.
     pub done: u32,
-    /// So many of the operations are as they were,
+    /// So many of the operations are as they were, but for those in `changed`,
     pub from: u32,
     /// and these follow them, in the place of all others.
     pub operations: Vec<TimelineOperation>,
+    /// Of the first `from` those that are otherwise now, by their places.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[ts(as = "Option<Vec<ChangedOperation>>", optional)]
+    pub changed: Vec<ChangedOperation>,
     /// All other lines, if any of them changed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub futures: Option<Vec<TimelineFuture>>,
 }
 
+/// An operation that was taken back or brought back where it lies (`TT6`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ChangedOperation {
+    /// Its place among the operations, from 0.
+    pub at: u32,
+    /// What it is now.
+    pub operation: TimelineOperation,
+}
+
+impl TimelineOperation {
+    /// Whether it is the same one, though perhaps taken back or brought back since.
+    fn is_same_as(&self, later: &Self) -> bool {
+        let told = |it: &Self| (it.kind, it.author, it.first, it.last);
+        told(self) == told(later)
+    }
+}
+
 impl Timeline {
     /// What tells those who have this timeline of a later one.
     pub fn change_to(&self, later: &Self) -> TimelineChange {
         let pairs = self.operations.iter().zip(&later.operations);
-        let from = pairs.take_while(|(had, has)| had == has).count();
+        let from = pairs.clone().take_while(|(had, has)| had.is_same_as(has)).count();
+        let changed = pairs.take(from).enumerate().filter(|(_, (had, has))| had != has);
         TimelineChange {
             line: later.line,
             step: later.step,
@@ -146,15 +169,23 @@ impl Timeline {
             done: later.done,
             from: from as u32,
             operations: later.operations[from..].to_vec(),
+            changed: changed
+                .map(|(at, (_, has))| ChangedOperation { at: at as u32, operation: has.clone() })
+                .collect(),
             futures: (self.futures != later.futures).then(|| later.futures.clone()),
         }
     }
 
     /// Takes in a change of the timeline that it was before.
     pub fn change(&mut self, change: TimelineChange) {
-        let TimelineChange { line, step, last_step, done, from, operations, futures } = change;
+        let TimelineChange { line, step, last_step, done, from, operations, changed, futures } = change;
         (self.line, self.step, self.last_step, self.done) = (line, step, last_step, done);
         self.operations.truncate(from as usize);
+        for ChangedOperation { at, operation } in changed {
+            if let Some(place) = self.operations.get_mut(at as usize) {
+                *place = operation;
+            }
+        }
         self.operations.extend(operations);
         if let Some(futures) = futures {
             self.futures = futures;
@@ -192,6 +223,9 @@ mod tests {
             steps: 3,
             operations: of.to_vec(),
         };
+        let mut taken_back = long.clone();
+        taken_back[40].away = true;
+        taken_back.push(TimelineOperation { kind: OperationKind::TakenBack, ..operation(1, 100, 100) });
         let timelines = [
             Timeline::default(),
             Timeline {
@@ -210,6 +244,7 @@ mod tests {
                 operations: [&long[..3], &[operation(0, 3, 9)]].concat(),
                 futures: vec![future(&long[3..])],
             },
+            Timeline { step: 100, last_step: 100, done: 101, operations: taken_back, ..Timeline::default() },
         ];
         for had in &timelines {
             for has in &timelines {
@@ -223,5 +258,8 @@ mod tests {
         }
         let travelled = timelines[1].change_to(&timelines[2]);
         assert_eq!((travelled.from, travelled.operations.len()), (100, 0));
+        let taken_back = timelines[1].change_to(&timelines[4]);
+        assert_eq!((taken_back.from, taken_back.operations.len()), (100, 1));
+        assert_eq!(taken_back.changed.iter().map(|changed| changed.at).collect::<Vec<_>>(), [40]);
     }
 }

@@ -167,6 +167,7 @@ pub fn declarations() -> String {
         timeline::TimelinePart::decl(&config),
         timeline::TimelineFuture::decl(&config),
         timeline::Timeline::decl(&config),
+        timeline::ChangedOperation::decl(&config),
         timeline::TimelineChange::decl(&config),
         timeline::WidthConstraint::decl(&config),
         presence::Pointer::decl(&config),

@@ -153,10 +153,11 @@ impl Listening {
         let unfinished = Unfinished::default();
         let service =
             TowerToHyperService::new(of_peer(self.answers.crowded.clone(), peer, unfinished.clone()));
+        let paced = self.paced(stream, unfinished).until(told.makes_way.clone());
         let connection = http1::Builder::new()
             .keep_alive(false)
             .max_buf_size(BUFFER)
-            .serve_connection(TokioIo::new(self.paced(stream, unfinished)), service);
+            .serve_connection(TokioIo::new(paced), service);
         let ended = tokio::select! {
             ended = timeout(BRIEF, connection) => matches!(ended, Ok(Ok(()))),
             () = told.makes_way.cancelled() => false,

@@ -238,9 +238,10 @@ impl Shared {
             if state.turns.keeps_nobody() {
                 self.quiet.notify_all();
             }
+            let is_over = state.is_over;
             drop(state);
             // What was kept from another worker may be done there now.
-            self.more.notify_one();
+            if is_over { self.more.notify_all() } else { self.more.notify_one() }
         }
     }
 

@@ -444,7 +444,7 @@ impl Client {
             }
             ServerMessage::Loading { share } => self.loading.push(share),
             ServerMessage::Acknowledged { id } => self.take_acknowledgement(id),
-            ServerMessage::Done { id } => self.done = id,
+            ServerMessage::Done { id, .. } => self.done = id,
             ServerMessage::Refused { id, problem } => {
                 self.unacknowledged.retain(|(other, _)| *other != id);
                 self.refused.push((id, problem));

@@ -2096,6 +2096,16 @@ operations: Array<TimelineOperation>,
  */
 futures: Array<TimelineFuture>, };
 
+export type ChangedOperation = { 
+/**
+ * Its place among the operations, from 0.
+ */
+at: number, 
+/**
+ * What it is now.
+ */
+operation: TimelineOperation, };
+
 export type TimelineChange = { 
 /**
  * The number of the present line.
@@ -2114,13 +2124,17 @@ last_step: number,
  */
 done: number, 
 /**
- * So many of the operations are as they were,
+ * So many of the operations are as they were, but for those in `changed`,
  */
 from: number, 
 /**
  * and these follow them, in the place of all others.
  */
 operations: Array<TimelineOperation>, 
+/**
+ * Of the first `from` those that are otherwise now, by their places.
+ */
+changed?: Array<ChangedOperation>, 
 /**
  * All other lines, if any of them changed.
  */
@@ -2477,7 +2491,15 @@ id: number, } | { "type": "done",
 /**
  * Its last command.
  */
-id: number, } | { "type": "refused", 
+id: number, 
+/**
+ * The step at which the tree is then.
+ */
+step: number, 
+/**
+ * Living metamers of all plants.
+ */
+metamers: number, } | { "type": "refused", 
 /**
  * The command.
  */

@@ -67,6 +67,8 @@ pub struct Session {
     newest: (u32, u32),
     /// The journal entry through which all is done, as of the last slice of work.
     done: u64,
+    /// The last entry that the journal held when the session was opened.
+    opened_through: u64,
     figures: Figures,
     leaves: u32,
     parameters: ParameterValues,
@@ -202,6 +204,7 @@ impl Session {
             acts: Vec::new(),
             newest: (work.sequence, work.table.rows() as u32),
             done: work.done_through(),
+            opened_through: last,
             figures: work.document.figures(),
             leaves: work.table.leaves(),
             parameters: work.document.parameters(),

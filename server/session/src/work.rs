@@ -275,7 +275,9 @@ impl Work {
 
     /// Whether there is something to run.
     pub(crate) fn is_needed(&self) -> bool {
-        let is_read = self.snapshot_wanted || !self.reads.is_empty() || !self.questions.is_empty();
+        let is_read = self.snapshot_wanted
+            || !self.questions.is_empty()
+            || !self.reads.is_empty() && (self.may_be_read() || self.hold.is_none());
         let is_done = self.busy || !self.orders.is_empty();
         // What rests in the midst of a command cannot be read.
         let rests = self.hold.is_some();
@@ -284,6 +286,11 @@ impl Work {
             || self.whole_wanted
             || is_done && !rests
             || is_read && !(rests && self.busy)
+    }
+
+    /// Whether all that was acknowledged before the session was opened is in the document, or waits for an owner's word.
+    fn may_be_read(&self) -> bool {
+        self.applied >= self.reads_from || self.hold == Some(Pause::Crashes)
     }
 
     /// What the document takes of memory, in rows.
@@ -423,9 +430,10 @@ impl Work {
         self.answer_act(outcome);
     }
 
-    /// Answers a command. The session's own have number 0, and nobody waits for their answer.
+    /// Answers a command. The session's own have number 0, and nobody waits for their answer; those that are done again
+    /// after a crash were answered before it.
     fn answer(&mut self, author: &Principal, id: u32, message: ServerMessage) {
-        if id > 0 {
+        if id > 0 && self.applied > self.reads_from {
             self.report.answers.push(Answer { author: author.clone(), message });
         }
     }
@@ -457,8 +465,7 @@ impl Work {
             let snapshot = snapshot::to_bytes(self.applied, &self.last_commands, &self.document);
             self.report.snapshot = Some((self.applied, snapshot));
         }
-        let is_there = self.applied >= self.reads_from || self.hold.is_some();
-        if is_there && !self.reads.is_empty() {
+        if self.may_be_read() && !self.reads.is_empty() {
             let document = ReadDocument {
                 bytes: self.document.to_saved_bytes(),
                 metamers: self.document.metamers(),

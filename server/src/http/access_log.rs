@@ -6,7 +6,7 @@ use std::{
         Arc,
         atomic::{AtomicU64, Ordering},
     },
-    time::Instant,
+    time::{Duration, Instant},
 };
 
 use axum::{
@@ -40,6 +40,13 @@ impl Requests {
     /// Each of them has a line of its own in the log, or none has.
     pub fn logged(is_logged: bool) -> Self {
         Self(Arc::new(Counts { is_logged, ..Counts::default() }))
+    }
+
+    /// A socket has ended that was open for so long.
+    pub(super) fn socket_ended(&self, open: Duration) {
+        if self.0.is_logged {
+            tracing::info!(target: "access", seconds = open.as_secs_f64(), "socket ended");
+        }
     }
 
     /// Answers by the first digit of their status, from 1 to 5.

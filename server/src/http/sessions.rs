@@ -23,6 +23,7 @@ use espalier_proto::{
 use espalier_session::{DocumentError, Entrant, Principal, RestoreError, Session};
 
 use tokio::time::interval;
+use tracing::Instrument;
 
 use super::{
     Shared, addresses,
@@ -267,12 +268,15 @@ async fn upgraded(
     let claim = shared.memory.take(Use::Socket, Need::Other, memory::SOCKET);
     let admitted =
         admitted.and_then(|admitted| claim.map(|claim| (admitted, claim)).map_err(|full| no_memory(&full)));
+    // The lines of the log that a socket causes are those of its request, and name its session.
+    let span = tracing::info_span!("socket", session = name);
     upgrade
         .read_buffer_size(READ_BUFFER)
         .max_message_size(MAX_MESSAGE_BYTES)
         .max_frame_size(MAX_MESSAGE_BYTES)
         .max_write_buffer_size(MAX_WRITE_BUFFER)
         .on_upgrade(async move |socket| {
+            let begun = Instant::now();
             let connected = async {
                 match admitted {
                     Ok((admitted, _claim)) => {
@@ -280,8 +284,9 @@ async fn upgraded(
                     }
                     Err((code, sentence)) => live::turn_away(socket, code, &sentence).await,
                 }
+                shared.requests.socket_ended(begun.elapsed());
             };
-            shared.sessions.run_socket(place, connected).await;
+            shared.sessions.run_socket(place, connected.instrument(span)).await;
         })
 }
 

@@ -11,7 +11,15 @@ use tokio_util::sync::CancellationToken;
 #[derive(Debug)]
 pub(super) struct Crowd {
     most: usize,
-    told: Mutex<VecDeque<(u64, CancellationToken)>>,
+    told: Mutex<Newest>,
+}
+
+#[derive(Debug, Default)]
+struct Newest {
+    /// How many have come.
+    count: u64,
+    /// Those who are here, by their numbers.
+    here: VecDeque<(u64, CancellationToken)>,
 }
 
 /// One of them; it is told no longer when this is dropped.
@@ -33,25 +41,25 @@ impl Crowd {
     /// which is still here most likely says nothing.
     pub(super) fn enter(&self) -> Told<'_> {
         let mut told = self.told();
-        let number = told.back().map_or(0, |(number, _)| number + 1);
-        let makes_way = CancellationToken::new();
-        told.push_back((number, makes_way.clone()));
-        if told.len() > self.most
-            && let Some((_, oldest)) = told.pop_front()
+        told.count += 1;
+        let (number, makes_way) = (told.count, CancellationToken::new());
+        told.here.push_back((number, makes_way.clone()));
+        if told.here.len() > self.most
+            && let Some((_, oldest)) = told.here.pop_front()
         {
             oldest.cancel();
         }
         Told { crowd: self, number, makes_way }
     }
 
-    fn told(&self) -> MutexGuard<'_, VecDeque<(u64, CancellationToken)>> {
+    fn told(&self) -> MutexGuard<'_, Newest> {
         self.told.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl Drop for Told<'_> {
     fn drop(&mut self) {
-        self.crowd.told().retain(|(number, _)| *number != self.number);
+        self.crowd.told().here.retain(|(number, _)| *number != self.number);
     }
 }
 
@@ -70,6 +78,6 @@ mod tests {
         let made_way = [&first, &third, &fourth].map(|told| told.makes_way.is_cancelled());
         assert_eq!(made_way, [true, false, false]);
         drop((first, third, fourth));
-        assert!(crowd.told().is_empty());
+        assert!(crowd.told().here.is_empty());
     }
 }

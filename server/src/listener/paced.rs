@@ -50,6 +50,8 @@ pub struct Paced {
     /// Nothing more comes or goes.
     is_over: bool,
     stop: CancellationToken,
+    /// When it is cancelled, others need what the connection takes.
+    makes_way: Option<CancellationToken>,
     lingering: TaskTracker,
 }
 
@@ -80,8 +82,15 @@ impl Paced {
             unfinished,
             is_over: false,
             stop,
+            makes_way: None,
             lingering,
         }
+    }
+
+    /// Nothing more is read or written, and what comes in is not waited for, once this is cancelled.
+    pub fn until(mut self, makes_way: CancellationToken) -> Self {
+        self.makes_way = Some(makes_way);
+        self
     }
 
     fn stream(&mut self) -> io::Result<Pin<&mut TcpStream>> {
@@ -189,7 +198,8 @@ impl AsyncWrite for Paced {
 
 impl Drop for Paced {
     fn drop(&mut self) {
-        let Some(stream) = self.stream.take().filter(|_| !self.is_over) else { return };
+        let makes_way = self.makes_way.as_ref().is_some_and(CancellationToken::is_cancelled);
+        let Some(stream) = self.stream.take().filter(|_| !self.is_over && !makes_way) else { return };
         // Without a runtime the program ends.
         if let Ok(runtime) = Handle::try_current() {
             let lingering = async { timeout(LINGERING, linger(stream)).await };

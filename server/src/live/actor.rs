@@ -36,7 +36,7 @@ use crate::{
 const MAILBOX: usize = 256;
 /// A session that nobody has asked for anything yet after so long is unloaded.
 const UNVISITED: Duration = Duration::from_secs(10);
-/// After so long a session that was opened lives, though there may be more to do.
+/// After so long a session that was opened lives, though it rests for want of memory.
 const LIVES: Duration = Duration::from_secs(30);
 /// How long a session that ends waits for its journal, its last commands and a snapshot that contains them.
 const LAST_WRITES: Duration = Duration::from_secs(8);
@@ -501,10 +501,13 @@ impl Actor {
         });
     }
 
-    /// Whether opening it came to an end: the journal is done, or the server has outlived the beginning of it.
+    /// Whether opening it came to an end: what the journal held is done, or has rested for long for want of memory.
     fn lives(&self) -> bool {
-        let has_lived = self.opened_at.elapsed() >= LIVES && self.session.paused() != Some(Pause::Crashes);
-        has_lived || self.session.is_settled()
+        match self.session.paused() {
+            Some(Pause::Crashes) => false,
+            Some(Pause::Memory) => self.opened_at.elapsed() >= LIVES,
+            None => self.session.has_caught_up(),
+        }
     }
 
     fn forget_tries(&mut self) {

@@ -1,7 +1,7 @@
 //! Restoring a session from what is stored of it: which snapshot, what was damaged, what people are notified of.
 
 use espalier_proto::{Notice, Problem, Reason};
-use espalier_session::{DocumentError, JournalEntry, RestoreError, Restoring, Session, Tail};
+use espalier_session::{DocumentError, JournalEntry, RestoreError, Restoring, Session, Tail, Urgency};
 
 use super::{actor::Services, handle::Ended, loading::Progress, readers::Unread};
 use crate::{
@@ -146,8 +146,7 @@ pub(super) async fn restored_by(
     let Some(stored) = services.store.load_session(name, None).await? else { return Ok(None) };
     progress.read();
     let (through, passed_over) = (stored.through, stored.damage.clone());
-    let tries = tries(services, name, lease, &stored).await;
-    let error = match restore(begin, services, name, lease, (stored, tries), progress).await {
+    let error = match restore(begin, services, name, lease, stored, progress).await {
         Err(error) if error.is_of_snapshot() => error,
         restored => return restored.map(Some),
     };
@@ -159,7 +158,7 @@ pub(super) async fn restored_by(
     // The checksum of its row is right, but no session can be made of it.
     older.damage.push(Damage::Snapshot(through));
     older.damage.extend(passed_over.into_iter().filter(|damage| matches!(damage, Damage::Snapshot(_))));
-    let older = restore(begin, services, name, lease, (older, tries), progress);
+    let older = restore(begin, services, name, lease, older, progress);
     older.await.map(Some).map_err(|_| error)
 }
 
@@ -192,7 +191,7 @@ async fn restore(
     services: &Services,
     name: &str,
     lease: &Lease,
-    (stored, tries): (StoredSession, u32),
+    stored: StoredSession,
     progress: &Progress,
 ) -> Result<Opened, OpenError> {
     let last = stored.through + stored.entries.len() as u64;
@@ -208,12 +207,14 @@ async fn restore(
             }
         }
     }
-    let StoredSession { seed, snapshot, entries, damage, notices, written_by, .. } = stored;
     let epoch = rand::random();
-    let waits = tries > MOST_TRIES;
-    let bytes =
-        snapshot.as_ref().map_or(0, Vec::len) + entries.iter().map(|e| e.command.len()).sum::<usize>();
+    let kept = stored.snapshot.as_ref().map_or(0, Vec::len);
+    let bytes = kept + stored.entries.iter().map(|entry| entry.command.len()).sum::<usize>();
     let room = Growing::new(services.memory.take_soon(Use::Session, memory::restore(bytes)).await?);
+    // It is tried only where there is memory for it.
+    let tries = tries(services, name, lease, &stored).await;
+    let waits = tries > MOST_TRIES;
+    let StoredSession { seed, snapshot, entries, damage, notices, written_by, .. } = stored;
     let follow = entries.len();
     let begun = services.pool.run(Class::Whole, name.into(), {
         let name = name.to_owned();
@@ -229,7 +230,13 @@ async fn restore(
         }
         error => error.into(),
     })?;
-    let mut session = followed(services, name, restoring, follow, &room, progress).await?;
+    let followed = followed(services, name, restoring, follow, &room, progress).await;
+    if matches!(followed, Err(OpenError::Stopping))
+        && let Err(error) = services.store.forget_tries(lease).await
+    {
+        tracing::warn!(%error, session = name, "that a server stopped counts as if it had not outlived the session");
+    }
+    let mut session = followed?;
     if !damage.is_empty() || !fresh.is_empty() {
         services.store.set_aside(lease, &damage, &fresh).await?;
     }
@@ -261,7 +268,7 @@ async fn followed(
         // It is as much somebody's as a tree that grows while they look on.
         let slice = services.pool.run(Class::Growing, name.into(), move |turn| {
             let goes_on =
-                restoring.follow(|| turn.is_over(), &mut |rows, urgency| room.has_room(rows, urgency));
+                restoring.follow(|| turn.is_over(), &mut |rows, _| room.has_room(rows, Urgency::Keeping));
             (restoring, goes_on)
         });
         (restoring, goes_on) = slice.await?;

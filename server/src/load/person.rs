@@ -241,7 +241,7 @@ impl Person {
                 self.unacknowledged.retain(|(sent, _)| sent != id);
                 self.measured.refused += 1;
             }
-            ServerMessage::Done { id } => {
+            ServerMessage::Done { id, .. } => {
                 self.done = self.done.max(*id);
                 if self.unseen.take_if(|(drawn, _)| *drawn <= *id).is_some() {
                     self.measured.in_vain += 1;

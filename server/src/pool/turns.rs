@@ -16,7 +16,7 @@ use std::{
 pub enum Class {
     /// Somebody's hand is on the tree: strokes, bends, edits, what a client is shown.
     Drawing,
-    /// A tree grows alone, or is predicted.
+    /// A tree grows alone, is predicted, or is read while people are in it.
     Growing,
     /// Somebody waits for something whole: a session restored, a file read, a picture.
     Whole,

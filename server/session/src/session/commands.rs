@@ -149,8 +149,10 @@ impl Session {
         let command = read_command(&text)?;
         let (queued, queued_bytes) = self.queue.waiting();
         let (writing, written_bytes) = self.journal.waiting();
-        let full = queued.max(writing) >= MAX_WAITING
-            || queued_bytes.max(written_bytes).saturating_add(text.len()) > MAX_WAITING_BYTES;
+        // Growth can be stopped that keeps all others from being done.
+        let room = if matches!(command.action, Action::Stop { .. }) { 2 } else { 1 };
+        let full = queued.max(writing) >= room * MAX_WAITING
+            || queued_bytes.max(written_bytes).saturating_add(text.len()) > room * MAX_WAITING_BYTES;
         if full {
             let message = "too many commands wait to be done: try again when the tree has caught up";
             let allowed = format!("up to {MAX_WAITING} commands in {MAX_WAITING_BYTES} bytes that wait");

@@ -15,9 +15,9 @@ use crate::{
 impl Session {
     /// The client took in frames up to `sequence`.
     pub(super) fn received(&mut self, client: ClientId, sequence: u32) {
-        let newest = self.newest.0;
+        let (newest, now) = (self.newest.0, self.now);
         let Some(connected) = self.connected_mut(client) else { return };
-        if connected.window.receive(sequence, newest).is_err() {
+        if connected.window.receive(sequence, newest, now).is_err() {
             let problem = Problem::out_of_range("sequence", sequence, format!("up to {newest}"));
             self.send(client, &ServerMessage::Problem { problem });
         }
@@ -120,7 +120,7 @@ impl Session {
                 continue;
             };
             if window.admits(delta.len()) {
-                window.send(sequence, delta.len());
+                window.send(sequence, delta.len(), self.now);
                 self.outputs.push_back(Output::Frame(id, Arc::clone(delta)));
             } else {
                 *view = View::Stale(Held::AsOf { sequence: before, rows });
@@ -129,11 +129,11 @@ impl Session {
     }
 
     fn deliver_catch_up(&mut self, client: ClientId, frame: &Arc<[u8]>) {
-        let sequence = self.newest.0;
+        let (sequence, now) = (self.newest.0, self.now);
         let Some(connected @ ConnectedClient { view: View::Coming, .. }) = self.connected_mut(client) else {
             return;
         };
-        connected.window.send(sequence, frame.len());
+        connected.window.send(sequence, frame.len(), now);
         connected.view = View::InStep;
         self.outputs.push_back(Output::Frame(client, Arc::clone(frame)));
     }

@@ -41,6 +41,11 @@ impl Session {
         self.home.as_ref().is_some_and(|work| work.hold.is_none() && !work.is_needed())
     }
 
+    /// Whether all is done that the journal held when the session was opened.
+    pub fn has_caught_up(&self) -> bool {
+        self.done >= self.opened_through
+    }
+
     /// What the server did not outlive is to be tried again.
     pub(super) fn go_on(&mut self) {
         self.pausing.goes_on |= self.pausing.why == Some(Pause::Crashes);

@@ -26,8 +26,9 @@ const PEOPLE_MS: u64 = 250;
 const PING_MS: u64 = 2_000;
 /// One that says nothing for so long is gone, in milliseconds,
 const SILENCE_MS: u64 = 4_500;
-/// or later where much is on its way to it, for which it may take so long a byte; but no later than this.
-const BYTES_PER_MS: u64 = 16;
+/// or later where something is on its way to it, for which it may take so many times as long as it was seen to need;
+const SLOWER: u64 = 2;
+/// but no later than this.
 const LONGEST_SILENCE_MS: u64 = 15_000;
 /// Everyone is brought to a view no more often than this, in milliseconds (`PS5`).
 const GATHER_MS: u64 = 10_000;
@@ -385,7 +386,7 @@ impl Session {
 
 /// When a device will have been silent for too long. A slow link is no absence.
 fn silent_at(connected: &ConnectedClient) -> u64 {
-    let on_its_way = connected.window.bytes() as u64 / BYTES_PER_MS;
+    let on_its_way = SLOWER * connected.window.takes();
     connected.presence.heard_at + (SILENCE_MS + on_its_way).min(LONGEST_SILENCE_MS)
 }
 

@@ -38,6 +38,8 @@ impl Session {
                 authors.insert(author.clone());
                 0
             });
+            // They will stand there once the journal is done.
+            authors.extend(work.orders.iter().map(|order| order.author.clone()));
         }
         authors.into_iter().collect()
     }

@@ -7,6 +7,7 @@ use espalier_proto::{Action, DocumentState, Pause, ServerMessage, version::Close
 use super::{Session, text_of};
 use crate::{
     clients::Client,
+    document::Figures,
     io::{ClientId, Output},
     principal::Principal,
     window::MAX_UNREAD_STATES,
@@ -160,7 +161,10 @@ impl Session {
         let until = self.now + ABSENCE_MS;
         let Some(work) = &self.home else { return };
         for (principal, author) in self.authors.iter_mut() {
-            if !work.document.open_strokes(principal).is_empty()
+            // What the journal holds that is not done yet may begin something as well.
+            let acts = work.orders.iter().any(|order| order.author == *principal);
+            if acts
+                || !work.document.open_strokes(principal).is_empty()
                 || !work.document.open_bends(principal).is_empty()
             {
                 author.strokes_end_at = Some(until);
@@ -289,7 +293,8 @@ impl Session {
             }
         }
         for (client, id) in notified {
-            self.send(client, &ServerMessage::Done { id });
+            let Figures { step, metamers, .. } = self.figures;
+            self.send(client, &ServerMessage::Done { id, step, metamers });
         }
     }
 

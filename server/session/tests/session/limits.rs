@@ -318,6 +318,9 @@ fn check_bounded(world: &mut World) {
     let refused = world.peer(client).refused();
     let too_many = refused.iter().filter(|(_, problem)| problem.code == ProblemCode::TooMany).count();
     assert!((850..=910).contains(&too_many), "{too_many} were refused");
+    // What all of them wait for can be stopped.
+    world.command(client, 5001, json!({ "kind": "stop" }));
+    assert!(world.peer(client).refused().iter().all(|(id, _)| *id != 5001));
 }
 
 #[test]

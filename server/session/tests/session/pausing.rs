@@ -1,7 +1,7 @@
 //! Growth that rests: for want of memory (`LM19`), and because the server did not outlive it (`OP5`).
 
 use espalier_proto::{DocumentState, Pause, ServerMessage};
-use espalier_session::{Input, Tail};
+use espalier_session::{Input, ReadId, Tail};
 use serde_json::{Value, json};
 
 use crate::world::{World, grow};
@@ -151,6 +151,31 @@ fn lm19_a_prediction_without_room_is_answered_with_a_problem() {
     let reasons: Vec<_> = world.peer(client).problems().into_iter().map(|problem| problem.reason).collect();
     assert_eq!(reasons, [espalier_proto::Reason::MemoryFull]);
     assert!(world.peer(client).ghosts.is_empty());
+}
+
+#[test]
+fn op2_what_rests_for_want_of_memory_is_read_once_it_is_done() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(8));
+    world.settle();
+    world.pass(40_000);
+    assert!(world.snapshot.is_some());
+    let rotation = json!([0.0, 0.6, 0.0, 0.8]);
+    let graft = json!({ "kind": "graft", "row": 4, "onto": 1, "rotation": rotation, "keep": true });
+    world.command(client, 2, graft);
+    world.settle();
+    assert_eq!(world.peer(client).refused(), []);
+    world.room = [0, 0];
+    world.crash();
+    assert_eq!(world.session.paused(), Some(Pause::Memory));
+    world.handle(Input::Read(ReadId(1)));
+    world.pass(3_000);
+    assert!(world.documents.is_empty(), "what was acknowledged is not in it");
+    world.room = [u64::MAX; 2];
+    world.pass(3_000);
+    let (_, read) = world.documents.pop().expect("it can be read");
+    assert_eq!(read.through, 2);
 }
 
 #[test]

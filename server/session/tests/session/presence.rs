@@ -223,6 +223,25 @@ fn ps3_a_slow_link_is_no_absence_and_who_is_alone_is_not_asked() {
 }
 
 #[test]
+fn ps3_who_was_fast_and_falls_silent_while_the_tree_grows_is_gone_within_five_seconds() {
+    let mut world = World::new();
+    let ann = enter(&mut world, "Ann", "ann-tablet");
+    let ben = enter(&mut world, "Ben", "ben-tablet");
+    for id in 1..4 {
+        world.command(ann, id, grow(12));
+        world.settle();
+    }
+    world.peer_mut(ben).asleep = true;
+    for id in 4..40 {
+        world.command(ann, id, grow(12));
+    }
+    world.pass(5_000);
+    let bytes: usize = world.peer(ben).in_flight.iter().map(|(_, bytes)| bytes).sum();
+    assert!(bytes > 16 * 1024, "{bytes} bytes are on their way");
+    assert_eq!(state_of(world.peer(ann), 2), Some(Whereabouts::Gone));
+}
+
+#[test]
 fn ps3_sixty_four_devices_are_shown_and_the_others_counted() {
     let mut world = World::new();
     let ids: Vec<u64> =

@@ -82,7 +82,7 @@ fn cm10_what_the_server_says_keeps_to_the_schema() {
     let validator = Validator::of("ServerMessage");
     for message in [
         json!({ "type": "acknowledged", "id": 3 }),
-        json!({ "type": "done", "id": 3 }),
+        json!({ "type": "done", "id": 3, "step": 12, "metamers": 400 }),
         json!({ "type": "role", "role": "viewer" }),
         json!({ "type": "people", "you": 1, "more": 0, "people": [{
             "person": 1,

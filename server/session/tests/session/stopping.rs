@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::{
     guiding::lasso,
-    world::{World, grow},
+    world::{World, grow, person},
 };
 
 fn stop() -> Value {
@@ -131,6 +131,25 @@ fn st1_growth_that_a_crash_interrupted_goes_on_and_can_be_stopped() {
     let (_, read) = world.documents.pop().expect("it was read");
     assert_eq!(read.through, 5, "all that was asked for before the crash is in what is read");
     check_replays(&mut world);
+}
+
+#[test]
+fn cm5_what_a_crash_let_begin_again_ends_if_nobody_returns() {
+    let mut world = World::new();
+    let ann = world.join("birch-01");
+    world.command(ann, 1, grow(12));
+    world.command(ann, 2, json!({ "kind": "stroke_begin", "stroke": 1 }));
+    world.pass(30);
+    // Growth that nobody stopped is what is done first, and the stroke begins only after the session was opened.
+    world.crash_to(Tail::Follows);
+    world.join("maple-01");
+    assert!(!world.session.has_caught_up());
+    world.settle();
+    assert!(world.session.has_caught_up());
+    assert_eq!(world.document().open_strokes(&person("birch-01")), [1]);
+    world.pass(31_000);
+    world.settle();
+    assert!(world.document().open_strokes(&person("birch-01")).is_empty());
 }
 
 #[test]

@@ -461,7 +461,11 @@ impl Peer {
     /// The numbers of `done`, each with the figures sent before it.
     pub fn done(&self) -> Vec<(u32, DocumentState)> {
         let notified = self.texts.iter().enumerate().filter_map(|(index, text)| match text {
-            ServerMessage::Done { id } => Some((*id, last_state(&self.texts[..index])?)),
+            ServerMessage::Done { id, step, metamers } => {
+                let state = last_state(&self.texts[..index])?;
+                assert_eq!((*step, *metamers), (state.step, state.metamers), "what `state` says");
+                Some((*id, state))
+            }
             _ => None,
         });
         notified.collect()

@@ -30,6 +30,15 @@ describe("a timeline that changes", () => {
     expect([later.step, later.done]).toEqual([118, 5]);
   });
 
+  it("TT6: is otherwise where something was taken back, and as it was around it", () => {
+    const away = { ...operation("prune", 16, 17), away: true };
+    const back = operation("taken_back", 117, 117);
+    const now = { line: 0, step: 117, last_step: 117, done: 5, from: 4 };
+    const later = changed(all, { ...now, operations: [back], changed: [{ at: 1, operation: away }] });
+    expect(later.operations).toEqual([LIFE[0], away, LIFE[2], LIFE[3], back]);
+    expect(all.operations).toEqual(LIFE);
+  });
+
   it("has another end, and the old one as a future", () => {
     const seed = operation("seed", 17, 18);
     const change = { line: 1, step: 18, last_step: 18, done: 3, from: 2, operations: [seed], futures: [future(0, 17)] };

@@ -3,13 +3,14 @@ import type { Timeline, TimelineChange, TimelineOperation } from "../../../wire/
 /** The timeline of a document in which nothing was done. */
 export const NOTHING_DONE: Timeline = { line: 0, step: 0, last_step: 0, done: 0, operations: [], futures: [] };
 
-/** A timeline after a change of it. */
-export function changed(timeline: Timeline, { from, operations, futures, ...now }: TimelineChange): Timeline {
-  return {
-    ...now,
-    operations: [...timeline.operations.slice(0, from), ...operations],
-    futures: futures ?? timeline.futures,
-  };
+/** A timeline after a change of it (`TT6`). */
+export function changed(timeline: Timeline, change: TimelineChange): Timeline {
+  const { from, operations, changed: elsewhere = [], futures, ...now } = change;
+  const kept = timeline.operations.slice(0, from);
+  for (const { at, operation } of elsewhere) {
+    kept[at] = operation;
+  }
+  return { ...now, operations: [...kept, ...operations], futures: futures ?? timeline.futures };
 }
 
 /** Operations that run for long would push all others off the strip: length counts by its root. */

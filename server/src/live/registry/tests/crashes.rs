@@ -71,4 +71,5 @@ async fn a_server_that_stops_waits_for_no_journal() {
     assert!(matches!(opened, Err(OpenError::Stopping)));
     let stored = house.store.load_session("oak", None).await.unwrap().unwrap();
     assert_eq!((stored.entries.len(), stored.damage), (2, vec![]), "all of it is there for the next time");
+    assert_eq!(house.store.count_try(&lease).await.unwrap(), 1, "it has not failed");
 }

@@ -46,7 +46,7 @@ async fn lm19_growth_rests_where_memory_is_short_and_goes_on_when_there_is_some(
     assert_eq!(resting.paused, Some(Pause::Memory));
     assert!(resting.pending_steps > 0);
     drop(others);
-    visitor.hear(|message| matches!(message, ServerMessage::Done { id: 1 }).then_some(())).await;
+    visitor.hear(|message| matches!(message, ServerMessage::Done { id: 1, .. }).then_some(())).await;
     assert_eq!(visitor.reached(40).await.through, 1);
 }
 
@@ -70,7 +70,7 @@ async fn lm19_sessions_in_which_nobody_is_leave_first() {
     let mut visitor = house.visit().await;
     visitor.say(&grow(1, 2)).await;
     visitor.acknowledged().await;
-    visitor.hear(|message| matches!(message, ServerMessage::Done { id: 1 }).then_some(())).await;
+    visitor.hear(|message| matches!(message, ServerMessage::Done { id: 1, .. }).then_some(())).await;
     visitor.session.send(Request::Leave(visitor.client)).await.unwrap();
     let _others = taken_but(&house, 1000);
     // It takes a snapshot along, and may not have left when the first one asks.
@@ -126,7 +126,7 @@ async fn lm19_sessions_that_want_more_than_there_is_are_all_answered() {
         resting += visitor
             .hear(|message| match message {
                 ServerMessage::State { state } if state.paused.is_some() => Some(1),
-                ServerMessage::Done { id: 1 } => Some(0),
+                ServerMessage::Done { id: 1, .. } => Some(0),
                 _ => None,
             })
             .await;
