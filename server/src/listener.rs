@@ -5,7 +5,13 @@ mod paced;
 mod unfinished;
 mod unread;
 
-use std::{sync::Arc, time::Duration};
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Duration,
+};
 
 use axum::Router;
 use futures_util::future::join_all;
@@ -47,13 +53,15 @@ pub struct Limits {
     pub of_one: usize,
     /// Of those for which there is no place so many are told so at a time; further ones close the oldest of them.
     pub told: usize,
-    /// How long a peer may take nothing of what is sent.
+    /// How long a peer may take nothing of what is sent,
     pub patience: Duration,
+    /// and how long it may take to say what it asks for.
+    pub asking: Duration,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { connections: 1024, of_one: 256, told: 32, patience: PATIENCE }
+        Self { connections: 1024, of_one: 256, told: 32, patience: PATIENCE, asking: HEADER_TIMEOUT }
     }
 }
 
@@ -126,18 +134,25 @@ impl Listening {
 
     /// Answers requests until the peer or the server has enough.
     async fn converse(&self, stream: TcpStream, peer: Peer) {
-        let unfinished = Unfinished::default();
-        let service = TowerToHyperService::new(of_peer(self.answers.all.clone(), peer, unfinished.clone()));
+        let (unfinished, asked, makes_way) =
+            (Unfinished::default(), Arc::<AtomicBool>::default(), CancellationToken::new());
+        let paced = self.paced(stream, unfinished.clone()).until(makes_way.clone());
+        let answers = of_peer(self.answers.all.clone(), peer, unfinished, Arc::clone(&asked));
+        let service = TowerToHyperService::new(answers);
         let connection = http1::Builder::new()
             .timer(TokioTimer::new())
-            .header_read_timeout(HEADER_TIMEOUT)
+            .header_read_timeout(self.limits.asking)
             .max_buf_size(BUFFER)
-            .serve_connection(TokioIo::new(self.paced(stream, unfinished)), service)
+            .serve_connection(TokioIo::new(paced), service)
             .with_upgrades();
         let mut connection = std::pin::pin!(connection);
         let ended = tokio::select! {
             ended = &mut connection => ended,
             () = self.stop.cancelled() => {
+                // Hyper would wait for the first request.
+                if !asked.load(Ordering::Relaxed) {
+                    return makes_way.cancel();
+                }
                 connection.as_mut().graceful_shutdown();
                 connection.await
             }
@@ -151,8 +166,8 @@ impl Listening {
     async fn tell(&self, stream: TcpStream, peer: Peer) {
         let told = self.crowd.enter();
         let unfinished = Unfinished::default();
-        let service =
-            TowerToHyperService::new(of_peer(self.answers.crowded.clone(), peer, unfinished.clone()));
+        let answers = of_peer(self.answers.crowded.clone(), peer, unfinished.clone(), Arc::default());
+        let service = TowerToHyperService::new(answers);
         let paced = self.paced(stream, unfinished).until(told.makes_way.clone());
         let connection = http1::Builder::new()
             .keep_alive(false)
@@ -173,13 +188,15 @@ impl Listening {
     }
 }
 
-/// The router, with who asks and what counts their messages.
+/// The router, with who asks, what counts their messages, and a note that they have asked for something.
 fn of_peer(
     router: Router,
     peer: Peer,
     unfinished: Unfinished,
+    asked: Arc<AtomicBool>,
 ) -> MapRequest<Router, impl FnMut(Request<Incoming>) -> Request<Incoming> + Clone> {
     MapRequest::new(router, move |mut request: Request<Incoming>| {
+        asked.store(true, Ordering::Relaxed);
         request.extensions_mut().insert(peer);
         request.extensions_mut().insert(unfinished.clone());
         request

@@ -57,7 +57,7 @@ const LONG: Duration = Duration::from_hours(1);
 
 #[tokio::test]
 async fn lm16_where_all_places_are_taken_health_answers_and_others_are_told() {
-    let house = House::new(Limits { connections: 3, of_one: 1, told: 2, patience: LONG }).await;
+    let house = House::new(Limits { connections: 3, of_one: 1, told: 2, patience: LONG, asking: LONG }).await;
     let mut unread = Vec::new();
     for _ in 0..3 {
         unread.push(house.ask("/endless", 20).await);
@@ -68,7 +68,7 @@ async fn lm16_where_all_places_are_taken_health_answers_and_others_are_told() {
 
 #[tokio::test]
 async fn lm16_whoever_says_nothing_where_there_is_no_place_holds_up_nobody() {
-    let house = House::new(Limits { connections: 2, of_one: 1, told: 2, patience: LONG }).await;
+    let house = House::new(Limits { connections: 2, of_one: 1, told: 2, patience: LONG, asking: LONG }).await;
     let asked = house.ask("/endless", 20).await;
     let mut silent = Vec::new();
     for _ in 0..40 {
@@ -86,7 +86,7 @@ async fn lm16_whoever_says_nothing_where_there_is_no_place_holds_up_nobody() {
 #[tokio::test]
 async fn lm15_places_of_those_who_do_not_read_become_free() {
     let patience = Duration::from_millis(50);
-    let house = House::new(Limits { connections: 3, of_one: 1, told: 2, patience }).await;
+    let house = House::new(Limits { connections: 3, of_one: 1, told: 2, patience, asking: LONG }).await;
     let mut unread = Vec::new();
     for _ in 0..3 {
         unread.push(house.ask("/endless", 20).await);
@@ -100,7 +100,7 @@ async fn lm15_places_of_those_who_do_not_read_become_free() {
 
 #[tokio::test]
 async fn requests_whose_head_cannot_be_read_are_told_why() {
-    let house = House::new(Limits { connections: 3, of_one: 3, told: 2, patience: LONG }).await;
+    let house = House::new(Limits { connections: 3, of_one: 3, told: 2, patience: LONG, asking: LONG }).await;
     let long = "a".repeat(70_000);
     let many = "a: b\r\n".repeat(101);
     for (request, status, field) in [
@@ -125,8 +125,17 @@ async fn requests_whose_head_cannot_be_read_are_told_why() {
 }
 
 #[tokio::test]
+async fn a_server_that_stops_does_not_wait_for_those_who_ask_for_nothing() {
+    let house = House::new(Limits { connections: 3, of_one: 1, told: 2, patience: LONG, asking: LONG }).await;
+    let _silent = [house.ask("", 0).await, house.ask("", 0).await];
+    assert_eq!(house.answer("/health").await, "ok");
+    house.stop.cancel();
+    house.serving.await.unwrap();
+}
+
+#[tokio::test]
 async fn a_server_that_stops_does_not_wait_for_those_who_do_not_read() {
-    let house = House::new(Limits { connections: 3, of_one: 1, told: 2, patience: LONG }).await;
+    let house = House::new(Limits { connections: 3, of_one: 1, told: 2, patience: LONG, asking: LONG }).await;
     let _unread = [house.ask("/endless", 1).await, house.ask("/endless", 20).await];
     assert_eq!(house.answer("/health").await, "ok");
     house.stop.cancel();
