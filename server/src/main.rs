@@ -141,6 +141,7 @@ fn done(result: Result<(), HeadlessError>) -> ExitCode {
         | HeadlessError::Import { .. }
         | HeadlessError::Options(_)
         | HeadlessError::Design { .. }
+        | HeadlessError::NoDesign { .. }
         | HeadlessError::Grammar { .. }
         | HeadlessError::Surroundings { .. }
         | HeadlessError::OneName

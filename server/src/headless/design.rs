@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
+use espalier_design::TEMPLATES;
 use espalier_proto::{Action, DesignValue, Position, Slug};
 use glam::Vec3;
 
 use super::{HeadlessError, read};
+use crate::similar::asked_for;
 
 /// The command that plants a design: of a file, or of a template where no file has that name. With a seed, chance falls by
 /// it and not by that of the file.
@@ -13,6 +15,11 @@ pub(super) fn planted(path: &Path, seed: Option<u32>) -> Result<Action, Headless
     let position = Some(Position::nearest(Vec3::ZERO));
     let template = path.to_str().and_then(|name| Slug::try_from(name.to_owned()).ok());
     if let Some(template) = template.filter(|_| !path.exists()) {
+        let known = TEMPLATES.iter().map(|template| template.name);
+        if !known.clone().any(|name| name == template.as_str()) {
+            let name = template.as_str().to_owned();
+            return Err(HeadlessError::NoDesign { hint: asked_for(&name, known), name });
+        }
         return Ok(Action::NewDesign { position, template: Some(template), graph: None });
     }
     let unread = |cause: String| HeadlessError::Design { path: path.to_owned(), cause };

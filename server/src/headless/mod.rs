@@ -109,6 +109,14 @@ pub enum HeadlessError {
         /// What is wrong with it.
         cause: String,
     },
+    /// No template, and no file, has the name.
+    #[error("There is no template {name:?}{hint}, and no file of that name.")]
+    NoDesign {
+        /// How it was called.
+        name: String,
+        /// What may have been meant.
+        hint: String,
+    },
     /// Many trees would be written to one file.
     #[error("The export of several seeds needs {SEED} in its name, as in oak-{SEED}.glb.")]
     OneName,

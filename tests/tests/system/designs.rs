@@ -41,7 +41,8 @@ fn designs_are_planted_from_files_and_from_templates() {
     for (design, place) in [
         (wrong.as_str(), "nodes./.values.height"),
         (file("text.json", "oak").as_str(), "is no design"),
-        ("nobody-has-this", "there is no template nobody-has-this"),
+        ("nobody-has-this", "There is no template \"nobody-has-this\", and no file of that name."),
+        ("chokann", "There is no template \"chokann\" (did you mean chokkan?), and no file of that name."),
     ] {
         let refused = program::run(&["grow", "--design", design]);
         assert_eq!(refused.code, 2, "{design}: {}", refused.stderr);
