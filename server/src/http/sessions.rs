@@ -98,10 +98,11 @@ pub(super) async fn create(
         return Ok((StatusCode::OK, Json(session)));
     }
     count(&shared, &caller)?;
+    let is_beside = is_in_work(&shared, &principal, &stored).await;
     let version = new.version.unwrap_or(stored.head.number);
     let name = name::unguessable();
     let (mut session, snapshot, room) = planted(&shared, &name, &tree, version).await?;
-    let of = (!new.template).then_some((tree.clone(), version));
+    let of = (!new.template).then_some(((tree.clone(), version), is_beside));
     // It is drawn while it is made durable.
     let drawing = shared.pool.run(Class::Whole, tree.as_str().into(), move |_| {
         session.draw_whole();
@@ -141,15 +142,16 @@ fn count(shared: &Shared, caller: &Caller) -> Result<(), Failure> {
 /// Who begins a session: their client, and as whom they were let in.
 struct Beginner<'a>(&'a Principal, &'a Caller);
 
-/// Begins a session with a snapshot, and its living metamers.
+/// Begins a session with a snapshot, and its living metamers; of a tree, perhaps beside others who work on it.
 async fn begin(
     shared: &Shared,
     Beginner(principal, caller): Beginner<'_>,
     name: String,
     seed: u32,
     (snapshot, metamers): (Vec<u8>, u32),
-    tree: Option<(String, u32)>,
+    tree: Option<((String, u32), bool)>,
 ) -> Result<Json<SessionCreated>, Failure> {
+    let (tree, is_beside) = tree.map_or((None, false), |(tree, is_beside)| (Some(tree), is_beside));
     let new = store::NewSession {
         name: name.clone(),
         seed,
@@ -159,6 +161,7 @@ async fn begin(
         person: Some(caller.person()),
         metamers,
         tree,
+        is_beside,
     };
     shared.store.create_session(new).await?;
     Ok(Json(described(shared, name).await?))
@@ -173,9 +176,14 @@ async fn to_join(
     let Some(session) = &tree.session else { return Ok(None) };
     let found = described(shared, session.clone()).await?;
     let is_saved = found.tree.as_ref().is_some_and(|of| of.saved && of.version == tree.head.number);
-    let is_in_work = shared.sessions.people(session).await.iter().any(|other| other != principal);
     let is_theirs = found.tree.as_ref().is_some_and(|of| of.id == tree.id);
-    Ok((is_theirs && (is_saved || is_in_work)).then_some(found))
+    Ok((is_theirs && (is_saved || is_in_work(shared, principal, tree).await)).then_some(found))
+}
+
+/// Whether somebody else is in the session of a tree.
+async fn is_in_work(shared: &Shared, principal: &Principal, tree: &StoredTree) -> bool {
+    let Some(session) = &tree.session else { return false };
+    shared.sessions.people(session).await.iter().any(|other| other != principal)
 }
 
 /// A session with the tree that it belongs to.

@@ -151,6 +151,7 @@ impl Store for MemoryStore {
         if let Some((tree, version)) = &new.tree
             && let Some(tree) = kept.trees.get_mut(tree)
             && tree.versions.len() == *version as usize
+            && !new.is_beside
         {
             tree.session = Some(new.name.clone());
         }

@@ -279,6 +279,8 @@ pub struct NewSession {
     pub metamers: u32,
     /// The tree that it belongs to, and the version that it begins with.
     pub tree: Option<(String, u32)>,
+    /// Whether people work on the tree in another session, into which whoever opens it is led as before.
+    pub is_beside: bool,
 }
 
 /// A snapshot to be kept.

@@ -1,5 +1,7 @@
 //! `LB`: trees with versions.
 
+use std::collections::BTreeSet;
+
 use espalier_tests::{
     client::Client,
     http::{self, Answer},
@@ -159,6 +161,47 @@ async fn lb3_opening_a_tree_in_work_is_joining() {
     );
     let left = library.get(&format!("/api/v1/sessions/{}", library.client.session));
     assert_eq!(left["tree"]["saved"], json!(false), "the work of before is there still");
+}
+
+/// Whoever opens the tree comes to the people, not to what somebody looks at beside them.
+#[tokio::test]
+async fn lb3_a_version_opened_beside_people_does_not_lead_others_away() {
+    let mut library = Library::new().await;
+    let tree = library.save("Pear");
+    let ours = json!(library.client.session);
+    library.grow(1).await;
+    for version in [1, 1] {
+        let open = json!({ "tree": tree["id"], "version": version });
+        let beside = library.post("/api/v1/sessions", open, 201);
+        assert_ne!(beside["session"], ours);
+        assert_eq!(beside["tree"], json!({ "id": tree["id"], "version": 1, "saved": true }));
+        let joined = library.post("/api/v1/sessions", json!({ "tree": tree["id"] }), 200);
+        assert_eq!(joined["session"], ours);
+        assert_eq!(library.get(&path_of(&tree))["people"], json!(1));
+    }
+    library.client.vanish();
+}
+
+#[tokio::test]
+async fn lb3_those_who_open_a_tree_at_once_come_into_one_session() {
+    let mut library = Library::new().await;
+    let tree = library.save("Pear");
+    library.grow(1).await;
+    library.client.vanish();
+    while library.get(&path_of(&tree))["people"] != json!(0) {
+        tokio::task::yield_now().await;
+    }
+    let (port, open) = (library.server.port(), json!({ "tree": tree["id"] }));
+    let opened: Vec<Answer> = std::thread::scope(|scope| {
+        let opening = || http::send(port, "POST", "/api/v1/sessions", Some(&open)).expect("an answer");
+        let all: Vec<_> = (0..8).map(|_| scope.spawn(opening)).collect();
+        all.into_iter().map(|one| one.join().expect("it ends")).collect()
+    });
+    assert_eq!(opened.iter().filter(|answer| answer.status == 201).count(), 1, "one begins it");
+    assert_eq!(opened.iter().filter(|answer| answer.status == 200).count(), 7);
+    let sessions: BTreeSet<String> =
+        opened.iter().map(|answer| answer.json()["session"].to_string()).collect();
+    assert_eq!(sessions.len(), 1, "{sessions:?}");
 }
 
 #[tokio::test]

@@ -302,6 +302,15 @@ pub(super) async fn sessions_belong_to_trees(store: &(impl Store + Library)) {
     let opened = NewSession { name: "newest".into(), tree: Some(("ash".into(), 2)), ..oak(Some(b"later")) };
     store.create_session(opened).await.unwrap();
     assert_eq!(found(store, "ash").await.session.as_deref(), Some("newest"));
+    let beside = NewSession {
+        name: "beside".into(),
+        tree: Some(("ash".into(), 2)),
+        is_beside: true,
+        ..oak(Some(b"later"))
+    };
+    store.create_session(beside).await.unwrap();
+    assert_eq!(store.tree_of("beside").await.unwrap(), belongs(2, true));
+    assert_eq!(found(store, "ash").await.session.as_deref(), Some("newest"), "people work in that one");
     delete(store, "ash", "2026").await.unwrap();
     store.purge("2027", 9).await.unwrap();
     assert_eq!(store.tree_of("newest").await.unwrap(), None);

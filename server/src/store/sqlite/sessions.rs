@@ -266,10 +266,11 @@ async fn create(
         visits::add(connection, &new.name, person).await?;
     }
     if let Some((tree, version)) = &new.tree {
-        for sql in [
-            "UPDATE sessions SET (tree, tree_version) = (SELECT id, ?2 FROM trees WHERE key = ?1) WHERE name = ?3",
-            "UPDATE trees SET session = ?3 WHERE key = ?1 AND head = ?2",
-        ] {
+        const OF_TREE: &str = "UPDATE sessions SET (tree, tree_version) = (SELECT id, ?2 FROM trees WHERE key = ?1) WHERE name = ?3";
+        const OPENED: &str = "UPDATE trees SET session = ?3 WHERE key = ?1 AND head = ?2";
+        // Opening the tree leads into it, unless that leads to people already.
+        let opened = (!new.is_beside).then_some(OPENED);
+        for sql in [OF_TREE].into_iter().chain(opened) {
             sqlx::query(sql).bind(tree).bind(version).bind(&new.name).execute(&mut *connection).await?;
         }
     }
