@@ -96,8 +96,10 @@ table! {
     SeeServer: Owner, Library;
     /// Changes one's own password.
     OwnPassword: Viewer, Guests;
-    /// Lists tokens of one's own, makes and revokes them.
-    OwnTokens: Viewer, Library;
+    /// Lists tokens of one's own, and revokes them.
+    OwnTokens: Viewer, Guests;
+    /// Makes a token that acts as oneself.
+    MakeToken: Viewer, Library;
     /// Sees who can come in, and what was done.
     SeePeople: Admin, Library;
     /// Says who can come in, and what they may do: users, groups and their members.

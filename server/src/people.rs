@@ -144,7 +144,8 @@ pub fn token(command: &cli::Token) -> Result<(), PeopleError> {
                 Scope::Write => Role::Editor,
             };
             let made = at(&database.path, async |store| {
-                let new = NewToken { name: name.clone(), role, holder: None, lasts: *lasts };
+                // Whoever sits at the machine has as many as they like.
+                let new = NewToken { name: name.clone(), role, holder: None, lasts: *lasts, most: u32::MAX };
                 let (made, _) = admission::token(store, new, SystemTime::now()).await?;
                 store.note(Event::at_machine("token", name)).await?;
                 Ok(made)

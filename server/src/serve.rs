@@ -135,6 +135,8 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         tries_for: Arc::default(),
         sessions_begun: Arc::default(),
         comments_written: Arc::default(),
+        noted_done: Arc::default(),
+        names_tried: Arc::default(),
         standings: watch::Sender::default(),
         logins: Arc::default(),
         passwords: Arc::default(),

@@ -120,6 +120,7 @@ export const LEAST_ROLES = {
   SeeServer: "owner",
   OwnPassword: "viewer",
   OwnTokens: "viewer",
+  MakeToken: "viewer",
   SeePeople: "admin",
   ChangePeople: "admin",
 } as const satisfies Record<string, Role>;

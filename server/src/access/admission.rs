@@ -49,20 +49,29 @@ impl Default for Invite {
 /// Invites somebody; whoever redeems the secret first has come.
 pub async fn invite(store: &impl Passes, invite: Invite, now: SystemTime) -> Result<Secret, StoreError> {
     let waits = invite.lasts.unwrap_or(INVITATION_LIFE);
-    Ok(invite_for(store, invite, waits, now).await?.0)
+    let (secret, pass) = invitation(invite, waits, now);
+    store.add_pass(secret.hash(), pass).await?;
+    Ok(secret)
 }
 
-/// The same with an invitation that waits so long; with its identifier.
-pub async fn invite_for(
+/// The same for a tree for which up to so many are let in, with an invitation that waits so long; with its identifier.
+pub async fn link(
     store: &impl Passes,
     invite: Invite,
-    waits: Duration,
+    (waits, most): (Duration, u32),
     now: SystemTime,
 ) -> Result<(Secret, String), StoreError> {
+    let (secret, pass) = invitation(invite, waits, now);
+    let id = pass.id.clone();
+    store.add_pass_up_to(most, secret.hash(), pass).await?;
+    Ok((secret, id))
+}
+
+fn invitation(invite: Invite, waits: Duration, now: SystemTime) -> (Secret, Pass) {
     let (secret, id) = (Secret::short(), name::unguessable());
     let Invite { name, role, tree, lasts } = invite;
     let pass = Pass {
-        id: id.clone(),
+        id,
         kind: PassKind::Invitation,
         name,
         role,
@@ -73,8 +82,7 @@ pub async fn invite_for(
         expires_at: written(now + waits),
         ends_at: written(now + lasts.unwrap_or(LONGEST)),
     };
-    store.add_pass(secret.hash(), pass).await?;
-    Ok((secret, id))
+    (secret, pass)
 }
 
 /// Makes a device of whoever has the secret of an invitation, which is used up by that; the device has its identifier.
@@ -138,12 +146,14 @@ pub struct NewToken {
     pub holder: Option<Holder>,
     /// How long it is good.
     pub lasts: Duration,
+    /// How many they may have with it.
+    pub most: u32,
 }
 
 /// Makes a token for a program; with its identifier.
 pub async fn token(
     store: &impl Passes,
-    NewToken { name, role, holder, lasts }: NewToken,
+    NewToken { name, role, holder, lasts, most: count }: NewToken,
     now: SystemTime,
 ) -> Result<(Secret, String), StoreError> {
     let (secret, id) = (Secret::long(TOKEN), name::unguessable());
@@ -160,7 +170,7 @@ pub async fn token(
         expires_at: ends_at.clone(),
         ends_at,
     };
-    store.add_pass(secret.hash(), pass).await?;
+    store.add_pass_up_to(count, secret.hash(), pass).await?;
     Ok((secret, id))
 }
 

@@ -228,6 +228,19 @@ impl Caller {
         Some((held.hash, &held.name))
     }
 
+    /// The identifier of the user that they are, by a login or a program.
+    pub fn user(&self) -> Option<&str> {
+        match &self.pass.as_ref()?.holder {
+            Some(Holder::User { id, .. }) => Some(id),
+            _ => None,
+        }
+    }
+
+    /// Whether all trees are theirs, not one that they were given, or are let in for.
+    pub fn owns_all(&self) -> bool {
+        self.grant.tree.is_none() && self.grant.role >= Role::Owner
+    }
+
     /// Whom a program acts as.
     pub fn acts_as(&self) -> Option<&str> {
         let held = self.pass.as_ref().filter(|held| held.kind == PassKind::Token)?;

@@ -43,6 +43,14 @@ impl<By: Copy + Ord> Rate<By> {
         *count += 1;
         Ok(())
     }
+
+    /// What was counted just now counts no longer.
+    pub fn uncount(&self, by: By) {
+        let mut counts = self.counts.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, count)) = counts.get_mut(&by) {
+            *count = count.saturating_sub(1);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -59,6 +67,16 @@ mod tests {
         assert_eq!(rate.count(1, at(4)), Err(Duration::from_mins(6)));
         assert_eq!(rate.count(2, at(4)), Ok(()), "others are free");
         assert_eq!(rate.count(1, at(10)), Ok(()));
+    }
+
+    #[test]
+    fn ac11_what_is_not_to_count_leaves_room() {
+        let (rate, now) = (Rate::new(1, Duration::from_mins(10)), Instant::now());
+        rate.uncount(1);
+        assert_eq!(rate.count(1, now), Ok(()));
+        rate.uncount(1);
+        assert_eq!(rate.count(1, now), Ok(()));
+        assert!(rate.count(1, now).is_err());
     }
 
     #[test]

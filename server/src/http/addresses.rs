@@ -236,7 +236,7 @@ pub(super) fn routes() -> Vec<Route> {
         route("PUT /api/v1/groups/{group}/members/{user}", Action::ChangePeople, put(groups::join), About::new("Make a user a member (AC20).").gives::<ListedGroup>(200).revised()).noted("group-join"),
         route("DELETE /api/v1/groups/{group}/members/{user}", Action::ChangePeople, delete(groups::leave), About::new("Make a user a member no longer.").gives::<ListedGroup>(200).revised()).noted("group-leave"),
         route("GET /api/v1/tokens", Action::OwnTokens, get(tokens::list), About::new("Programs that act as whoever asks, newest first (AC21).").gives::<Vec<ListedToken>>(200)),
-        route("POST /api/v1/tokens", Action::OwnTokens, post(tokens::add), About::new("Let a program act as oneself; its token is shown this once (AC21).").takes::<NewToken>().gives::<MadeToken>(201)).noted("token").once(),
+        route("POST /api/v1/tokens", Action::MakeToken, post(tokens::add), About::new("Let a program act as oneself; its token is shown this once (AC21).").takes::<NewToken>().gives::<MadeToken>(201)).noted("token").once(),
         route("GET /api/v1/tokens/all", Action::SeePeople, get(tokens::list_all), About::new("Programs of everybody, newest first (AC21).").gives::<Vec<ListedToken>>(200)),
         route("DELETE /api/v1/tokens/{token}", Action::OwnTokens, delete(tokens::revoke), About::new("Let a program in no longer (AC21); administrators revoke any.").gives_nothing()).noted("token-revoke"),
         route("GET /api/v1/status", Action::SeeServer, get(status::status), About::new("How the server is: memory by what it is taken for, sessions with theirs (SV2).").gives::<ServerStatus>(200)),

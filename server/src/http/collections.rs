@@ -45,7 +45,9 @@ pub(super) async fn change(
     Body(change): Body<ChangeCollection>,
 ) -> Result<Json<TreeCollection>, Failure> {
     let parent = change.parent.as_deref().filter(|id| !id.is_empty());
-    shared.ask_to_put_in(&caller, caller.role(), parent).await?;
+    let from = shared.store.collections().await?.into_iter().find(|collection| collection.id == id);
+    let from = from.and_then(|collection| collection.parent);
+    shared.ask_to_put_in(&caller, caller.role(), from.as_deref(), parent).await?;
     let change = CollectionChange {
         name: change.name.map(String::from),
         parent: change.parent.map(Some).map(|id| id.filter(|id| !id.is_empty())),

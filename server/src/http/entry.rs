@@ -138,7 +138,8 @@ pub(super) async fn check(shared: &Shared, name: &str, field: &str, password: &s
     user.filter(|_| is_right).ok_or_else(|| wrong_password(field))
 }
 
-async fn let_in(shared: &Shared, user: User) -> Result<(Secret, Pass), Failure> {
+/// Lets in somebody whose password was checked, if it is theirs still.
+pub(super) async fn let_in(shared: &Shared, user: User) -> Result<(Secret, Pass), Failure> {
     let (id, password) = (user.id.clone(), user.password.clone());
     let come = match admission::log_in(&*shared.store, user, SystemTime::now()).await {
         // They were removed just now.

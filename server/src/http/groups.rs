@@ -8,11 +8,11 @@ use super::{
     audit::Made,
     failure::{Body, Failure, Path},
     revision::{Expected, tag},
-    users::{usable, user},
+    users::{in_words, no_user, usable, user},
 };
 use crate::{
     name,
-    store::{Group, GroupChange, Groups, Missing, User, Users},
+    store::{Group, GroupChange, Groups, Missing, StoreError, User, UserChange, Users},
     time::now,
 };
 
@@ -33,7 +33,7 @@ pub(super) async fn add(
     Body(NewGroup { name, role }): Body<NewGroup>,
 ) -> Result<impl IntoResponse, Failure> {
     let (id, name, role) = (name::unguessable(), usable(name)?, role.into());
-    let made = Made(name.clone());
+    let made = Made(format!("{name} {}", Role::name(role)));
     let group = Group { id: id.clone(), name, role, created_at: now(), members: Vec::new(), revision: 1 };
     shared.store.add_group(group).await?;
     Ok((StatusCode::CREATED, Extension(made), told(&shared, &id).await?))
@@ -45,16 +45,18 @@ pub(super) async fn change(
     Expected(expected): Expected,
     Body(ChangeGroup { name, role }): Body<ChangeGroup>,
 ) -> Result<impl IntoResponse, Failure> {
-    let Group { name: old, .. } = group(&shared, &id).await?;
+    let before = group(&shared, &id).await?.name;
     let change = GroupChange { name: name.map(usable).transpose()?, role: role.map(Role::from) };
     // What changes nothing counts as nothing.
     if change != GroupChange::default() || expected.is_some() {
-        if !shared.store.change_group(&old, change, expected).await? {
-            return Err(Missing::Group.into());
+        if !shared.store.change_group(&id, change.clone(), expected).await? {
+            return Err(no_group());
         }
         shared.tell_standings();
     }
-    let made = Made(group(&shared, &id).await?.name);
+    let GroupChange { name, role } = change;
+    let change = UserChange { name, role, ..UserChange::default() };
+    let made = Made(in_words(&before, &change));
     Ok((Extension(made), told(&shared, &id).await?))
 }
 
@@ -64,8 +66,8 @@ pub(super) async fn remove(
     Expected(expected): Expected,
 ) -> Result<impl IntoResponse, Failure> {
     let Group { name, .. } = group(&shared, &id).await?;
-    if !shared.store.remove_group(&name, expected).await? {
-        return Err(Missing::Group.into());
+    if !shared.store.remove_group(&id, expected).await? {
+        return Err(no_group());
     }
     shared.tell_standings();
     Ok((StatusCode::NO_CONTENT, Extension(Made(name))))
@@ -76,10 +78,14 @@ pub(super) async fn join(
     Path((id, member)): Path<(String, String)>,
     Expected(expected): Expected,
 ) -> Result<impl IntoResponse, Failure> {
-    let (Group { name, .. }, User { name: member, .. }) = both(&shared, &id, &member).await?;
-    shared.store.join_group(&name, &member, expected).await?;
+    let (group, user) = both(&shared, &id, &member).await?;
+    match shared.store.join_group(&id, &member, expected).await {
+        Err(StoreError::NotFound(Missing::User)) => return Err(no_user()),
+        Err(StoreError::NotFound(Missing::Group)) => return Err(no_group()),
+        joined => joined?,
+    }
     shared.tell_standings();
-    Ok((Extension(Made(format!("{name} {member}"))), told(&shared, &id).await?))
+    Ok((Extension(Made(format!("{} {}", group.name, user.name))), told(&shared, &id).await?))
 }
 
 pub(super) async fn leave(
@@ -87,12 +93,12 @@ pub(super) async fn leave(
     Path((id, member)): Path<(String, String)>,
     Expected(expected): Expected,
 ) -> Result<impl IntoResponse, Failure> {
-    let (Group { name, .. }, User { name: member, .. }) = both(&shared, &id, &member).await?;
-    if !shared.store.leave_group(&name, &member, expected).await? {
+    let (group, user) = both(&shared, &id, &member).await?;
+    if !shared.store.leave_group(&id, &member, expected).await? {
         return Err(Failure::none_such("member", "user", "the identifier of somebody in the group"));
     }
     shared.tell_standings();
-    Ok((Extension(Made(format!("{name} {member}"))), told(&shared, &id).await?))
+    Ok((Extension(Made(format!("{} {}", group.name, user.name))), told(&shared, &id).await?))
 }
 
 async fn both(shared: &Shared, id: &str, member: &str) -> Result<(Group, User), Failure> {
@@ -102,7 +108,11 @@ async fn both(shared: &Shared, id: &str, member: &str) -> Result<(Group, User), 
 /// The group with this identifier.
 async fn group(shared: &Shared, id: &str) -> Result<Group, Failure> {
     let found = shared.store.groups().await?.into_iter().find(|group| group.id == id);
-    found.ok_or_else(|| Failure::none_such("group", "group", "the identifier of a group"))
+    found.ok_or_else(no_group)
+}
+
+fn no_group() -> Failure {
+    Failure::none_such("group", "group", "the identifier of a group")
 }
 
 /// What is told of a group, with the tag of its revision.

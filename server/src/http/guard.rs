@@ -1,6 +1,9 @@
 //! What holds for every request: who asks, how long it may take, what the browser may do with the answer.
 
-use std::time::Duration;
+use std::{
+    collections::BTreeSet,
+    time::{Duration, Instant},
+};
 
 use axum::{
     extract::{FromRequestParts, RawPathParams, Request, State},
@@ -20,8 +23,8 @@ use super::{
     removals, trees,
 };
 use crate::{
-    access::{Action, Caller, Object, Peer},
-    store::{Finding, Gift, Gifts, Library, Missing, Room, Standing, Standings, StoreError},
+    access::{Action, Caller, Object, Peer, Rate, SecretHash},
+    store::{EXPORT, Finding, Gift, Gifts, Library, Missing, Room, Standing, Standings, StoreError},
     time::now,
 };
 
@@ -30,6 +33,20 @@ pub(super) const CLIENT: HeaderName = HeaderName::from_static("espalier-client")
 
 /// A request whose body or answer takes longer is dropped.
 pub(super) const TIME_LIMIT: Duration = Duration::from_secs(30);
+
+/// What somebody does in ten minutes that is noted on the list of what was done.
+const NOTED_OF: u32 = 60;
+const NOTED_TIME: Duration = Duration::from_mins(10);
+
+/// How much of what is noted was done, by whom (`AC10`): the list is bounded, and nobody fills it alone.
+#[derive(Debug)]
+pub struct NotedDone(Rate<SecretHash>);
+
+impl Default for NotedDone {
+    fn default() -> Self {
+        Self(Rate::new(NOTED_OF, NOTED_TIME))
+    }
+}
 
 /// Scripts come from this server only. Styles may stand in the page, pictures may be made by the page itself.
 const CONTENT_SECURITY_POLICY: &str = "default-src 'self'; \
@@ -109,6 +126,9 @@ pub(super) async fn ask(
         let named = |name| params.iter().find(|(other, _)| *other == name).map(|(_, value)| value);
         let named = named("session").map(Named::Session).or_else(|| named("tree").map(Named::Tree));
         shared.ask(&caller, action, named.unwrap_or(Named::Server)).await?;
+        if noted.is_some_and(|noted| noted != EXPORT) {
+            shared.count_noted(&caller, action)?;
+        }
         Ok::<_, Failure>(principal(&parts.headers)?)
     };
     let response = match asked.await {
@@ -205,26 +225,37 @@ impl Shared {
         Ok((caller.role_where(given), standing))
     }
 
-    /// Whether a collection, or one that it lies in, was given to anybody.
-    async fn is_given(&self, collection: &str) -> Result<bool, StoreError> {
+    /// Counts something that is noted (`AC10`). Tokens are everybody's own; what else owners of all trees do, they may do as
+    /// often as they like.
+    fn count_noted(&self, caller: &Caller, action: Action) -> Result<(), Failure> {
+        let is_counted = matches!(action, Action::OwnTokens | Action::MakeToken) || !caller.owns_all();
+        let Some(by) = caller.counted_as().filter(|_| is_counted) else { return Ok(()) };
+        let counted = self.noted_done.0.count(by, Instant::now());
+        counted.map_err(|wait| Failure::too_often("path", "That was done too often.", wait))
+    }
+
+    /// Which were given to anybody of a collection and those that it lies in.
+    async fn given_above(&self, collection: Option<&str>) -> Result<BTreeSet<String>, StoreError> {
         let all = self.store.collections().await?;
-        let mut next = Some(collection);
+        let (mut next, mut given) = (collection, BTreeSet::new());
         while let Some(id) = next {
             if !self.store.given(Gift::Collection(id)).await?.is_empty() {
-                return Ok(true);
+                given.insert(id.to_owned());
             }
             next =
                 all.iter().find(|collection| collection.id == id).and_then(|found| found.parent.as_deref());
         }
-        Ok(false)
+        Ok(given)
     }
 
-    /// Whether somebody may have something lie in a collection, and so be seen by whom that was given: they own it, or
-    /// that was given to nobody; they see it themselves, and may do no more with it then than they may already.
+    /// Whether somebody may have something lie in a collection, and so be seen by whom that was given: all trees are
+    /// theirs, or nobody sees it then who does not where it lies; they see the collection themselves, and may do no more
+    /// with it then than they may already.
     pub(super) async fn ask_to_put_in(
         &self,
         caller: &Caller,
         role: Role,
+        from: Option<&str>,
         collection: Option<&str>,
     ) -> Result<(), Failure> {
         let Some(collection) = collection else { return Ok(()) };
@@ -232,9 +263,12 @@ impl Shared {
         if there == Role::None && !caller.sees_all() {
             return Err(Missing::Collection.into());
         }
-        if role < Role::Owner && self.is_given(collection).await? {
-            let sentence = "That collection was given to people: only whom this belongs to can put it there.";
-            let allowed = "a collection that was given to nobody";
+        if !caller.owns_all()
+            && !self.given_above(Some(collection)).await?.is_subset(&self.given_above(from).await?)
+        {
+            let sentence =
+                "That collection was given to people: only owners of the server can put this there.";
+            let allowed = "a collection that was given to nobody who does not see this already";
             return Err(Problem::new(Reason::Forbidden, sentence).at("collection", allowed).into());
         }
         if there <= role {

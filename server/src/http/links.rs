@@ -10,7 +10,7 @@ use axum::{
 };
 use espalier_proto::{
     Problem, Reason,
-    access::{ChangeLink, MadeLink, NewLink, TreeLink},
+    access::{ChangeLink, MadeLink, NewLink, Role, TreeLink},
     version::MAX_LINK_HOURS,
 };
 
@@ -26,12 +26,12 @@ use crate::{
         cookie,
     },
     hosts,
-    store::{Missing, Pass, PassKind, Passes},
+    store::{Missing, Pass, PassKind, Passes, StoreError},
     time::now,
 };
 
 /// Links of one tree.
-const MOST: usize = 100;
+const MOST: u32 = 100;
 /// How long a link waits that is for no time of its own.
 const WAITS: Duration = Duration::from_hours(MAX_LINK_HOURS as u64);
 
@@ -51,14 +51,17 @@ pub(super) async fn add(
 ) -> Result<impl IntoResponse, Failure> {
     there(&shared, &tree).await?;
     let name = name.map_or_else(|| UNNAMED_LINK.to_owned(), String::from);
-    if of(&shared, &tree).await?.len() >= MOST {
-        let problem = Problem::new(Reason::TooMany, format!("The tree has {MOST} links; revoke one first."));
-        return Err(problem.at("tree", format!("a tree with fewer than {MOST} links")).into());
-    }
     let lasts = hours.map(|hours| Duration::from_hours(hours.get().into()));
     let invite = Invite { name, role: role.into(), tree: Some(tree), lasts };
     let waits = lasts.unwrap_or(WAITS);
-    let (secret, id) = admission::invite_for(&*shared.store, invite, waits, SystemTime::now()).await?;
+    let (secret, id) = match admission::link(&*shared.store, invite, (waits, MOST), SystemTime::now()).await {
+        Err(StoreError::Full) => {
+            let problem =
+                Problem::new(Reason::TooMany, format!("The tree has {MOST} links; revoke one first."));
+            return Err(problem.at("tree", format!("a tree with fewer than {MOST} links")).into());
+        }
+        made => made?,
+    };
     let scheme = if cookie::is_secure(&headers) { "https" } else { "http" };
     let host = headers.get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
     // What this machine calls itself leads nowhere from another one.
@@ -72,14 +75,14 @@ pub(super) async fn change(
     State(shared): State<Shared>,
     Path((tree, link)): Path<(String, String)>,
     Body(ChangeLink { role }): Body<ChangeLink>,
-) -> Result<Json<TreeLink>, Failure> {
+) -> Result<(Extension<Made>, Json<TreeLink>), Failure> {
     there(&shared, &tree).await?;
     let found = of(&shared, &tree).await?.into_iter().find(|pass| pass.id == link);
-    let role = role.into();
+    let role = Role::from(role);
     match found {
         Some(pass) if shared.store.change_pass(&link, role).await? => {
             shared.tell_standings();
-            Ok(Json(described(Pass { role, ..pass })))
+            Ok((Extension(Made(role.name().to_owned())), Json(described(Pass { role, ..pass }))))
         }
         Some(_) | None => Err(no_link()),
     }

@@ -65,7 +65,9 @@ pub use self::{
     comments::CommentsWritten,
     entry::Logins,
     exports::Progresses,
+    guard::NotedDone,
     keys::{KEPT, UnderWay},
+    members::NamesTried,
     proxies::Proxies,
     sessions::SessionsBegun,
     turns::Turns,
@@ -128,6 +130,10 @@ pub struct Shared {
     pub sessions_begun: Arc<SessionsBegun>,
     /// How many comments were written, by whom.
     pub comments_written: Arc<CommentsWritten>,
+    /// How much that is noted was done, by whom.
+    pub noted_done: Arc<NotedDone>,
+    /// How often somebody was to be given something who is nobody, by whom.
+    pub names_tried: Arc<NamesTried>,
     /// Tells when somebody may do more or less with a tree, so that open sockets hear of it at once.
     pub standings: watch::Sender<()>,
     /// How often people have logged in.

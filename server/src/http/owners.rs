@@ -14,7 +14,10 @@ use super::{
     failure::{Body, Failure, Path},
     removals::{person, tree_of},
 };
-use crate::store::{Heir, Missing, Standings};
+use crate::{
+    access::Caller,
+    store::{Heir, Missing, Standings},
+};
 
 /// What the list of what was done says, and the answer.
 type Handed = (Extension<Made>, Json<TreeOwner>);
@@ -34,21 +37,27 @@ pub(super) async fn hand_over(
     State(shared): State<Shared>,
     Path(session): Path<String>,
     Extension(principal): Extension<Principal>,
+    caller: Caller,
     Body(HandOver { person: number }): Body<HandOver>,
 ) -> Result<Handed, Failure> {
     let tree = saved(&shared, &session).await?;
     let there = person(&shared, &session, number, &principal).await?;
     let name = there.entrant.name.map_or_else(|| UNNAMED.to_owned(), |name| name.to_string());
     let heir = Heir { person: there.entrant.person.to_string(), name };
-    handed(&shared, &tree, Some(heir)).await
+    if !caller.owns_all() && heir.person == caller.person() {
+        let sentence = "Nobody hands a tree over to themselves.";
+        return Err(Problem::new(Reason::Forbidden, sentence).at("person", "somebody else").into());
+    }
+    handed(&shared, &caller, &tree, Some(heir)).await
 }
 
 pub(super) async fn take_back(
     State(shared): State<Shared>,
+    caller: Caller,
     Path(session): Path<String>,
 ) -> Result<Handed, Failure> {
     let tree = saved(&shared, &session).await?;
-    handed(&shared, &tree, None).await
+    handed(&shared, &caller, &tree, None).await
 }
 
 /// The tree of a session, which must be one.
@@ -59,10 +68,17 @@ async fn saved(shared: &Shared, session: &str) -> Result<String, Failure> {
     })
 }
 
-async fn handed(shared: &Shared, tree: &str, to: Option<Heir>) -> Result<Handed, Failure> {
+/// Hands a tree over, or takes it back: that is for owners of the server, and for whoever has it.
+async fn handed(shared: &Shared, caller: &Caller, tree: &str, to: Option<Heir>) -> Result<Handed, Failure> {
     let name = to.as_ref().map(|heir| heir.name.clone());
-    if !shared.store.hand_over(tree, to).await? {
-        return Err(Missing::Tree.into());
+    let by = (!caller.owns_all()).then(|| caller.person());
+    if !shared.store.hand_over(tree, to, by.as_deref()).await? {
+        if by.is_none() {
+            return Err(Missing::Tree.into());
+        }
+        let sentence = "Owners of the server alone hand a tree over, and whoever it was handed over to.";
+        let allowed = "a session of a tree that was handed over to you";
+        return Err(Problem::new(Reason::Forbidden, sentence).at("session", allowed).into());
     }
     shared.tell_standings();
     let made = Made(name.clone().unwrap_or_else(|| "nobody".to_owned()));

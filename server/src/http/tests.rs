@@ -80,6 +80,8 @@ async fn shared() -> Shared {
         tries_for: Arc::default(),
         sessions_begun: Arc::default(),
         comments_written: Arc::default(),
+        noted_done: Arc::default(),
+        names_tried: Arc::default(),
         standings: watch::Sender::default(),
         logins: Arc::default(),
         passwords: Arc::default(),

@@ -278,7 +278,10 @@ pub(super) async fn change(
     };
     let (role, _) = shared.role_at(&caller, Named::Tree(&id)).await?;
     let collection = change.collection.as_ref().and_then(Option::as_deref);
-    shared.ask_to_put_in(&caller, role, collection).await?;
+    if collection.is_some() {
+        let from = stored(&shared, &id).await?.collection;
+        shared.ask_to_put_in(&caller, role, from.as_deref(), collection).await?;
+    }
     shared.store.change_tree(&id, expected, change).await?;
     // Whoever was given what lies in a collection may have it no longer, or from now on.
     shared.tell_standings();

@@ -22,9 +22,9 @@ use super::{
     revision::{Expected, tag},
 };
 use crate::{
-    access::{Caller, Peer, password::Password},
+    access::{self, Caller, Peer, SecretHash, password::Password},
     name,
-    store::{Group, Groups, Missing, Terms, User, UserChange, Users, folded},
+    store::{Group, Groups, Terms, User, UserChange, Users, folded},
     time::now,
 };
 
@@ -49,7 +49,7 @@ pub(super) async fn add(
     let password = kept(&shared, "password", &password).await?;
     let user = User { id, name, role, group_role: None, password, created_at: now(), revision: 1 };
     shared.store.add_user(user.clone()).await?;
-    let made = Made(user.name.clone());
+    let made = Made(format!("{} {}", user.name, role.name()));
     Ok((StatusCode::CREATED, Extension(made), told(&shared, user).await?))
 }
 
@@ -59,7 +59,7 @@ pub(super) async fn change(
     Expected(expected): Expected,
     Body(ChangeUser { name, role, password }): Body<ChangeUser>,
 ) -> Result<impl IntoResponse, Failure> {
-    let User { name: old, .. } = user(&shared, &id).await?;
+    let before = user(&shared, &id).await?;
     let name = name.map(usable).transpose()?;
     let password = match &password {
         Some(password) => Some(kept(&shared, "password", password).await?),
@@ -69,13 +69,13 @@ pub(super) async fn change(
     // What changes nothing counts as nothing.
     if change != UserChange::default() || expected.is_some() {
         let terms = Terms { expected, force: false };
-        if !shared.store.change_user(&old, change, terms).await? {
-            return Err(Missing::User.into());
+        if !shared.store.change_user(&id, change.clone(), terms).await? {
+            return Err(no_user());
         }
         shared.tell_standings();
     }
     let changed = user(&shared, &id).await?;
-    let made = Made(changed.name.clone());
+    let made = Made(in_words(&before.name, &change));
     Ok((Extension(made), told(&shared, changed).await?))
 }
 
@@ -85,8 +85,8 @@ pub(super) async fn remove(
     Expected(expected): Expected,
 ) -> Result<impl IntoResponse, Failure> {
     let User { name, .. } = user(&shared, &id).await?;
-    if !shared.store.remove_user(&name, Terms { expected, force: false }).await? {
-        return Err(Missing::User.into());
+    if !shared.store.remove_user(&id, Terms { expected, force: false }).await? {
+        return Err(no_user());
     }
     shared.tell_standings();
     Ok((StatusCode::NO_CONTENT, Extension(Made(name))))
@@ -99,26 +99,48 @@ pub(super) async fn change_own_password(
     caller: Caller,
     Body(ChangePassword { old, new }): Body<ChangePassword>,
 ) -> Result<StatusCode, Response> {
-    let Some((login, name)) = caller.login() else {
+    let Some(((login, name), id)) = caller.login().zip(caller.user()) else {
         let problem = Problem::new(Reason::Forbidden, "Only who has logged in has a password.");
         return Err(Failure::from(problem).into_response());
     };
     let peer = peer.map(|Extension(peer)| peer);
     let tried = entry::Tried::count(&shared, peer, name, Instant::now());
     let tried = tried.map_err(Failure::into_response)?;
-    let User { revision, .. } =
-        entry::check(&shared, name, "old", &old).await.map_err(Failure::into_response)?;
+    let user = entry::check(&shared, name, "old", &old).await.map_err(Failure::into_response)?;
     tried.was_right(&shared);
-    let changed = async {
-        let password = Some(kept(&shared, "new", &new).await?);
-        let change = UserChange { password, stays: Some(login), ..UserChange::default() };
-        // Not over one that was set meanwhile.
-        let terms = Terms { expected: Some(revision), ..Terms::default() };
-        shared.store.change_user(name, change, terms).await?;
-        shared.tell_standings();
-        Ok(StatusCode::NO_CONTENT)
-    };
-    changed.await.map_err(|failure: Failure| failure.into_response())
+    // Whoever goes by the name now may be somebody else.
+    if user.id != id {
+        return Err(Failure::from(access::not_let_in()).into_response());
+    }
+    change_own(&shared, user, login, &new).await.map_err(Failure::into_response)?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+/// Gives somebody who was just checked another password; the login that they do it with stays.
+pub(super) async fn change_own(
+    shared: &Shared,
+    User { id, revision, .. }: User,
+    login: SecretHash,
+    new: &str,
+) -> Result<(), Failure> {
+    let password = Some(kept(shared, "new", new).await?);
+    let change = UserChange { password, stays: Some(login), ..UserChange::default() };
+    // Not over one that was set meanwhile.
+    let terms = Terms { expected: Some(revision), ..Terms::default() };
+    if !shared.store.change_user(&id, change, terms).await? {
+        return Err(access::not_let_in().into());
+    }
+    shared.tell_standings();
+    Ok(())
+}
+
+/// What changes of somebody who was called so until now, for the list of what was done.
+pub(super) fn in_words(before: &str, UserChange { name, role, password, .. }: &UserChange) -> String {
+    let name = name.as_ref().map(|name| format!("name {name}"));
+    let role = role.map(|role| format!("role {}", role.name()));
+    let password = password.as_ref().map(|_| "password".to_owned());
+    let changes = [name, role, password].into_iter().flatten().collect::<Vec<_>>().join(", ");
+    if changes.is_empty() { format!("{before}: nothing") } else { format!("{before}: {changes}") }
 }
 
 /// What is told of a user, with the tag of their revision.
@@ -138,7 +160,11 @@ fn described(user: User, groups: &[Group]) -> ListedUser {
 /// The user with this identifier.
 pub(super) async fn user(shared: &Shared, id: &str) -> Result<User, Failure> {
     let found = shared.store.users().await?.into_iter().find(|user| user.id == id);
-    found.ok_or_else(|| Failure::none_such("user", "user", "the identifier of somebody who can log in"))
+    found.ok_or_else(no_user)
+}
+
+pub(super) fn no_user() -> Failure {
+    Failure::none_such("user", "user", "the identifier of somebody who can log in")
 }
 
 /// A name that a login finds.

@@ -5,7 +5,7 @@ use crate::{
     cli::{self, GroupOfRole, Members, NamedGroup, NewGroup},
     name,
     similar::asked_for,
-    store::{Audit, Event, Group, GroupChange, Groups, Missing, SqliteStore, StoreError, folded},
+    store::{Audit, Event, Group, GroupChange, Groups, Missing, SqliteStore, StoreError, Users, folded},
     time::now,
 };
 
@@ -20,7 +20,7 @@ pub fn group(command: &cli::Group) -> Result<(), PeopleError> {
                     Err(StoreError::Taken) => return Err(PeopleError::TakenGroup(name.clone())),
                     added => added?,
                 }
-                Ok(store.note(Event::at_machine("group-add", name)).await?)
+                Ok(store.note(Event::at_machine("group-add", &format!("{name} {}", role.name()))).await?)
             })?;
             print(&format!("{name}: {}; `espalier group join` makes users its members.", role.name()));
         }
@@ -35,15 +35,18 @@ pub fn group(command: &cli::Group) -> Result<(), PeopleError> {
         cli::Group::Role(GroupOfRole { name, role, database }) => {
             at(&database.path, async |store| {
                 let change = GroupChange { role: Some(*role), ..GroupChange::default() };
-                found(store, store.change_group(name, change, None).await?, name).await?;
-                Ok(store.note(Event::at_machine("group-role", name)).await?)
+                let group = found(store, name).await?;
+                is_there(store, store.change_group(&group.id, change, None).await?, name).await?;
+                Ok(store.note(Event::at_machine("group-role", &format!("{name} {}", role.name()))).await?)
             })?;
             print(&format!("Members of {name} are {} from now on.", role.name()));
         }
         cli::Group::Join(Members { name, users, database }) => {
             at(&database.path, async |store| {
+                let group = found(store, name).await?;
                 for user in users {
-                    match store.join_group(name, user, None).await {
+                    let member = users::found(store, user).await?;
+                    match store.join_group(&group.id, &member.id, None).await {
                         Err(StoreError::NotFound(Missing::User)) => {
                             return Err(users::none(store, user).await?);
                         }
@@ -58,20 +61,12 @@ pub fn group(command: &cli::Group) -> Result<(), PeopleError> {
         }
         cli::Group::Leave(Members { name, users, database }) => {
             at(&database.path, async |store| {
+                let Group { id, name: group, members, .. } = found(store, name).await?;
                 for user in users {
-                    if !store.leave_group(name, user, None).await? {
-                        let groups = store.groups().await?;
-                        let Some(group) = groups.iter().find(|group| folded(&group.name) == folded(name))
-                        else {
-                            return Err(none(store, name).await?);
-                        };
-                        let (group, user) = (group.name.clone(), user.clone());
-                        let members = groups
-                            .iter()
-                            .filter(|other| other.name == group)
-                            .flat_map(|group| &group.members);
-                        let hint = asked_for(&user, members.map(String::as_str));
-                        return Err(PeopleError::NoMember { group, user, hint });
+                    let member = store.user(user).await?.map(|user| user.id).unwrap_or_default();
+                    if !store.leave_group(&id, &member, None).await? {
+                        let hint = asked_for(user, members.iter().map(String::as_str));
+                        return Err(PeopleError::NoMember { group, user: user.clone(), hint });
                     }
                     store.note(Event::at_machine("group-leave", &format!("{name} {user}"))).await?;
                 }
@@ -81,7 +76,8 @@ pub fn group(command: &cli::Group) -> Result<(), PeopleError> {
         }
         cli::Group::Remove(NamedGroup { name, database }) => {
             at(&database.path, async |store| {
-                found(store, store.remove_group(name, None).await?, name).await?;
+                let group = found(store, name).await?;
+                is_there(store, store.remove_group(&group.id, None).await?, name).await?;
                 Ok(store.note(Event::at_machine("group-remove", name)).await?)
             })?;
             print(&format!(
@@ -96,8 +92,16 @@ fn are(users: &[String]) -> String {
     format!("{} {}", users.join(", "), if users.len() == 1 { "is" } else { "are" })
 }
 
-async fn found(store: &SqliteStore, is_there: bool, name: &str) -> Result<(), PeopleError> {
+async fn is_there(store: &SqliteStore, is_there: bool, name: &str) -> Result<(), PeopleError> {
     if is_there { Ok(()) } else { Err(none(store, name).await?) }
+}
+
+/// The group that goes by a name.
+async fn found(store: &SqliteStore, name: &str) -> Result<Group, PeopleError> {
+    match store.groups().await?.into_iter().find(|group| folded(&group.name) == folded(name)) {
+        Some(group) => Ok(group),
+        None => Err(none(store, name).await?),
+    }
 }
 
 /// There is no group of a name; which may have been meant is told.

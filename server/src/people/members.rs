@@ -22,7 +22,8 @@ pub fn member(command: &cli::Member) -> Result<(), PeopleError> {
                     Err(StoreError::NotFound(Missing::Group)) => return Err(groups::none(store, name).await?),
                     given => given?,
                 }
-                store.note(Event::at_machine("give", &format!("{called} {name}"))).await?;
+                let noted = format!("{called} {name} {}", role.name());
+                store.note(Event::at_machine("give", &noted)).await?;
                 Ok(called)
             })?;
             print(&format!("{name} is {} of {called} from now on.", role.name()));
@@ -40,12 +41,14 @@ pub fn member(command: &cli::Member) -> Result<(), PeopleError> {
         cli::Member::Remove(RemovedMember { shared, name, group }) => {
             let called = at(&shared.database.path, async |store| {
                 let (id, called) = found(store, shared).await?;
-                let was_given = match store.take_back(gift(shared, &id), &receiver(name, *group)).await {
-                    Err(StoreError::NotFound(Missing::User | Missing::Group)) => false,
-                    taken => taken?,
+                let given = store.given(gift(shared, &id)).await?;
+                let to = receiver(name, *group);
+                let from = given.iter().find(|given| given.to.is_called(&to));
+                let was_given = match from {
+                    Some(from) => store.take_back(gift(shared, &id), &from.id).await?,
+                    None => false,
                 };
                 if !was_given {
-                    let given = store.given(gift(shared, &id)).await?;
                     let hint = asked_for(name, given.iter().map(|given| given.to.name()));
                     return Err(PeopleError::NotGiven { what: called, name: name.clone(), hint });
                 }

@@ -30,7 +30,7 @@ pub fn user(command: &cli::User) -> Result<(), PeopleError> {
                     Err(StoreError::Taken) => return Err(PeopleError::Taken(name.clone())),
                     added => added?,
                 }
-                Ok(store.note(Event::at_machine("user-add", name)).await?)
+                Ok(store.note(Event::at_machine("user-add", &format!("{name} {}", role.name()))).await?)
             })?;
             print(&format!("{name} can log in: {}.", role.name()));
         }
@@ -42,21 +42,25 @@ pub fn user(command: &cli::User) -> Result<(), PeopleError> {
             }
         }
         cli::User::Passwd(NamedUser { name, database }) => {
-            known(&database.path, name)?;
+            // Nobody types a password for a name that is mistyped.
+            at(&database.path, async |store| found(store, name).await)?;
             let password = UserChange::password(read_password()?);
-            change(&database.path, "user-passwd", name, password, true)?;
+            change(&database.path, ("user-passwd", name), name, password, true)?;
             print(&format!("{name} has another password, and is logged in nowhere."));
         }
         cli::User::Role(RoleOfUser { name, role, force, database }) => {
-            change(&database.path, "user-role", name, UserChange::role(*role), *force)?;
+            let noted = format!("{name} {}", role.name());
+            change(&database.path, ("user-role", &noted), name, UserChange::role(*role), *force)?;
             print(&format!("{name} is {} from now on.", role.name()));
         }
         cli::User::Remove(RemovedUser { name, force, database }) => {
             at(&database.path, async |store| {
                 let terms = Terms { expected: None, force: *force };
-                match store.remove_user(name, terms).await {
-                    Err(error) => return Err(last(store, error, name).await),
-                    Ok(is_there) => found(store, is_there, name).await?,
+                let user = found(store, name).await?;
+                match store.remove_user(&user.id, terms).await {
+                    Err(error) => return Err(last(error, user)),
+                    Ok(false) => return Err(none(store, name).await?),
+                    Ok(true) => {}
                 }
                 Ok(store.note(Event::at_machine("user-remove", name)).await?)
             })?;
@@ -66,37 +70,39 @@ pub fn user(command: &cli::User) -> Result<(), PeopleError> {
     Ok(())
 }
 
-/// Nobody types a password for a name that is mistyped.
-fn known(database: &Path, name: &str) -> Result<(), PeopleError> {
-    at(database, async |store| found(store, store.user(name).await?.is_some(), name).await)
-}
-
+/// Changes somebody; with how the list of what was done calls it, and what it says of it.
 fn change(
     database: &Path,
-    action: &str,
+    (action, noted): (&str, &str),
     name: &str,
     change: UserChange,
     force: bool,
 ) -> Result<(), PeopleError> {
     at(database, async |store| {
-        match store.change_user(name, change, Terms { expected: None, force }).await {
-            Err(error) => return Err(last(store, error, name).await),
-            Ok(is_there) => found(store, is_there, name).await?,
+        let user = found(store, name).await?;
+        match store.change_user(&user.id, change, Terms { expected: None, force }).await {
+            Err(error) => return Err(last(error, user)),
+            Ok(false) => return Err(none(store, name).await?),
+            Ok(true) => {}
         }
-        Ok(store.note(Event::at_machine(action, name)).await?)
+        Ok(store.note(Event::at_machine(action, noted)).await?)
     })
 }
 
 /// Why somebody was not changed, who is called as they were added.
-async fn last(store: &SqliteStore, error: StoreError, name: &str) -> PeopleError {
-    match (error, store.user(name).await) {
-        (StoreError::LastAdmin, Ok(Some(user))) => PeopleError::LastAdmin(user.name),
-        (error, _) => error.into(),
+fn last(error: StoreError, user: User) -> PeopleError {
+    match error {
+        StoreError::LastAdmin => PeopleError::LastAdmin(user.name),
+        error => error.into(),
     }
 }
 
-async fn found(store: &SqliteStore, is_there: bool, name: &str) -> Result<(), PeopleError> {
-    if is_there { Ok(()) } else { Err(none(store, name).await?) }
+/// Whoever goes by a name.
+pub(super) async fn found(store: &SqliteStore, name: &str) -> Result<User, PeopleError> {
+    match store.user(name).await? {
+        Some(user) => Ok(user),
+        None => Err(none(store, name).await?),
+    }
 }
 
 /// Nobody goes by a name; who may have been meant is told.

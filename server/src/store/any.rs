@@ -221,6 +221,10 @@ impl Passes for AnyStore {
         delegate!(self.add_pass(hash, pass))
     }
 
+    async fn add_pass_up_to(&self, most: u32, hash: SecretHash, pass: Pass) -> Result<(), StoreError> {
+        delegate!(self.add_pass_up_to(most, hash, pass))
+    }
+
     async fn pass(&self, hash: SecretHash, now: &str) -> Result<Option<Pass>, StoreError> {
         delegate!(self.pass(hash, now))
     }
@@ -348,8 +352,8 @@ impl Standings for AnyStore {
         delegate!(self.let_back(id))
     }
 
-    async fn hand_over(&self, tree: &str, to: Option<Heir>) -> Result<bool, StoreError> {
-        delegate!(self.hand_over(tree, to))
+    async fn hand_over(&self, tree: &str, to: Option<Heir>, by: Option<&str>) -> Result<bool, StoreError> {
+        delegate!(self.hand_over(tree, to, by))
     }
 
     async fn heir_of(&self, tree: &str) -> Result<Option<Heir>, StoreError> {
@@ -398,12 +402,12 @@ impl Users for AnyStore {
         delegate!(self.users())
     }
 
-    async fn change_user(&self, name: &str, change: UserChange, terms: Terms) -> Result<bool, StoreError> {
-        delegate!(self.change_user(name, change, terms))
+    async fn change_user(&self, id: &str, change: UserChange, terms: Terms) -> Result<bool, StoreError> {
+        delegate!(self.change_user(id, change, terms))
     }
 
-    async fn remove_user(&self, name: &str, terms: Terms) -> Result<bool, StoreError> {
-        delegate!(self.remove_user(name, terms))
+    async fn remove_user(&self, id: &str, terms: Terms) -> Result<bool, StoreError> {
+        delegate!(self.remove_user(id, terms))
     }
 }
 
@@ -418,23 +422,23 @@ impl Groups for AnyStore {
 
     async fn change_group(
         &self,
-        name: &str,
+        id: &str,
         change: GroupChange,
         expected: Option<u64>,
     ) -> Result<bool, StoreError> {
-        delegate!(self.change_group(name, change, expected))
+        delegate!(self.change_group(id, change, expected))
     }
 
-    async fn remove_group(&self, name: &str, expected: Option<u64>) -> Result<bool, StoreError> {
-        delegate!(self.remove_group(name, expected))
+    async fn remove_group(&self, id: &str, expected: Option<u64>) -> Result<bool, StoreError> {
+        delegate!(self.remove_group(id, expected))
     }
 
-    async fn join_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<(), StoreError> {
-        delegate!(self.join_group(name, user, expected))
+    async fn join_group(&self, id: &str, user: &str, expected: Option<u64>) -> Result<(), StoreError> {
+        delegate!(self.join_group(id, user, expected))
     }
 
-    async fn leave_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<bool, StoreError> {
-        delegate!(self.leave_group(name, user, expected))
+    async fn leave_group(&self, id: &str, user: &str, expected: Option<u64>) -> Result<bool, StoreError> {
+        delegate!(self.leave_group(id, user, expected))
     }
 }
 
@@ -443,8 +447,8 @@ impl Gifts for AnyStore {
         delegate!(self.give(what, to, role))
     }
 
-    async fn take_back(&self, what: Gift<'_>, to: &Receiver) -> Result<bool, StoreError> {
-        delegate!(self.take_back(what, to))
+    async fn take_back(&self, what: Gift<'_>, from: &str) -> Result<bool, StoreError> {
+        delegate!(self.take_back(what, from))
     }
 
     async fn given(&self, what: Gift<'_>) -> Result<Vec<Given>, StoreError> {

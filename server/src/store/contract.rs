@@ -46,15 +46,17 @@ use self::library::{
 };
 use self::locks::a_tree_is_locked_with_its_sessions;
 use self::passes::{
-    a_pass_for_a_tree_goes_with_it, a_pass_may_allow_something_else, one_of_those_who_take_a_pass_has_it,
-    passes_are_listed_by_kind, passes_let_in_until_they_expire,
+    a_pass_for_a_tree_goes_with_it, a_pass_may_allow_something_else,
+    as_many_are_made_at_once_as_there_may_be, one_of_those_who_take_a_pass_has_it, passes_are_listed_by_kind,
+    passes_let_in_until_they_expire,
 };
 use self::standings::{
     a_tree_is_handed_over_with_its_sessions, who_is_kept_out_of_a_tree_is_kept_out_of_its_sessions,
 };
 use self::users::{
     a_login_has_the_role_of_its_user, a_name_is_one_person, a_token_may_what_whoever_holds_it_may,
-    a_user_changes_at_a_revision, the_last_administrator_stays, under_another_name_one_is_the_same,
+    a_user_changes_at_a_revision, nothing_is_left_to_a_namesake, the_last_administrator_stays,
+    under_another_name_one_is_the_same,
 };
 use self::visits::{
     pages_hold_each_session_once, sessions_are_listed_to_who_was_in_them, sessions_are_taken_off_lists,
@@ -152,11 +154,13 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         one_of_those_who_take_a_pass_has_it,
         passes_are_listed_by_kind,
         a_pass_may_allow_something_else,
+        as_many_are_made_at_once_as_there_may_be,
         a_pass_for_a_tree_goes_with_it,
         a_name_is_one_person,
         a_login_has_the_role_of_its_user,
         the_last_administrator_stays,
         a_user_changes_at_a_revision,
+        nothing_is_left_to_a_namesake,
         under_another_name_one_is_the_same,
         a_token_may_what_whoever_holds_it_may,
         groups_are_listed_with_their_members,

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use espalier_proto::access::Role;
 
-use super::{Room, StoreError};
+use super::{Room, StoreError, folded};
 
 /// Keeps what is given to whom. Who is given a collection is given the trees that lie in it, and in the collections that
 /// lie there.
@@ -13,8 +13,8 @@ pub trait Gifts {
     /// the user or the group is not there.
     async fn give(&self, what: Gift<'_>, to: &Receiver, role: Role) -> Result<(), StoreError>;
 
-    /// Takes it back; whether they had it.
-    async fn take_back(&self, what: Gift<'_>, to: &Receiver) -> Result<bool, StoreError>;
+    /// Takes it back from the user or the group with this identifier; whether they had it.
+    async fn take_back(&self, what: Gift<'_>, from: &str) -> Result<bool, StoreError>;
 
     /// To whom it was given itself: groups first, by name.
     async fn given(&self, what: Gift<'_>) -> Result<Vec<Given>, StoreError>;
@@ -53,6 +53,12 @@ impl Receiver {
         match self {
             Self::Group(name) | Self::User(name) => name,
         }
+    }
+
+    /// Whether they are of the same kind and have the same name, as names are compared.
+    pub fn is_called(&self, other: &Self) -> bool {
+        let is_same_kind = std::mem::discriminant(self) == std::mem::discriminant(other);
+        is_same_kind && folded(self.name()) == folded(other.name())
     }
 }
 

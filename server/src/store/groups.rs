@@ -13,22 +13,23 @@ pub trait Groups {
     /// All of them, by name, each with its members, by name.
     async fn groups(&self) -> Result<Vec<Group>, StoreError>;
 
-    /// Changes the group that goes by a name; whether it is there.
+    /// Changes the group with this identifier; whether it is there.
     async fn change_group(
         &self,
-        name: &str,
+        id: &str,
         change: GroupChange,
         expected: Option<u64>,
     ) -> Result<bool, StoreError>;
 
     /// Removes a group, not its members; whether it was there.
-    async fn remove_group(&self, name: &str, expected: Option<u64>) -> Result<bool, StoreError>;
+    async fn remove_group(&self, id: &str, expected: Option<u64>) -> Result<bool, StoreError>;
 
-    /// Makes a user a member, who may be one already; [`StoreError::NotFound`] where there is no such group or user.
-    async fn join_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<(), StoreError>;
+    /// Makes a user a member, who may be one already, both by their identifiers; [`StoreError::NotFound`] where there is no
+    /// such group or user.
+    async fn join_group(&self, id: &str, user: &str, expected: Option<u64>) -> Result<(), StoreError>;
 
     /// Makes a user a member no longer; whether they were one.
-    async fn leave_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<bool, StoreError>;
+    async fn leave_group(&self, id: &str, user: &str, expected: Option<u64>) -> Result<bool, StoreError>;
 }
 
 /// Users who have a role together.

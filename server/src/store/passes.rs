@@ -11,6 +11,10 @@ pub trait Passes {
     /// name.
     async fn add_pass(&self, hash: SecretHash, pass: Pass) -> Result<(), StoreError>;
 
+    /// The same with a token, or an invitation to a tree, where there are fewer than so many like it when it is made: tokens
+    /// of the same holder, or what lets in for the same tree. Else it is [`StoreError::Full`].
+    async fn add_pass_up_to(&self, most: u32, hash: SecretHash, pass: Pass) -> Result<(), StoreError>;
+
     /// The pass with this secret, unless it has expired.
     async fn pass(&self, hash: SecretHash, now: &str) -> Result<Option<Pass>, StoreError>;
 

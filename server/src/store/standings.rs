@@ -32,8 +32,9 @@ pub trait Standings {
     /// Somebody is kept out no longer; whether they were.
     async fn let_back(&self, id: &str) -> Result<bool, StoreError>;
 
-    /// A tree is handed over to somebody, or to nobody; whether the tree is there.
-    async fn hand_over(&self, tree: &str, to: Option<Heir>) -> Result<bool, StoreError>;
+    /// A tree is handed over to somebody, or to nobody, `by` somebody alone while they have it, if that is said; whether
+    /// it was.
+    async fn hand_over(&self, tree: &str, to: Option<Heir>, by: Option<&str>) -> Result<bool, StoreError>;
 
     /// To whom a tree was handed over.
     async fn heir_of(&self, tree: &str) -> Result<Option<Heir>, StoreError>;

@@ -18,18 +18,23 @@ pub trait Users {
     /// All of them, by name.
     async fn users(&self) -> Result<Vec<User>, StoreError>;
 
-    /// Changes whoever goes by a name; whether they are there. Whom something counts for is the same person under another
-    /// name.
-    async fn change_user(&self, name: &str, change: UserChange, terms: Terms) -> Result<bool, StoreError>;
+    /// Changes the user with this identifier, who may have another name by now; whether they are there. Whom something
+    /// counts for is the same person under another name.
+    async fn change_user(&self, id: &str, change: UserChange, terms: Terms) -> Result<bool, StoreError>;
 
-    /// Removes somebody with all their logins and tokens, what sessions they were in, and what they have read; whether they
-    /// were there.
-    async fn remove_user(&self, name: &str, terms: Terms) -> Result<bool, StoreError>;
+    /// Removes the user with this identifier, with all their logins and tokens, what sessions they were in, and what they
+    /// have read; whether they were there. What they have saved and said stays, and is nobody's who gets their name.
+    async fn remove_user(&self, id: &str, terms: Terms) -> Result<bool, StoreError>;
 }
 
 /// Whom what a user does counts for, by their name.
 pub fn person_of(user: &str) -> String {
     format!("login {}", folded(user))
+}
+
+/// Whom it counts for that somebody did who was removed: nobody who is let in.
+pub(super) fn person_removed(id: &str) -> String {
+    format!("removed {id}")
 }
 
 /// What a comment says, as JSON, with somebody mentioned as another person. What is no such JSON stays as it is.

@@ -168,9 +168,11 @@ async fn ac18_a_tree_is_handed_on_while_people_are_connected() {
     assert_eq!(hand(&ann, number).json(), json!({ "name": "Bo" }));
     assert_eq!(role(&mut bos).await, "owner");
     assert_eq!(ask(&server, "PUT", &format!("/api/v1/trees/{tree}/lock"), &bo, "").status, 200);
+    assert_eq!(hand(&bo, number).json()["field"], "person", "nobody hands a tree over to themselves");
     let number = number_of(&mut bos, "Cy").await;
     assert_eq!(hand(&bo, number).json(), json!({ "name": "Cy" }));
     assert_eq!(role(&mut bos).await, "commenter", "what an editor may with a locked tree (AC16)");
+    assert_eq!(hand(&bo, number).status, 403, "they have it no longer");
     assert_eq!(role(&mut cys).await, "owner");
     assert_eq!(ask(&server, "DELETE", &format!("/api/v1/trees/{tree}/lock"), &bo, "").status, 403);
     assert_eq!(ask(&server, "DELETE", &owner, &ann, "").json(), json!({}), "owners of all trees stay so");

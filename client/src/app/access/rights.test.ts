@@ -37,6 +37,18 @@ it.each([
   expect(rightsOf(new Rights(store(kept))), "the next page knows it from the start").toEqual(may);
 });
 
+it.each([
+  [{ role: "editor", way: "login" }, [true, true]],
+  [{ role: "none", way: "login" }, [true, false]],
+  [{ role: "none", way: "device" }, [false, false]],
+  [{ role: "viewer", way: "device", tree: "ash" }, [false, false]],
+] as const)("AC21: %j ends programs of their own, and makes them", async (me, may) => {
+  vi.stubGlobal("fetch", async () => new Response(JSON.stringify(me)));
+  const rights = new Rights(store());
+  await rights.ask();
+  expect([rights.mayOwnTokens, rights.mayMakeTokens]).toEqual(may);
+});
+
 it("AC18: what one may with the open tree is told apart from what one may elsewhere", async () => {
   vi.stubGlobal("fetch", async () => new Response(JSON.stringify({ role: "editor", way: "login" })));
   const kept = {};

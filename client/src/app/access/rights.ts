@@ -59,9 +59,15 @@ export class Rights {
     return may(this.#everywhere, "ChangePeople") && this.onlyTree.value === null;
   }
 
-  /** Whether they may let programs act as themselves, and change their own password (`AC21`). */
+  /** Whether they have programs that act as themselves, or had some, and perhaps a password of their own (`AC21`). */
   get mayOwnTokens(): boolean {
-    return may(this.#everywhere, "OwnTokens") && this.onlyTree.value === null;
+    const isUser = this.me.value?.way === "login";
+    return (isUser || may(this.#everywhere, "OwnTokens")) && this.onlyTree.value === null;
+  }
+
+  /** Whether they may let one more program act as themselves. */
+  get mayMakeTokens(): boolean {
+    return may(this.#everywhere, "MakeToken") && this.onlyTree.value === null;
   }
 
   /** Whether they may see how the server is (`SV2`). */

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     access::password::Password,
-    store::{GroupChange, Groups, Terms, UserChange, Users},
+    store::{GroupChange, Groups, Terms, User, UserChange, Users},
 };
 
 async fn with_ada(role: Role) -> (Router, Arc<AnyStore>) {
@@ -57,7 +57,7 @@ async fn ac9_whoever_has_the_password_is_in_until_they_log_out() {
     assert_eq!(answer.status(), StatusCode::OK);
     let cookie = cookie_of(&answer);
     assert_eq!(me(&server, &cookie).await, json!({ "role": "editor", "way": "login", "name": "Ada" }));
-    store.change_user("Ada", UserChange::role(Role::Viewer), Terms::default()).await.unwrap();
+    store.change_user("key of Ada", UserChange::role(Role::Viewer), Terms::default()).await.unwrap();
     assert_eq!(me(&server, &cookie).await["role"], "viewer", "at once");
 
     let out = from_afar(&Method::POST, "/api/v1/logout", AFAR).header(header::COOKIE, &cookie);
@@ -73,12 +73,57 @@ async fn ac9_another_password_or_none_ends_logins() {
     let (server, store) = with_ada(Role::Owner).await;
     let cookie = cookie_of(&log_in(&server, "Ada", "correct horse", AFAR).await);
     let another = Password::parse("battery staple").unwrap().kept().unwrap();
-    store.change_user("Ada", UserChange::password(another), Terms::default()).await.unwrap();
+    store.change_user("key of Ada", UserChange::password(another), Terms::default()).await.unwrap();
     assert_eq!(me(&server, &cookie).await["reason"], "not-let-in");
     let cookie = cookie_of(&log_in(&server, "Ada", "battery staple", AFAR).await);
     assert_eq!(me(&server, &cookie).await["role"], "owner");
-    store.remove_user("Ada", Terms::default()).await.unwrap();
+    store.remove_user("key of Ada", Terms::default()).await.unwrap();
     assert_eq!(me(&server, &cookie).await["reason"], "not-let-in");
+}
+
+/// Whoever has the name after somebody who was removed is somebody else.
+#[tokio::test]
+async fn ac9_a_login_is_that_of_a_user_and_not_of_a_name() {
+    let shared = shared().await;
+    let (server, store) = (router(shared.clone()), Arc::clone(&shared.store));
+    let password = Password::parse("correct horse").unwrap().kept().unwrap();
+    store.add_user(user("Ada", Role::Owner, password.clone())).await.unwrap();
+    let cookie = cookie_of(&log_in(&server, "Ada", "correct horse", AFAR).await);
+    let checked = store.user("Ada").await.unwrap().unwrap();
+    store.remove_user("key of Ada", Terms::default()).await.unwrap();
+    let namesake = User { id: "key of another".into(), ..user("Ada", Role::Admin, password) };
+    store.add_user(namesake).await.unwrap();
+    assert_eq!(me(&server, &cookie).await["reason"], "not-let-in");
+    // Neither where the password was checked before that, and the login is kept after it.
+    let late = entry::let_in(&shared, checked.clone()).await.map(drop).map_err(|failure| failure.status());
+    assert_eq!(late, Err(StatusCode::UNAUTHORIZED));
+    let login = Secret::long("").hash();
+    let late = users::change_own(&shared, checked, login, "battery staple").await;
+    assert_eq!(late.map_err(|failure| failure.status()), Err(StatusCode::UNAUTHORIZED));
+    assert!(store.passes(PassKind::Login, "2026").await.unwrap().is_empty());
+    assert_eq!(log_in(&server, "Ada", "correct horse", AFAR).await.status(), StatusCode::OK);
+}
+
+/// An administrator gives somebody another password, for the one until now is known to others: who has just typed that
+/// comes in no longer, nor sets a third one.
+#[tokio::test]
+async fn ac19_another_password_counts_also_for_who_has_just_typed_the_one_before() {
+    let shared = shared().await;
+    let store = Arc::clone(&shared.store);
+    let kept = |text: &str| Password::parse(text).unwrap().kept().unwrap();
+    store.add_user(user("Ada", Role::Owner, kept("correct horse"))).await.unwrap();
+    let (_, pass) = entry::let_in(&shared, store.user("Ada").await.unwrap().unwrap()).await.unwrap();
+    assert_eq!(store.passes(PassKind::Login, "2026").await.unwrap()[0].id, pass.id);
+    let checked = store.user("Ada").await.unwrap().unwrap();
+    let reset = UserChange::password(kept("battery staple"));
+    assert!(store.change_user("key of Ada", reset, Terms::default()).await.unwrap());
+    let late = entry::let_in(&shared, checked.clone()).await.map(drop).map_err(|failure| failure.status());
+    assert_eq!(late, Err(StatusCode::UNAUTHORIZED));
+    assert!(store.passes(PassKind::Login, "2026").await.unwrap().is_empty(), "none is kept");
+    let late = users::change_own(&shared, checked, Secret::long("").hash(), "a third one").await;
+    assert_eq!(late.map_err(|failure| failure.status()), Err(StatusCode::PRECONDITION_FAILED));
+    let now = store.user("Ada").await.unwrap();
+    assert!(shared.passwords.is_right("battery staple", now.map(|user| user.password)).await);
 }
 
 #[tokio::test]
@@ -148,15 +193,18 @@ async fn ac15_a_login_may_what_a_group_of_its_user_may() {
     };
     assert_eq!(delete("oak").await, StatusCode::FORBIDDEN);
     store.add_group(group("Studio", Role::Owner)).await.unwrap();
-    store.join_group("Studio", "Ada", None).await.unwrap();
+    store.join_group("key of Studio", "key of Ada", None).await.unwrap();
     assert_eq!(me(&server, &cookie).await["role"], "owner", "at once");
     assert_eq!(delete("oak").await, StatusCode::NOT_FOUND, "they may, but there is none");
-    store.change_group("Studio", GroupChange { role: Some(Role::Editor), name: None }, None).await.unwrap();
+    store
+        .change_group("key of Studio", GroupChange { role: Some(Role::Editor), name: None }, None)
+        .await
+        .unwrap();
     assert_eq!(delete("oak").await, StatusCode::FORBIDDEN);
     // Who comes in while in a group has its role as well.
     let again = cookie_of(&log_in(&server, "Ada", "correct horse", AFAR).await);
     assert_eq!(me(&server, &again).await["role"], "editor");
-    store.leave_group("Studio", "Ada", None).await.unwrap();
+    store.leave_group("key of Studio", "key of Ada", None).await.unwrap();
     assert_eq!(me(&server, &cookie).await["role"], "viewer");
 }
 

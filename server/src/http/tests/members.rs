@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     access::password::Password,
-    store::{Groups, TreeChange, Users},
+    store::{Groups, Heir, Standings, TreeChange, Users},
 };
 
 /// A server with users who have no role there.
@@ -121,7 +121,7 @@ async fn ac22_a_collection_is_given_to_a_group_with_what_lies_in_it() {
     let (server, store) = with_users(&["Ada"]).await;
     put_in_wood(&store, "ash").await;
     store.add_group(group("Studio", Role::None)).await.unwrap();
-    store.join_group("Studio", "Ada", None).await.unwrap();
+    store.join_group("key of Studio", "key of Ada", None).await.unwrap();
     let ada = server.log_in("Ada", "correct horse").await.unwrap();
     let members = "/api/v1/collections/wood/members";
     let studio = json!({ "name": "Studio", "group": true, "role": "editor" });
@@ -205,4 +205,136 @@ async fn ac22_the_greatest_role_counts_and_a_program_has_no_more_than_its_token(
         "she sees it"
     );
     assert_eq!(store.groups().await.unwrap(), []);
+}
+
+/// Who gave it can take back all of it: nothing is left to whoever had it, nor to those whom they gave it.
+#[tokio::test]
+async fn ac22_who_was_given_a_tree_to_own_gives_it_on_to_draw_with() {
+    let (server, store) = with_users(&["Ada", "Bo", "Cy"]).await;
+    store.add_group(group("Studio", Role::None)).await.unwrap();
+    store.join_group("key of Studio", "key of Ada", None).await.unwrap();
+    let ada = server.log_in("Ada", "correct horse").await.unwrap();
+    let members = "/api/v1/trees/ash/members";
+    let member = |name: &str, group: bool, role: &str| json!({ "name": name, "group": group, "role": role });
+    for name in ["Ada", "Cy"] {
+        assert_eq!(server.send(Method::POST, members, member(name, false, "owner")).await.0, 201);
+    }
+    for (name, group, role, field) in [
+        ("Bo", false, "owner", "role"),
+        ("ADA", false, "editor", "name"),
+        ("studio", true, "viewer", "name"),
+        ("Cy", false, "viewer", "name"),
+    ] {
+        let given = member(name, group, role);
+        let (status, problem, _) = server.as_user(&ada, Method::POST, members, given).await;
+        assert_eq!((status, &problem["field"]), (403, &json!(field)), "{name} {role}: {problem}");
+    }
+    assert_eq!(server.as_user(&ada, Method::POST, members, member("Bo", false, "editor")).await.0, 201);
+    assert_eq!(server.noted().await, [json!("give"), json!("ash/Bo editor")]);
+    let delete = async |who: &str, of: &str| {
+        let path = format!("{members}/key%20of%20{of}");
+        server.as_user(who, Method::DELETE, &path, Value::Null).await
+    };
+    let (status, problem, _) = delete(&ada, "Cy").await;
+    assert_eq!((status, &problem["field"]), (403, &json!("member")));
+    assert_eq!(delete(&ada, "Bo").await.0, 204);
+    assert_eq!(delete(&ada, "Ada").await.0, 204, "what is one's own can be given up");
+    assert_eq!(server.as_user(&ada, Method::GET, "/api/v1/trees/ash", Value::Null).await.0, 404);
+    let ids = server.get(members).await;
+    assert_eq!((ids.as_array().unwrap().len(), &ids[0]["name"]), (1, &json!("Cy")));
+}
+
+#[tokio::test]
+async fn ac18_who_was_given_a_tree_does_not_say_to_whom_it_is_handed_over() {
+    let (server, store) = with_users(&["Ada", "Cy"]).await;
+    let owner = json!({ "name": "Ada", "role": "owner" });
+    assert_eq!(server.send(Method::POST, "/api/v1/trees/ash/members", owner).await.0, 201);
+    let [ada, cy] = ["Ada", "Cy"].map(|name| server.log_in(name, "correct horse"));
+    let (ada, cy) = (ada.await.unwrap(), cy.await.unwrap());
+    let heir = Heir { person: "login cy".into(), name: "Cy".into() };
+    store.hand_over("ash", Some(heir.clone()), None).await.unwrap();
+    let take_back = async |who: &str| {
+        server.as_user(who, Method::DELETE, "/api/v1/sessions/ashen/owner", Value::Null).await
+    };
+    let (status, problem, _) = take_back(&ada).await;
+    assert_eq!(
+        (status, &problem["reason"], &problem["field"]),
+        (403, &json!("forbidden"), &json!("session"))
+    );
+    assert_eq!(store.heir_of("ash").await.unwrap(), Some(heir));
+    assert_eq!(take_back(&cy).await.0, 200);
+    assert_eq!(store.heir_of("ash").await.unwrap(), None);
+}
+
+/// Else they would have it by the collection when the tree is taken back.
+#[tokio::test]
+async fn ac22_who_was_given_a_tree_puts_it_into_no_collection_that_others_see() {
+    let (server, store) = with_users(&["Ada"]).await;
+    for (id, parent) in [("park", None), ("pond", Some("park".to_owned()))] {
+        let collection = Collection { id: id.into(), name: id.into(), parent, trees: 0 };
+        store.add_collection(collection).await.unwrap();
+    }
+    let owner = json!({ "name": "Ada", "role": "owner" });
+    for path in ["/api/v1/trees/ash/members", "/api/v1/collections/park/members"] {
+        assert_eq!(server.send(Method::POST, path, owner.clone()).await.0, 201);
+    }
+    let ada = server.log_in("Ada", "correct horse").await.unwrap();
+    let put = async |into: &str| {
+        let into = json!({ "collection": into });
+        server.as_user(&ada, Method::PATCH, "/api/v1/trees/ash", into).await
+    };
+    let (status, problem, _) = put("pond").await;
+    assert_eq!((status, &problem["field"]), (403, &json!("collection")));
+    assert_eq!(server.send(Method::PATCH, "/api/v1/trees/ash", json!({ "collection": "park" })).await.0, 200);
+    assert_eq!(put("pond").await.0, 200, "whoever sees it there has seen it before");
+}
+
+#[tokio::test]
+async fn ac22_names_of_users_are_guessed_slowly() {
+    let (server, _) = with_users(&["Ada", "Bo", "Cy"]).await;
+    let owner = json!({ "name": "Ada", "role": "owner" });
+    let members = "/api/v1/trees/ash/members";
+    assert_eq!(server.send(Method::POST, members, owner).await.0, 201);
+    let admin = json!({ "role": "admin" });
+    assert_eq!(server.send(Method::PATCH, "/api/v1/users/key%20of%20Cy", admin).await.0, 200);
+    let [ada, cy] = ["Ada", "Cy"].map(|name| server.log_in(name, "correct horse"));
+    let (ada, cy) = (ada.await.unwrap(), cy.await.unwrap());
+    let give = async |who: &str, name: &str| {
+        let member = json!({ "name": name, "group": name == "Choir", "role": "viewer" });
+        server.as_user(who, Method::POST, members, member).await
+    };
+    for _ in 0..25 {
+        assert_eq!(give(&ada, "Bo").await.0, 201, "who is somebody counts for nothing");
+    }
+    for name in ["Di", "Choir"].into_iter().cycle().take(20) {
+        assert_eq!(give(&ada, name).await.0, 404);
+    }
+    for name in ["Bo", "Di"] {
+        let (status, problem, _) = give(&ada, name).await;
+        let found = (status, &problem["reason"], &problem["field"]);
+        assert_eq!(found, (429, &json!("too-often"), &json!("name")), "not to be told apart");
+    }
+    for _ in 0..25 {
+        assert_eq!(give(&cy, "Di").await.0, 404, "who sees all users need not guess");
+    }
+}
+
+/// Else the people in it would work on the tree of somebody who only looks on.
+#[tokio::test]
+async fn ac22_who_only_sees_a_session_saves_it_without_taking_it_along() {
+    let (server, _) = with_users(&["Ada"]).await;
+    let give = async |tree: &str, role: &str| {
+        let member = json!({ "name": "Ada", "role": role });
+        server.send(Method::POST, &format!("/api/v1/trees/{tree}/members"), member).await.0
+    };
+    assert_eq!((give("ash", "viewer").await, give("yew", "editor").await), (201, 201));
+    let ada = server.log_in("Ada", "correct horse").await.unwrap();
+    let save = async || {
+        let body = json!({ "session": "ashen" });
+        let saved = server.as_user(&ada, Method::POST, "/api/v1/trees/yew/versions", body).await;
+        (saved.0, server.get("/api/v1/sessions/ashen").await["tree"]["id"].clone())
+    };
+    assert_eq!(save().await, (201, json!("ash")));
+    assert_eq!(give("ash", "editor").await, 201);
+    assert_eq!(save().await, (201, json!("yew")), "who may change it takes it along");
 }

@@ -86,7 +86,7 @@ async fn ac19_users_are_made_changed_and_removed() {
         (&json!("Ada"), &json!("editor"), &json!("editor"))
     );
     assert!(!ada.to_string().contains("argon2"), "{ada}");
-    assert_eq!(server.noted().await, [json!("user-add"), json!("/Ada")]);
+    assert_eq!(server.noted().await, [json!("user-add"), json!("/Ada editor")]);
     let (status, problem, _) = server
         .send(Method::POST, users, json!({ "name": "ÁDA", "role": "viewer", "password": "correct horse" }))
         .await;
@@ -108,6 +108,8 @@ async fn ac19_users_are_made_changed_and_removed() {
     let change = json!({ "name": "Ada L.", "role": "admin", "password": "battery staple" });
     let (status, changed, tag) = server.send_at(Method::PATCH, &path, "\"1\"", change).await;
     assert_eq!((status, tag.as_deref(), &changed["name"]), (200, Some("\"2\""), &json!("Ada L.")));
+    let noted = format!("{}/Ada: name Ada L., role admin, password", ada["id"].as_str().unwrap());
+    assert_eq!(server.noted().await, [json!("user-change"), json!(noted)]);
     assert_eq!(server.send(Method::PATCH, &path, json!({})).await, (200, changed, tag), "nothing changes");
     assert!(server.log_in("Ada", "correct horse").await.is_none());
     assert!(server.log_in("ada l.", "battery staple").await.is_some());
@@ -240,7 +242,7 @@ async fn ac21_a_program_acts_as_whoever_made_its_token() {
 
     // No more than it was made for, also where she may do more than elsewhere.
     let heir = Heir { person: "login ada".into(), name: "Ada".into() };
-    store.hand_over("yew", Some(heir)).await.unwrap();
+    store.hand_over("yew", Some(heir), None).await.unwrap();
     let lock = "/api/v1/trees/yew/lock";
     assert_eq!(as_program(Method::PUT, lock, Value::Null).await.0, 403);
     assert_eq!(server.as_user(&ada, Method::PUT, lock, Value::Null).await.0, 200);
@@ -312,4 +314,86 @@ async fn ik3_a_secret_is_given_once() {
     let made = server.ask(keyed(), &user).await;
     assert_eq!(server.ask(keyed(), &user).await, made);
     assert_eq!(server.get("/api/v1/users").await.as_array().unwrap().len(), 1);
+}
+
+/// Whoever may do nothing any more still ends what lets others in as them.
+#[tokio::test]
+async fn ac21_who_has_no_role_any_more_revokes_their_tokens_and_has_another_password() {
+    let (server, store) = server().await;
+    let server = Asking(server);
+    let password = Password::parse("correct horse").unwrap().kept().unwrap();
+    store.add_user(user("Ada", Role::Editor, password)).await.unwrap();
+    let ada = server.log_in("Ada", "correct horse").await.unwrap();
+    let tokens = "/api/v1/tokens";
+    let new = json!({ "name": "farm", "role": "viewer" });
+    let made = server.as_user(&ada, Method::POST, tokens, new.clone()).await.1;
+    let none = json!({ "role": "none" });
+    assert_eq!(server.send(Method::PATCH, "/api/v1/users/key%20of%20Ada", none).await.0, 200);
+    let listed = server.as_user(&ada, Method::GET, tokens, Value::Null).await.1;
+    assert_eq!(listed[0]["id"], made["id"], "{listed}");
+    let own = format!("{tokens}/{}", made["id"].as_str().unwrap());
+    assert_eq!(server.as_user(&ada, Method::DELETE, &own, Value::Null).await.0, 204);
+    assert_eq!(server.as_user(&ada, Method::POST, tokens, new).await.0, 403);
+    let change = json!({ "old": "correct horse", "new": "battery staple" });
+    assert_eq!(server.as_user(&ada, Method::PUT, "/api/v1/me/password", change).await.0, 204);
+}
+
+#[tokio::test]
+async fn ac21_somebody_has_a_hundred_tokens_at_most() {
+    let (server, _) = server().await;
+    let server = Asking(server);
+    let new = json!({ "name": "farm", "role": "viewer" });
+    for _ in 0..100 {
+        assert_eq!(server.send(Method::POST, "/api/v1/tokens", new.clone()).await.0, 201);
+    }
+    let (_, problem, _) = server.send(Method::POST, "/api/v1/tokens", new).await;
+    assert_eq!((&problem["reason"], &problem["field"]), (&json!("too-many"), &json!("name")));
+}
+
+#[tokio::test]
+async fn ac10_nobody_fills_the_list_of_what_was_done_alone() {
+    let (server, store) = server().await;
+    let server = Asking(server);
+    let password = Password::parse("correct horse").unwrap().kept().unwrap();
+    for (name, role) in [("Ada", Role::Editor), ("Bo", Role::Owner)] {
+        store.add_user(user(name, role, password.clone())).await.unwrap();
+    }
+    let [ada, bo] = ["Ada", "Bo"].map(|name| server.log_in(name, "correct horse"));
+    let (ada, bo) = (ada.await.unwrap(), bo.await.unwrap());
+    let make = async |who: &str| {
+        let asked = from_afar(&Method::POST, "/api/v1/tokens").header(header::COOKIE, who);
+        let new = json!({ "name": "farm", "role": "viewer" });
+        server.ask(asked, &new).await
+    };
+    let revoke = async |who: &str, made: Value| {
+        let own = format!("/api/v1/tokens/{}", made["id"].as_str().unwrap());
+        server.as_user(who, Method::DELETE, &own, Value::Null).await.0
+    };
+    for who in [&ada, &bo] {
+        for _ in 0..30 {
+            let (status, made, _) = make(who).await;
+            assert_eq!((status, revoke(who, made).await), (201, 204));
+        }
+        let (status, problem, _) = make(who).await;
+        assert_eq!(
+            (status, &problem["reason"], &problem["field"]),
+            (429, &json!("too-often"), &json!("path"))
+        );
+        assert_eq!(server.as_user(who, Method::GET, "/api/v1/tokens", Value::Null).await.0, 200);
+    }
+    let asked = from_afar(&Method::POST, "/api/v1/tokens").header(header::COOKIE, &ada);
+    let asked = asked.header(header::CONTENT_TYPE, "application/json");
+    let new = Body::from(r#"{"name":"farm","role":"viewer"}"#);
+    let answer = server.0.clone().oneshot(asked.body(new).unwrap()).await.unwrap();
+    let wait: u64 = answer.headers()[header::RETRY_AFTER].to_str().unwrap().parse().unwrap();
+    assert!((1..=600).contains(&wait), "{wait}");
+    // All of it counts together, but for whoever owns all trees.
+    let restore = "/api/v1/trees/ash/versions/1/restore";
+    assert_eq!(server.as_user(&ada, Method::POST, restore, json!({})).await.0, 429);
+    assert_eq!(server.as_user(&bo, Method::POST, restore, json!({})).await.0, 201);
+    // What was refused again is one entry.
+    let events = server.get("/api/v1/audit").await;
+    let refused = events.as_array().unwrap().iter().filter(|event| event["outcome"] == "429");
+    let counted: Vec<_> = refused.map(|event| (&event["action"], &event["times"])).collect();
+    assert_eq!(counted.len(), 3, "{events}");
 }

@@ -103,7 +103,7 @@ async fn ac18_to_whom_a_tree_was_handed_over_owns_it_and_no_other() {
         let [put, post] = [&Method::PUT, &Method::POST];
         assert_eq!(ask(put, "/api/v1/trees/ash/lock", "").await, 403);
         let heir = Heir { person: person_of(&store, &bo).await, name: "Bo".into() };
-        assert!(store.hand_over("ash", Some(heir)).await.unwrap());
+        assert!(store.hand_over("ash", Some(heir), None).await.unwrap());
         assert_eq!(ask(put, "/api/v1/trees/ash/lock", "").await, 200);
         let named = ask(&Method::PATCH, "/api/v1/trees/ash", r#"{"name":"Ash"}"#).await;
         assert_eq!(named, 200, "the lock of their own tree shuts them not out");

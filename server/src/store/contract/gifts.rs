@@ -39,7 +39,7 @@ async fn planted(store: &(impl Gifts + Users + Groups + Library + Finding + Stor
         store.add_user(user(name, Role::None)).await.unwrap();
     }
     store.add_group(group("Studio", Role::None, &[])).await.unwrap();
-    store.join_group("Studio", "Bo", None).await.unwrap();
+    store.join_group("key of Studio", "Bo's key", None).await.unwrap();
 }
 
 async fn put(store: &impl Library, tree: &str, collection: Option<&str>) {
@@ -107,18 +107,18 @@ pub(super) async fn a_tree_is_given_with_its_sessions(
     assert_eq!(store.given(Gift::Tree("yew")).await.unwrap(), []);
     // Under another name she has it as well; what was handed over is seen, too.
     let cy = UserChange { name: Some("Cy".into()), ..UserChange::default() };
-    assert!(store.change_user("Ada", cy, Terms::default()).await.unwrap());
+    assert!(store.change_user("Ada's key", cy, Terms::default()).await.unwrap());
     assert_eq!(
         (role(Room::Tree("ash"), "login cy").await, role(Room::Tree("ash"), ADA).await),
         (Role::Commenter, Role::None)
     );
-    store.hand_over("yew", Some(Heir { person: "login cy".into(), name: "Cy".into() })).await.unwrap();
+    store.hand_over("yew", Some(Heir { person: "login cy".into(), name: "Cy".into() }), None).await.unwrap();
     assert_eq!(seen(store, "login cy").await.0, ["ash", "yew"]);
     // Taken back, gone with the user, with the membership, or deleted with the tree.
-    assert!(store.take_back(ash, &named("cy")).await.unwrap());
-    assert!(!store.take_back(ash, &named("cy")).await.unwrap());
+    assert!(store.take_back(ash, "Ada's key").await.unwrap());
+    assert!(!store.take_back(ash, "Ada's key").await.unwrap());
     assert_eq!(role(Room::Tree("ash"), "login cy").await, Role::None);
-    assert!(store.remove_user("Bo", Terms::default()).await.unwrap());
+    assert!(store.remove_user("Bo's key", Terms::default()).await.unwrap());
     store.add_user(user("Bo", Role::None)).await.unwrap();
     assert_eq!((role(Room::Tree("ash"), BO).await, seen(store, BO).await), (Role::None, nothing));
     let deletion = Some(Deletion::Deleted("2026-06".into()));
@@ -173,11 +173,11 @@ pub(super) async fn a_collection_is_given_with_what_lies_in_it(
         (role(Room::Tree("ash"), ADA).await, role(Room::Tree("ash"), BO).await),
         (Role::Viewer, Role::Owner)
     );
-    assert!(store.leave_group("Studio", "Bo", None).await.unwrap());
+    assert!(store.leave_group("key of Studio", "Bo's key", None).await.unwrap());
     assert_eq!((role(Room::Tree("ash"), BO).await, seen(store, BO).await.0.len()), (Role::None, 0));
     // What was given goes with the collection, not with the trees.
     store.delete_collection("grove").await.unwrap();
     assert_eq!((role(Room::Tree("ash"), ADA).await, seen(store, ADA).await.0.len()), (Role::None, 0));
-    assert!(store.take_back(Gift::Collection("wood"), &named("Ada")).await.unwrap());
+    assert!(store.take_back(Gift::Collection("wood"), "Ada's key").await.unwrap());
     assert_eq!(store.collections_of(ADA).await.unwrap(), ids(&[]));
 }

@@ -3,7 +3,7 @@
 use espalier_proto::access::Role;
 
 use super::{
-    super::{Library, Missing, Pass, PassKind, Passes, StoreError},
+    super::{Holder, Library, Missing, Pass, PassKind, Passes, StoreError},
     library::tree,
 };
 use crate::access::SecretHash;
@@ -52,6 +52,36 @@ pub(super) async fn one_of_those_who_take_a_pass_has_it(store: &impl Passes) {
     assert_eq!([a, b, c].iter().filter(|&&it| it).count(), 1);
     assert_eq!(store.pass(hash(1), NOW).await.unwrap(), None);
     assert!(!taken().await);
+}
+
+pub(super) async fn as_many_are_made_at_once_as_there_may_be(store: &(impl Library + Passes)) {
+    let token = |id: &str| pass(id, PassKind::Token);
+    store.add_pass(hash(1), pass("tablet", PassKind::Device)).await.unwrap();
+    let of_tablet = |id: &str| {
+        let (name, hash) = ("Ada's tablet".into(), hash(1));
+        Pass { holder: Some(Holder::Device { id: "tablet".into(), hash, name }), ..token(id) }
+    };
+    let full = |made: Result<(), StoreError>| match made {
+        Ok(()) => false,
+        Err(StoreError::Full) => true,
+        other => panic!("{other:?}"),
+    };
+    let add = async |byte: u8, pass| full(store.add_pass_up_to(2, hash(byte), pass).await);
+    let (a, b, c) = tokio::join!(add(11, token("a")), add(12, token("b")), add(13, token("c")));
+    assert_eq!([a, b, c].iter().filter(|&&full| full).count(), 1);
+    let (a, b, c) = tokio::join!(add(21, of_tablet("d")), add(22, of_tablet("e")), add(23, of_tablet("f")));
+    assert_eq!([a, b, c].iter().filter(|&&full| full).count(), 1, "those of others count for nothing");
+    assert_eq!(store.passes(PassKind::Token, NOW).await.unwrap().len(), 4);
+    assert!(
+        !add(31, Pass { created_at: LATER.into(), ..token("g") }).await,
+        "the others have expired by then"
+    );
+    // What lets in for one tree, as an invitation and as what came of it.
+    store.add_tree(tree("ash", "2026")).await.unwrap();
+    let of_ash = |id: &str, kind| Pass { tree: Some("ash".into()), ..pass(id, kind) };
+    store.add_pass(hash(41), of_ash("h", PassKind::Device)).await.unwrap();
+    assert!(!add(42, of_ash("i", PassKind::Invitation)).await);
+    assert!(add(43, of_ash("j", PassKind::Invitation)).await);
 }
 
 pub(super) async fn a_pass_may_allow_something_else(store: &impl Passes) {

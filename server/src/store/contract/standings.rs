@@ -77,13 +77,18 @@ pub(super) async fn a_tree_is_handed_over_with_its_sessions(
     };
     let heir = |person: &str| Some(Heir { person: person.into(), name: "Bo".into() });
     assert_eq!((heirs("login bo").await, store.heir_of("ash").await.unwrap()), (vec![false; 4], None));
-    assert!(store.hand_over("ash", heir("login bo")).await.unwrap());
-    assert!(!store.hand_over("elm", heir("login bo")).await.unwrap(), "there is no such tree");
+    assert!(store.hand_over("ash", heir("login bo"), None).await.unwrap());
+    assert!(!store.hand_over("elm", heir("login bo"), None).await.unwrap(), "there is no such tree");
     assert_eq!(heirs("login bo").await, [true, true, false, false]);
     assert_eq!(store.heir_of("ash").await.unwrap(), heir("login bo"));
-    assert!(store.hand_over("ash", heir("login cy")).await.unwrap());
+    assert!(store.hand_over("ash", heir("login cy"), None).await.unwrap());
     assert_eq!((heirs("login bo").await, heirs("login cy").await[1]), (vec![false; 4], true));
-    assert!(store.hand_over("ash", None).await.unwrap());
+    for to in [heir("login bo"), None] {
+        assert!(!store.hand_over("ash", to, Some("login bo")).await.unwrap(), "they have it no longer");
+    }
+    assert!(store.hand_over("ash", heir("login cy"), Some("login cy")).await.unwrap());
+    assert_eq!(store.heir_of("ash").await.unwrap(), heir("login cy"));
+    assert!(store.hand_over("ash", None, None).await.unwrap());
     assert_eq!((heirs("login cy").await, store.heir_of("ash").await.unwrap()), (vec![false; 4], None));
     // All of it in one answer.
     store.lock_tree("ash", Some("Ann".into())).await.unwrap();

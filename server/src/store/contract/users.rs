@@ -4,9 +4,9 @@ use espalier_proto::access::Role;
 
 use super::{
     super::{
-        Authors, Comments, Finding, Group, Groups, Heir, Holder, Library, Missing, NewComment, NewSession,
-        NewTree, NewVersion, Pass, PassKind, Passes, Removal, Room, Standings, Store, StoreError, Terms,
-        TreeQuery, User, UserChange, Users, Visits, person_of,
+        Authors, Comments, Finding, Gift, Gifts, Group, Groups, Heir, Holder, Library, Missing, NewComment,
+        NewSession, NewTree, NewVersion, Pass, PassKind, Passes, Receiver, Removal, Room, Standing,
+        Standings, Store, StoreError, Terms, TreeQuery, User, UserChange, Users, Visits, person_of,
     },
     library::tree,
     passes::{LATER, NOW, hash, pass},
@@ -34,8 +34,8 @@ pub(super) async fn a_name_is_one_person(store: &impl Users) {
     assert_eq!(store.user("BO").await.unwrap(), Some(user("Bö", Role::Viewer)));
     assert_eq!(store.user("Cy").await.unwrap(), None);
     assert_eq!(store.users().await.unwrap(), [user("Ada", Role::Admin), user("Bö", Role::Viewer)]);
-    assert!(store.remove_user("ada", FORCE).await.unwrap());
-    assert!(!store.remove_user("ada", FORCE).await.unwrap());
+    assert!(store.remove_user("Ada's key", FORCE).await.unwrap());
+    assert!(!store.remove_user("Ada's key", FORCE).await.unwrap());
     assert_eq!(store.users().await.unwrap(), [user("Bö", Role::Viewer)]);
 }
 
@@ -50,16 +50,19 @@ pub(super) async fn a_login_has_the_role_of_its_user(store: &(impl Passes + User
     }
     let role = async |byte| store.pass(hash(byte), NOW).await.unwrap().map(|pass| pass.role);
     assert_eq!((role(1).await, role(2).await), (Some(Role::Viewer), Some(Role::Viewer)));
-    assert!(store.change_user("ada", UserChange::role(Role::Owner), Terms::default()).await.unwrap());
+    assert!(store.change_user("Ada's key", UserChange::role(Role::Owner), Terms::default()).await.unwrap());
     assert_eq!((role(1).await, role(2).await), (Some(Role::Owner), Some(Role::Viewer)));
-    assert!(!store.change_user("Cy", UserChange::role(Role::Owner), Terms::default()).await.unwrap());
+    assert!(!store.change_user("Cy's key", UserChange::role(Role::Owner), Terms::default()).await.unwrap());
 
     assert!(
-        store.change_user("ada", UserChange::password("another".into()), Terms::default()).await.unwrap()
+        store
+            .change_user("Ada's key", UserChange::password("another".into()), Terms::default())
+            .await
+            .unwrap()
     );
     assert_eq!(store.user("Ada").await.unwrap().unwrap().password, "another");
     assert_eq!((role(1).await, role(2).await), (None, Some(Role::Viewer)), "a new password ends logins");
-    assert!(store.remove_user("Bo", Terms::default()).await.unwrap());
+    assert!(store.remove_user("Bo's key", Terms::default()).await.unwrap());
     assert_eq!(role(2).await, None);
 }
 
@@ -69,16 +72,16 @@ pub(super) async fn the_last_administrator_stays(store: &impl Users) {
     }
     let is_last = |done: Result<bool, StoreError>| matches!(done, Err(StoreError::LastAdmin));
     let (viewer, admin) = (UserChange::role(Role::Viewer), UserChange::role(Role::Admin));
-    assert!(store.change_user("Ada", viewer.clone(), Terms::default()).await.unwrap());
+    assert!(store.change_user("Ada's key", viewer.clone(), Terms::default()).await.unwrap());
     for change in [viewer.clone(), UserChange { name: Some("Di".into()), ..viewer.clone() }] {
-        assert!(is_last(store.change_user("bo", change, Terms::default()).await));
+        assert!(is_last(store.change_user("Bo's key", change, Terms::default()).await));
     }
-    assert!(is_last(store.remove_user("bo", Terms::default()).await));
+    assert!(is_last(store.remove_user("Bo's key", Terms::default()).await));
     assert_eq!(store.user("Bo").await.unwrap(), Some(user("Bo", Role::Admin)), "nothing has changed");
-    assert!(store.change_user("Bo", admin, Terms::default()).await.unwrap());
-    assert!(store.change_user("Bo", UserChange::password("p".into()), Terms::default()).await.unwrap());
-    assert!(store.remove_user("Cy", Terms::default()).await.unwrap());
-    assert!(store.change_user("Bo", viewer, FORCE).await.unwrap());
+    assert!(store.change_user("Bo's key", admin, Terms::default()).await.unwrap());
+    assert!(store.change_user("Bo's key", UserChange::password("p".into()), Terms::default()).await.unwrap());
+    assert!(store.remove_user("Cy's key", Terms::default()).await.unwrap());
+    assert!(store.change_user("Bo's key", viewer, FORCE).await.unwrap());
     assert!(store.users().await.unwrap().iter().all(|user| user.role == Role::Viewer));
 }
 
@@ -88,13 +91,13 @@ pub(super) async fn a_user_changes_at_a_revision(store: &impl Users) {
     let at = |expected| Terms { expected: Some(expected), force: false };
     let is_stale = |done: Result<bool, StoreError>| matches!(done, Err(StoreError::Stale));
     let owner = UserChange::role(Role::Owner);
-    assert!(is_stale(store.change_user("Ada", owner.clone(), at(2)).await));
-    assert!(store.change_user("Ada", owner.clone(), at(1)).await.unwrap());
-    assert!(is_stale(store.change_user("Ada", owner, at(1)).await));
-    assert!(is_stale(store.remove_user("Ada", at(1)).await));
+    assert!(is_stale(store.change_user("Ada's key", owner.clone(), at(2)).await));
+    assert!(store.change_user("Ada's key", owner.clone(), at(1)).await.unwrap());
+    assert!(is_stale(store.change_user("Ada's key", owner, at(1)).await));
+    assert!(is_stale(store.remove_user("Ada's key", at(1)).await));
     let revisions: Vec<u64> = store.users().await.unwrap().iter().map(|user| user.revision).collect();
     assert_eq!(revisions, [2, 1]);
-    assert!(store.remove_user("Ada", at(2)).await.unwrap());
+    assert!(store.remove_user("Ada's key", at(2)).await.unwrap());
 }
 
 /// What somebody has is theirs under another name, and whoever gets the old name has none of it.
@@ -111,7 +114,7 @@ pub(super) async fn under_another_name_one_is_the_same(
     store.create_session(NewSession { name: "oak".into(), ..NewSession::default() }).await.unwrap();
     store.visit("oak", &ada).await.unwrap();
     store.set_favourite(&ada, "ash", true).await.unwrap();
-    store.hand_over("ash", Some(Heir { person: ada.clone(), name: "Ada".into() })).await.unwrap();
+    store.hand_over("ash", Some(Heir { person: ada.clone(), name: "Ada".into() }), None).await.unwrap();
     let (id, room) = ("r".into(), Room::Session("oak").written());
     let (person, name, by, until) = (ada.clone(), "Ada".into(), "Bo".into(), "9".into());
     let removal = Removal { id, room, person, name, by, until, is_revoked: false };
@@ -132,12 +135,12 @@ pub(super) async fn under_another_name_one_is_the_same(
     let (id, name, created_at, members) = ("g".into(), "Studio".into(), "2026".into(), Vec::new());
     let studio = Group { id, name, role: Role::Editor, created_at, members, revision: 1 };
     store.add_group(studio).await.unwrap();
-    store.join_group("Studio", "Ada", None).await.unwrap();
+    store.join_group("g", "Ada's key", None).await.unwrap();
 
     let called = |name: &str| UserChange { name: Some(name.into()), ..UserChange::default() };
-    let taken = store.change_user("Ada", called("BO"), Terms::default()).await;
+    let taken = store.change_user("Ada's key", called("BO"), Terms::default()).await;
     assert!(matches!(taken, Err(StoreError::Taken)));
-    assert!(store.change_user("ada", called("Cy"), Terms::default()).await.unwrap());
+    assert!(store.change_user("Ada's key", called("Cy"), Terms::default()).await.unwrap());
     let kept = store.user("Cy").await.unwrap().unwrap();
     assert_eq!((&*kept.id, &*kept.name, kept.allowed()), ("Ada's key", "Cy", Role::Editor));
     assert_eq!(store.user("Ada").await.unwrap(), None);
@@ -159,6 +162,67 @@ pub(super) async fn under_another_name_one_is_the_same(
     let expected = r#"{"mentions":[{"name":"Ada","people":["login cy"]}],"text":"login ada"}"#;
     assert_eq!((&*comment.person, &*comment.said), (&*cy, expected), "words stay as they were");
     assert_eq!(store.named_authors(std::slice::from_ref(&browser)).await.unwrap(), [named(&cy)]);
+}
+
+/// Whoever has the name after somebody who was removed finds nothing of theirs.
+pub(super) async fn nothing_is_left_to_a_namesake(
+    store: &(
+         impl Users + Groups + Gifts + Passes + Visits + Finding + Standings + Comments + Library + Authors + Store
+     ),
+) {
+    store.add_user(user("Ada", Role::Viewer)).await.unwrap();
+    let ada = person_of("Ada");
+    let NewTree { version, .. } = tree("ash", NOW);
+    let version = NewVersion { principal: ada.clone(), ..version };
+    store.add_tree(NewTree { version, ..tree("ash", NOW) }).await.unwrap();
+    store.create_session(NewSession { name: "oak".into(), ..NewSession::default() }).await.unwrap();
+    store.visit("oak", &ada).await.unwrap();
+    store.set_favourite(&ada, "ash", true).await.unwrap();
+    store.hand_over("ash", Some(Heir { person: ada.clone(), name: "Ada".into() }), None).await.unwrap();
+    store.give(Gift::Tree("ash"), &Receiver::User("Ada".into()), Role::Editor).await.unwrap();
+    let (id, room) = ("r".into(), Room::Session("oak").written());
+    let (name, by, until) = ("Ada".into(), "Bo".into(), "9".into());
+    let removal = Removal { id, room, person: ada.clone(), name, by, until, is_revoked: false };
+    store.keep_out(removal, NOW).await.unwrap();
+    let said = r#"{"mentions":[{"name":"Ada","people":["login ada"]}],"text":"login ada"}"#;
+    let (person, author, written_at) = (ada.clone(), "Ada".into(), NOW.into());
+    let comment = NewComment { person, author, written_at, said: said.into(), picture: None };
+    store.add_thread("ash", None, comment).await.unwrap();
+    store.see_thread("ash", &ada, 1, 1).await.unwrap();
+    let browser = espalier_session::Principal::client("browser-1").unwrap();
+    let (author, name) = (browser.clone(), "Ada".into());
+    let named = espalier_session::Named { author, person: Some(ada.as_str().into()), name };
+    store.name_author(&named, NOW).await.unwrap();
+    store.add_pass(hash(1), login_of("Ada", "login")).await.unwrap();
+    let (id, name, created_at, members) = ("g".into(), "Studio".into(), "2026".into(), Vec::new());
+    let studio = Group { id, name, role: Role::Editor, created_at, members, revision: 1 };
+    store.add_group(studio).await.unwrap();
+    store.join_group("g", "Ada's key", None).await.unwrap();
+
+    assert!(store.remove_user("Ada's key", Terms::default()).await.unwrap());
+    let namesake = User { id: "another key".into(), ..user("Ada", Role::Viewer) };
+    store.add_user(namesake.clone()).await.unwrap();
+    assert!(!store.remove_user("Ada's key", Terms::default()).await.unwrap(), "that is somebody else");
+    assert!(!store.change_user("Ada's key", UserChange::role(Role::Admin), FORCE).await.unwrap());
+    assert_eq!(store.user("Ada").await.unwrap(), Some(namesake));
+    let missing = store.join_group("g", "Ada's key", None).await;
+    assert!(matches!(missing, Err(StoreError::NotFound(Missing::User))));
+    assert_eq!(store.groups().await.unwrap()[0].members, [""; 0]);
+    assert_eq!(store.pass(hash(1), NOW).await.unwrap(), None);
+    let mine = TreeQuery { saved_by: Some(ada.clone()), ..TreeQuery::default() };
+    assert_eq!(store.trees(&mine).await.unwrap(), []);
+    assert!(store.favourites(&ada).await.unwrap().is_empty());
+    assert!(store.seen_threads("ash", &ada).await.unwrap().is_empty());
+    assert_eq!(store.standing(Room::Tree("ash"), &ada, NOW).await.unwrap(), Standing::default());
+    assert_eq!(store.standing(Room::Session("oak"), &ada, NOW).await.unwrap(), Standing::default());
+    assert_eq!(store.role_given(Room::Tree("ash"), &ada).await.unwrap(), Role::None);
+    assert_eq!(store.given(Gift::Tree("ash")).await.unwrap(), []);
+    assert!(!store.forget_session("oak", Some(&ada)).await.unwrap());
+    assert_eq!(store.named_authors(&[browser]).await.unwrap()[0].person, None);
+    let comment = &store.thread("ash", 1).await.unwrap().unwrap().comments[0];
+    let expected = r#"{"mentions":[{"name":"Ada","people":["removed Ada's key"]}],"text":"login ada"}"#;
+    assert_eq!((&*comment.person, &*comment.said), ("removed Ada's key", expected));
+    assert_eq!(comment.author, "Ada", "what was said stays");
 }
 
 pub(super) async fn a_token_may_what_whoever_holds_it_may(store: &(impl Passes + Users + Groups)) {
@@ -186,7 +250,7 @@ pub(super) async fn a_token_may_what_whoever_holds_it_may(store: &(impl Passes +
     let role = async |byte| found(byte, NOW).await.map(|pass| pass.role);
     // Less than they were made for, and no more.
     let change =
-        async |role| store.change_user("Ada", UserChange::role(role), Terms::default()).await.unwrap();
+        async |role| store.change_user("Ada's key", UserChange::role(role), Terms::default()).await.unwrap();
     assert!(change(Role::Viewer).await);
     assert_eq!(role(2).await, Some(Role::Viewer));
     assert!(change(Role::Admin).await);
@@ -197,14 +261,14 @@ pub(super) async fn a_token_may_what_whoever_holds_it_may(store: &(impl Passes +
     store.add_pass(hash(4), login_of("Ada", "one")).await.unwrap();
     store.add_pass(hash(5), login_of("Ada", "two")).await.unwrap();
     let another = UserChange { stays: Some(hash(5)), ..UserChange::password("another".into()) };
-    assert!(store.change_user("Ada", another, Terms::default()).await.unwrap());
+    assert!(store.change_user("Ada's key", another, Terms::default()).await.unwrap());
     assert_eq!((role(4).await, role(5).await, role(2).await), (None, Some(Role::Admin), Some(Role::Editor)));
     // They go with whoever holds them.
     assert_eq!(found(3, LATER).await, None, "the tablet has expired");
     assert_eq!(store.passes(PassKind::Token, LATER).await.unwrap().len(), 1);
     assert!(store.take_pass("tablet").await.unwrap());
     assert_eq!(role(3).await, None);
-    assert!(store.remove_user("Ada", FORCE).await.unwrap());
+    assert!(store.remove_user("Ada's key", FORCE).await.unwrap());
     assert_eq!((role(2).await, role(5).await), (None, None));
     assert!(store.passes(PassKind::Token, NOW).await.unwrap().is_empty());
 }

@@ -46,11 +46,13 @@ impl Gifts for MemoryStore {
         Ok(())
     }
 
-    async fn take_back(&self, what: Gift<'_>, to: &Receiver) -> Result<bool, StoreError> {
+    async fn take_back(&self, what: Gift<'_>, from: &str) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
-        let gift = kept.gift(what, to, Role::None)?;
+        let (tree, collection) = kept.what(what)?;
         let before = kept.gifts.len();
-        kept.gifts.retain(|other| !is_same(other, &gift));
+        let is_it =
+            |gift: &KeptGift| (&gift.tree, &gift.collection) == (&tree, &collection) && gift.to == from;
+        kept.gifts.retain(|gift| !is_it(gift));
         Ok(kept.gifts.len() < before)
     }
 
@@ -108,18 +110,23 @@ impl Kept {
         self.gifts.retain(|gift| !goes(gift));
     }
 
-    fn gift(&self, what: Gift<'_>, to: &Receiver, role: Role) -> Result<KeptGift, StoreError> {
-        let (tree, collection) = match what {
+    /// The tree or the collection that is given, which must be there.
+    fn what(&self, what: Gift<'_>) -> Result<(Option<String>, Option<String>), StoreError> {
+        match what {
             Gift::Tree(id) => {
                 let tree = self.trees.get(id).filter(|tree| tree.deleted_at.is_none());
                 tree.ok_or(StoreError::NotFound(Missing::Tree))?;
-                (Some(id.to_owned()), None)
+                Ok((Some(id.to_owned()), None))
             }
             Gift::Collection(id) => {
                 self.collections.get(id).ok_or(StoreError::NotFound(Missing::Collection))?;
-                (None, Some(id.to_owned()))
+                Ok((None, Some(id.to_owned())))
             }
-        };
+        }
+    }
+
+    fn gift(&self, what: Gift<'_>, to: &Receiver, role: Role) -> Result<KeptGift, StoreError> {
+        let (tree, collection) = self.what(what)?;
         let (is_group, to) = match to {
             Receiver::User(name) => {
                 let user = self.users.get(&folded(name)).ok_or(StoreError::NotFound(Missing::User))?;

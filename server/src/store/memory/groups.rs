@@ -24,36 +24,38 @@ impl Groups for MemoryStore {
 
     async fn change_group(
         &self,
-        name: &str,
+        id: &str,
         GroupChange { name: other, role }: GroupChange,
         expected: Option<u64>,
     ) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
-        if kept.group_at(name, expected)?.is_none() {
+        let Some(own) = kept.group_at(id, expected)?.map(|group| folded(&group.name)) else {
             return Ok(false);
-        }
-        let key = folded(other.as_deref().unwrap_or(name));
-        if key != folded(name) && kept.groups.contains_key(&key) {
+        };
+        let key = other.as_deref().map_or_else(|| own.clone(), folded);
+        if key != own && kept.groups.contains_key(&key) {
             return Err(StoreError::Taken);
         }
-        let Some(group) = kept.groups.remove(&folded(name)) else { return Ok(false) };
+        let Some(group) = kept.groups.remove(&own) else { return Ok(false) };
         let (name, role) = (other.unwrap_or(group.name), role.unwrap_or(group.role));
         kept.groups.insert(key, Group { name, role, revision: group.revision + 1, ..group });
         Ok(true)
     }
 
-    async fn remove_group(&self, name: &str, expected: Option<u64>) -> Result<bool, StoreError> {
+    async fn remove_group(&self, id: &str, expected: Option<u64>) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
-        let Some(id) = kept.group_at(name, expected)?.map(|group| group.id.clone()) else { return Ok(false) };
-        kept.forget_gifts(|gift| gift.is_to_group(&id));
-        Ok(kept.groups.remove(&folded(name)).is_some())
+        let Some(own) = kept.group_at(id, expected)?.map(|group| folded(&group.name)) else {
+            return Ok(false);
+        };
+        kept.forget_gifts(|gift| gift.is_to_group(id));
+        Ok(kept.groups.remove(&own).is_some())
     }
 
-    async fn join_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<(), StoreError> {
+    async fn join_group(&self, id: &str, user: &str, expected: Option<u64>) -> Result<(), StoreError> {
         let mut kept = self.writing()?;
-        kept.group_at(name, expected)?.ok_or(StoreError::NotFound(Missing::Group))?;
-        let user = kept.users.get(&folded(user)).ok_or(StoreError::NotFound(Missing::User))?.name.clone();
-        let group = kept.group_at(name, expected)?.filter(|group| !group.members.contains(&user));
+        kept.group_at(id, expected)?.ok_or(StoreError::NotFound(Missing::Group))?;
+        let user = kept.user_with(user).ok_or(StoreError::NotFound(Missing::User))?.name;
+        let group = kept.group_at(id, expected)?.filter(|group| !group.members.contains(&user));
         if let Some(group) = group {
             group.members.push(user);
             group.members.sort_by_key(|member| folded(member));
@@ -62,10 +64,11 @@ impl Groups for MemoryStore {
         Ok(())
     }
 
-    async fn leave_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<bool, StoreError> {
+    async fn leave_group(&self, id: &str, user: &str, expected: Option<u64>) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
-        let Some(group) = kept.group_at(name, expected)? else { return Ok(false) };
-        let left = group.members.extract_if(.., |member| folded(member) == folded(user)).count();
+        let user = kept.user_with(user).map(|user| user.name);
+        let Some(group) = kept.group_at(id, expected)? else { return Ok(false) };
+        let left = group.members.extract_if(.., |member| Some(&*member) == user.as_ref()).count();
         group.revision += u64::from(left > 0);
         Ok(left > 0)
     }
@@ -73,8 +76,8 @@ impl Groups for MemoryStore {
 
 impl Kept {
     /// A group, which is at a revision if one is expected.
-    fn group_at(&mut self, name: &str, expected: Option<u64>) -> Result<Option<&mut Group>, StoreError> {
-        let group = self.groups.get_mut(&folded(name));
+    fn group_at(&mut self, id: &str, expected: Option<u64>) -> Result<Option<&mut Group>, StoreError> {
+        let group = self.groups.values_mut().find(|group| group.id == id);
         match group {
             Some(group) if expected.is_some_and(|expected| expected != group.revision) => {
                 Err(StoreError::Stale)

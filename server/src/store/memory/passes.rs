@@ -10,6 +10,10 @@ use crate::access::SecretHash;
 
 impl Passes for MemoryStore {
     async fn add_pass(&self, hash: SecretHash, pass: Pass) -> Result<(), StoreError> {
+        self.add_pass_up_to(u32::MAX, hash, pass).await
+    }
+
+    async fn add_pass_up_to(&self, most: u32, hash: SecretHash, pass: Pass) -> Result<(), StoreError> {
         let mut kept = self.writing()?;
         if pass.tree.as_ref().is_some_and(|tree| !kept.trees.contains_key(tree)) {
             return Err(StoreError::NotFound(Missing::Tree));
@@ -22,6 +26,10 @@ impl Passes for MemoryStore {
                 return Err(StoreError::NotFound(Missing::Pass));
             }
             _ => {}
+        }
+        let is_like_it = |other: &&(SecretHash, Pass)| is_like(&other.1, &pass);
+        if kept.passes.iter().filter(is_like_it).count() >= most as usize {
+            return Err(StoreError::Full);
         }
         kept.passes.push((hash, pass));
         Ok(())
@@ -70,6 +78,19 @@ impl Passes for MemoryStore {
         kept.passes.retain(|(_, pass)| maker(pass).is_none_or(|id| gone.iter().all(|other| other != id)));
         Ok(())
     }
+}
+
+/// Whether a pass lets in for the same tree as a new one, or for none and is a token of the same holder.
+fn is_like(pass: &Pass, new: &Pass) -> bool {
+    let holder = |pass: &Pass| match &pass.holder {
+        Some(Holder::User { id, .. } | Holder::Device { id, .. }) => Some(id.clone()),
+        None => None,
+    };
+    let is_like = match &new.tree {
+        None => pass.kind == PassKind::Token && holder(pass) == holder(new),
+        Some(_) => matches!(pass.kind, PassKind::Invitation | PassKind::Device),
+    };
+    is_like && pass.tree == new.tree && pass.expires_at > new.created_at
 }
 
 /// The device that has made a token.

@@ -29,9 +29,10 @@ impl Standings for MemoryStore {
         Ok(kept.removals.len() < before)
     }
 
-    async fn hand_over(&self, tree: &str, to: Option<Heir>) -> Result<bool, StoreError> {
+    async fn hand_over(&self, tree: &str, to: Option<Heir>, by: Option<&str>) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
-        if !kept.trees.contains_key(tree) {
+        let has_it = |by| kept.heirs.get(tree).is_some_and(|heir| heir.person == by);
+        if !kept.trees.contains_key(tree) || !by.is_none_or(has_it) {
             return Ok(false);
         }
         match to {

@@ -4,8 +4,10 @@ use espalier_proto::access::Role;
 
 use super::{
     super::{
-        Holder, Pass, PassKind, StoreError, Terms, User, UserChange, Users, folding::folded, person_of,
-        users::mentioning_instead,
+        Holder, Pass, PassKind, StoreError, Terms, User, UserChange, Users,
+        folding::folded,
+        person_of,
+        users::{mentioning_instead, person_removed},
     },
     Kept, MemoryStore,
 };
@@ -32,13 +34,13 @@ impl Users for MemoryStore {
         Ok(kept.users.values().map(|user| kept.grouped(user)).collect())
     }
 
-    async fn change_user(&self, name: &str, change: UserChange, terms: Terms) -> Result<bool, StoreError> {
+    async fn change_user(&self, id: &str, change: UserChange, terms: Terms) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
-        let Some(user) = kept.users.get(&folded(name)).cloned() else { return Ok(false) };
+        let Some(user) = kept.user_with(id) else { return Ok(false) };
         kept.check(&user, terms, change.role.is_some_and(|role| role != Role::Admin))?;
         let UserChange { name: other, role, password, stays } = change;
-        let key = folded(other.as_deref().unwrap_or(name));
-        if key != folded(name) && kept.users.contains_key(&key) {
+        let key = folded(other.as_deref().unwrap_or(&user.name));
+        if key != folded(&user.name) && kept.users.contains_key(&key) {
             return Err(StoreError::Taken);
         }
         if password.is_some() {
@@ -52,19 +54,19 @@ impl Users for MemoryStore {
             ..user.clone()
         };
         kept.rename(&user.name, &changed.name);
-        kept.users.remove(&folded(name));
+        kept.users.remove(&folded(&user.name));
         kept.users.insert(key, changed);
         Ok(true)
     }
 
-    async fn remove_user(&self, name: &str, terms: Terms) -> Result<bool, StoreError> {
+    async fn remove_user(&self, id: &str, terms: Terms) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
-        let Some(user) = kept.users.get(&folded(name)).cloned() else { return Ok(false) };
+        let Some(user) = kept.user_with(id) else { return Ok(false) };
         kept.check(&user, terms, true)?;
         kept.passes.retain(|(_, pass)| !is_of(pass, &user));
         kept.forget_gifts(|gift| gift.is_to_user(&user.id));
-        kept.leave_all(name);
-        let person = person_of(name);
+        kept.leave_all(&user.name);
+        let person = person_of(&user.name);
         kept.sessions.values_mut().for_each(|session| _ = session.people.remove(&person));
         kept.threads.values_mut().flatten().for_each(|(_, thread)| thread.forget_reader(&person));
         for (_, named) in kept.authors.values_mut() {
@@ -74,11 +76,17 @@ impl Users for MemoryStore {
         kept.heirs.retain(|_, heir| heir.person != person);
         kept.favourites.retain(|(who, _)| *who != person);
         kept.removals.retain(|removal| removal.person != person);
-        Ok(kept.users.remove(&folded(name)).is_some())
+        kept.count_for(&person, &person_removed(id));
+        Ok(kept.users.remove(&folded(&user.name)).is_some())
     }
 }
 
 impl Kept {
+    /// The user with this identifier.
+    pub(super) fn user_with(&self, id: &str) -> Option<User> {
+        self.users.values().find(|user| user.id == id).cloned()
+    }
+
     fn grouped(&self, user: &User) -> User {
         User { group_role: self.group_role(&user.name), ..user.clone() }
     }
@@ -119,17 +127,27 @@ impl Kept {
             .collect();
         let removals = self.removals.iter_mut().map(|removal| &mut removal.person);
         let heirs = self.heirs.values_mut().map(|heir| &mut heir.person);
-        let savers = self.trees.values_mut().flat_map(|tree| tree.savers());
-        for person in removals.chain(heirs).chain(savers).filter(|person| **person == old) {
+        for person in removals.chain(heirs).filter(|person| **person == old) {
             person.clone_from(&new);
         }
-        for (_, thread) in self.threads.values_mut().flatten() {
-            thread.rename(&old, &new, |said| mentioning_instead(said, &old, &new));
-        }
+        self.count_for(&old, &new);
         for (_, named) in self.authors.values_mut() {
             if named.person.as_deref() == Some(&*old) {
                 named.person = Some(new.as_str().into());
             }
+        }
+    }
+}
+
+impl Kept {
+    /// What somebody has saved and said, what they have read, and where they are mentioned, counts for another person.
+    fn count_for(&mut self, old: &str, new: &str) {
+        let savers = self.trees.values_mut().flat_map(|tree| tree.savers());
+        for person in savers.filter(|person| **person == *old) {
+            new.clone_into(person);
+        }
+        for (_, thread) in self.threads.values_mut().flatten() {
+            thread.rename(old, new, |said| mentioning_instead(said, old, new));
         }
     }
 }

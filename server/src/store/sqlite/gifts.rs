@@ -15,9 +15,14 @@ use super::{
 #[derive(Debug)]
 pub(super) struct GiftWrite {
     what: Owned,
-    to: Receiver,
-    /// Taken back, if there is none.
-    role: Option<Role>,
+    done: Done,
+}
+
+#[derive(Debug)]
+enum Done {
+    Given(Receiver, Role),
+    /// From whom, by their identifier.
+    TakenBack(String),
 }
 
 #[derive(Debug)]
@@ -101,12 +106,12 @@ impl SqliteStore {
 
 impl Gifts for SqliteStore {
     async fn give(&self, what: Gift<'_>, to: &Receiver, role: Role) -> Result<(), StoreError> {
-        let write = GiftWrite { what: what.into(), to: to.clone(), role: Some(role) };
+        let write = GiftWrite { what: what.into(), done: Done::Given(to.clone(), role) };
         self.writer.write(Write::Gift(write)).await.map(drop)
     }
 
-    async fn take_back(&self, what: Gift<'_>, to: &Receiver) -> Result<bool, StoreError> {
-        let write = GiftWrite { what: what.into(), to: to.clone(), role: None };
+    async fn take_back(&self, what: Gift<'_>, from: &str) -> Result<bool, StoreError> {
+        let write = GiftWrite { what: what.into(), done: Done::TakenBack(from.to_owned()) };
         Ok(self.writer.write(Write::Gift(write)).await? > 0)
     }
 
@@ -175,7 +180,17 @@ impl GiftWrite {
                 (None, Some(row(connection, sql, key, Missing::Collection).await?))
             }
         };
-        let (user, studio) = match &self.to {
+        let (to, role) = match &self.done {
+            Done::Given(to, role) => (to, role),
+            Done::TakenBack(from) => {
+                let sql = "DELETE FROM gifts WHERE tree IS ?1 AND collection IS ?2
+                           AND (user = (SELECT id FROM users WHERE key = ?3)
+                             OR studio = (SELECT id FROM studios WHERE key = ?3))";
+                let taken = sqlx::query(sql).bind(tree).bind(collection).bind(from);
+                return Ok(taken.execute(connection).await?.rows_affected());
+            }
+        };
+        let (user, studio) = match to {
             Receiver::User(name) => {
                 let sql = "SELECT id FROM users WHERE folded = ?";
                 (Some(row(connection, sql, &folded(name), Missing::User).await?), None)
@@ -186,9 +201,8 @@ impl GiftWrite {
             }
         };
         let sql = "DELETE FROM gifts WHERE tree IS ? AND collection IS ? AND user IS ? AND studio IS ?";
-        let taken = sqlx::query(sql).bind(tree).bind(collection).bind(user).bind(studio);
-        let taken = taken.execute(&mut *connection).await?.rows_affected();
-        let Some(role) = self.role else { return Ok(taken) };
+        let before = sqlx::query(sql).bind(tree).bind(collection).bind(user).bind(studio);
+        before.execute(&mut *connection).await?;
         let sql = "INSERT INTO gifts (tree, collection, user, studio, role) VALUES (?, ?, ?, ?, ?)";
         let given = sqlx::query(sql).bind(tree).bind(collection).bind(user).bind(studio).bind(role.name());
         Ok(given.execute(connection).await?.rows_affected())

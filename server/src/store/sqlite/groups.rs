@@ -48,25 +48,24 @@ impl Groups for SqliteStore {
 
     async fn change_group(
         &self,
-        name: &str,
+        id: &str,
         change: GroupChange,
         expected: Option<u64>,
     ) -> Result<bool, StoreError> {
-        self.change_groups(GroupWrite::Change(name.to_owned(), change, expected)).await
+        self.change_groups(GroupWrite::Change(id.to_owned(), change, expected)).await
     }
 
-    async fn remove_group(&self, name: &str, expected: Option<u64>) -> Result<bool, StoreError> {
-        self.change_groups(GroupWrite::Remove(name.to_owned(), expected)).await
+    async fn remove_group(&self, id: &str, expected: Option<u64>) -> Result<bool, StoreError> {
+        self.change_groups(GroupWrite::Remove(id.to_owned(), expected)).await
     }
 
-    async fn join_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<(), StoreError> {
-        let write = GroupWrite::Join { group: name.to_owned(), user: user.to_owned(), expected };
+    async fn join_group(&self, id: &str, user: &str, expected: Option<u64>) -> Result<(), StoreError> {
+        let write = GroupWrite::Join { group: id.to_owned(), user: user.to_owned(), expected };
         self.change_groups(write).await.map(drop)
     }
 
-    async fn leave_group(&self, name: &str, user: &str, expected: Option<u64>) -> Result<bool, StoreError> {
-        self.change_groups(GroupWrite::Leave { group: name.to_owned(), user: user.to_owned(), expected })
-            .await
+    async fn leave_group(&self, id: &str, user: &str, expected: Option<u64>) -> Result<bool, StoreError> {
+        self.change_groups(GroupWrite::Leave { group: id.to_owned(), user: user.to_owned(), expected }).await
     }
 }
 
@@ -105,8 +104,8 @@ impl GroupWrite {
                 let added = added.bind(id).bind(name).bind(folded(name)).bind(role.name()).bind(created_at);
                 Ok(added.execute(connection).await?.rows_affected())
             }
-            Self::Change(name, GroupChange { name: other, role }, expected) => {
-                let Some(row) = find(connection, name, *expected).await? else { return Ok(0) };
+            Self::Change(id, GroupChange { name: other, role }, expected) => {
+                let Some(row) = find(connection, id, *expected).await? else { return Ok(0) };
                 if let Some(other) = other {
                     rename(connection, row, other).await?;
                 }
@@ -116,16 +115,16 @@ impl GroupWrite {
                 }
                 count(connection, row).await
             }
-            Self::Remove(name, expected) => {
-                let Some(row) = find(connection, name, *expected).await? else { return Ok(0) };
+            Self::Remove(id, expected) => {
+                let Some(row) = find(connection, id, *expected).await? else { return Ok(0) };
                 let removed = sqlx::query("DELETE FROM studios WHERE id = ?").bind(row);
                 Ok(removed.execute(connection).await?.rows_affected())
             }
             Self::Join { group, user, expected } => {
                 let row = find(connection, group, *expected).await?;
                 let row = row.ok_or(StoreError::NotFound(Missing::Group))?;
-                let user: i64 = sqlx::query_scalar("SELECT id FROM users WHERE folded = ?")
-                    .bind(folded(user))
+                let user: i64 = sqlx::query_scalar("SELECT id FROM users WHERE key = ?")
+                    .bind(user)
                     .fetch_optional(&mut *connection)
                     .await?
                     .ok_or(StoreError::NotFound(Missing::User))?;
@@ -136,8 +135,8 @@ impl GroupWrite {
             Self::Leave { group, user, expected } => {
                 let Some(row) = find(connection, group, *expected).await? else { return Ok(0) };
                 let sql = "DELETE FROM studio_members
-                           WHERE studio = ? AND user = (SELECT id FROM users WHERE folded = ?)";
-                let left = sqlx::query(sql).bind(row).bind(folded(user)).execute(&mut *connection).await?;
+                           WHERE studio = ? AND user = (SELECT id FROM users WHERE key = ?)";
+                let left = sqlx::query(sql).bind(row).bind(user).execute(&mut *connection).await?;
                 if left.rows_affected() == 0 { Ok(0) } else { count(connection, row).await }
             }
         }
@@ -147,11 +146,11 @@ impl GroupWrite {
 /// The row of a group, which is at a revision if one is expected.
 async fn find(
     connection: &mut SqliteConnection,
-    name: &str,
+    id: &str,
     expected: Option<u64>,
 ) -> Result<Option<i64>, StoreError> {
-    let found: Option<(i64, i64)> = sqlx::query_as("SELECT id, revision FROM studios WHERE folded = ?")
-        .bind(folded(name))
+    let found: Option<(i64, i64)> = sqlx::query_as("SELECT id, revision FROM studios WHERE key = ?")
+        .bind(id)
         .fetch_optional(connection)
         .await?;
     match found {

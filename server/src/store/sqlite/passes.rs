@@ -13,16 +13,28 @@ use crate::access::SecretHash;
 
 #[derive(Debug)]
 pub(super) enum PassWrite {
-    Add(SecretHash, Box<Pass>),
-    Extend { id: String, expires_at: String },
-    Change { id: String, role: Role },
+    /// Up to so many like it, if that is said.
+    Add(SecretHash, Box<Pass>, Option<u32>),
+    Extend {
+        id: String,
+        expires_at: String,
+    },
+    Change {
+        id: String,
+        role: Role,
+    },
     Take(String),
     Purge(String),
 }
 
 impl Passes for SqliteStore {
     async fn add_pass(&self, hash: SecretHash, pass: Pass) -> Result<(), StoreError> {
-        self.writer.write(Write::Pass(PassWrite::Add(hash, Box::new(pass)))).await.map(drop)
+        self.writer.write(Write::Pass(PassWrite::Add(hash, Box::new(pass), None))).await.map(drop)
+    }
+
+    async fn add_pass_up_to(&self, most: u32, hash: SecretHash, pass: Pass) -> Result<(), StoreError> {
+        let write = PassWrite::Add(hash, Box::new(pass), Some(most));
+        self.writer.write(Write::Pass(write)).await.map(drop)
     }
 
     async fn pass(&self, hash: SecretHash, now: &str) -> Result<Option<Pass>, StoreError> {
@@ -70,6 +82,11 @@ macro_rules! select {
     };
 }
 
+/// How many lets in for the same tree, or for none and are tokens of the same holder, at a time.
+const LIKE_IT: &str = "SELECT count(*) FROM passes WHERE expires_at > ?4 AND CASE WHEN ?1 IS NULL
+    THEN kind = 'token' AND tree IS NULL AND user IS ?2 AND maker IS ?3
+    ELSE tree = ?1 AND kind IN ('invitation', 'device') END";
+
 const SELECT_BY_HASH: &str = select!("passes.hash = ?1");
 const SELECT_BY_KIND: &str = select!("passes.kind = ?1 ORDER BY passes.created_at DESC, passes.id DESC");
 
@@ -107,7 +124,7 @@ fn read(row: Row) -> Result<Pass, StoreError> {
 impl PassWrite {
     pub(super) async fn apply(&self, connection: &mut SqliteConnection) -> Result<u64, StoreError> {
         let query = match self {
-            Self::Add(hash, pass) => {
+            Self::Add(hash, pass, most) => {
                 let tree = match &pass.tree {
                     None => None,
                     Some(key) => {
@@ -132,6 +149,18 @@ impl PassWrite {
                     }
                     _ => None,
                 };
+                if let Some(most) = most {
+                    let others: i64 = sqlx::query_scalar(LIKE_IT)
+                        .bind(tree)
+                        .bind(user)
+                        .bind(&maker)
+                        .bind(&pass.created_at)
+                        .fetch_one(&mut *connection)
+                        .await?;
+                    if others >= i64::from(*most) {
+                        return Err(StoreError::Full);
+                    }
+                }
                 sqlx::query(
                     "INSERT INTO passes (id, hash, kind, name, role, tree, user, maker, created_at, expires_at,
                      ends_at) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",

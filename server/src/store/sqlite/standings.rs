@@ -14,8 +14,8 @@ pub(super) enum StandingWrite {
     /// At a time.
     KeepOut(Removal, String),
     LetBack(String),
-    /// The tree, and to whom.
-    HandOver(String, Option<Heir>),
+    /// The tree, to whom, and by whom.
+    HandOver(String, Option<Heir>, Option<String>),
 }
 
 /// Identifier, room, person, name, by whom, until when, whether the link is revoked.
@@ -46,8 +46,9 @@ impl Standings for SqliteStore {
         Ok(self.writer.write(Write::Standing(StandingWrite::LetBack(id.to_owned()))).await? > 0)
     }
 
-    async fn hand_over(&self, tree: &str, to: Option<Heir>) -> Result<bool, StoreError> {
-        Ok(self.writer.write(Write::Standing(StandingWrite::HandOver(tree.to_owned(), to))).await? > 0)
+    async fn hand_over(&self, tree: &str, to: Option<Heir>, by: Option<&str>) -> Result<bool, StoreError> {
+        let write = StandingWrite::HandOver(tree.to_owned(), to, by.map(str::to_owned));
+        Ok(self.writer.write(Write::Standing(write)).await? > 0)
     }
 
     async fn heir_of(&self, tree: &str) -> Result<Option<Heir>, StoreError> {
@@ -105,12 +106,14 @@ impl StandingWrite {
                 .bind(removal.is_revoked)
             }
             Self::LetBack(id) => sqlx::query("DELETE FROM removals WHERE id = ?").bind(id),
-            Self::HandOver(tree, to) => {
-                sqlx::query("UPDATE trees SET owner_person = ?, owner_name = ? WHERE key = ?")
-                    .bind(to.as_ref().map(|heir| &heir.person))
-                    .bind(to.as_ref().map(|heir| &heir.name))
-                    .bind(tree)
-            }
+            Self::HandOver(tree, to, by) => sqlx::query(
+                "UPDATE trees SET owner_person = ?1, owner_name = ?2 \
+                 WHERE key = ?3 AND (?4 IS NULL OR owner_person = ?4)",
+            )
+            .bind(to.as_ref().map(|heir| &heir.person))
+            .bind(to.as_ref().map(|heir| &heir.name))
+            .bind(tree)
+            .bind(by),
         };
         Ok(write.execute(connection).await?.rows_affected())
     }

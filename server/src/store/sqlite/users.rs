@@ -5,7 +5,10 @@ use sqlx::sqlite::SqliteConnection;
 
 use super::{
     super::{
-        StoreError, Terms, User, UserChange, Users, folding::folded, person_of, users::mentioning_instead,
+        StoreError, Terms, User, UserChange, Users,
+        folding::folded,
+        person_of,
+        users::{mentioning_instead, person_removed},
     },
     SqliteStore,
     groups::{most, stale},
@@ -43,13 +46,13 @@ impl Users for SqliteStore {
         all.fetch_all(&self.readers).await?.into_iter().map(read).collect()
     }
 
-    async fn change_user(&self, name: &str, change: UserChange, terms: Terms) -> Result<bool, StoreError> {
-        let write = UserWrite::Change(name.to_owned(), change, terms);
+    async fn change_user(&self, id: &str, change: UserChange, terms: Terms) -> Result<bool, StoreError> {
+        let write = UserWrite::Change(id.to_owned(), change, terms);
         Ok(self.writer.write(Write::User(write)).await? > 0)
     }
 
-    async fn remove_user(&self, name: &str, terms: Terms) -> Result<bool, StoreError> {
-        Ok(self.writer.write(Write::User(UserWrite::Remove(name.to_owned(), terms))).await? > 0)
+    async fn remove_user(&self, id: &str, terms: Terms) -> Result<bool, StoreError> {
+        Ok(self.writer.write(Write::User(UserWrite::Remove(id.to_owned(), terms))).await? > 0)
     }
 }
 
@@ -81,14 +84,15 @@ impl UserWrite {
                     .bind(created_at);
                 Ok(added.execute(connection).await?.rows_affected())
             }
-            Self::Change(name, change, terms) => {
-                let Some(there) = Kept::find(connection, name).await? else { return Ok(0) };
+            Self::Change(id, change, terms) => {
+                let Some(there) = Kept::find(connection, id).await? else { return Ok(0) };
                 there.change(connection, change, *terms).await?;
                 Ok(1)
             }
-            Self::Remove(name, terms) => {
-                let Some(there) = Kept::find(connection, name).await? else { return Ok(0) };
+            Self::Remove(id, terms) => {
+                let Some(there) = Kept::find(connection, id).await? else { return Ok(0) };
                 there.check(connection, *terms, true).await?;
+                let person = person_of(&there.name);
                 for sql in [
                     "DELETE FROM session_people WHERE person = ?",
                     "DELETE FROM comments_seen WHERE person = ?",
@@ -98,8 +102,9 @@ impl UserWrite {
                     "DELETE FROM favourites WHERE principal = ?",
                     "DELETE FROM removals WHERE person = ?",
                 ] {
-                    sqlx::query(sql).bind(person_of(name)).execute(&mut *connection).await?;
+                    sqlx::query(sql).bind(&person).execute(&mut *connection).await?;
                 }
+                count_for(connection, &person, &person_removed(id)).await?;
                 let removed = sqlx::query("DELETE FROM users WHERE id = ?").bind(there.row);
                 Ok(removed.execute(connection).await?.rows_affected())
             }
@@ -116,10 +121,10 @@ struct Kept {
 }
 
 impl Kept {
-    async fn find(connection: &mut SqliteConnection, name: &str) -> Result<Option<Self>, StoreError> {
+    async fn find(connection: &mut SqliteConnection, id: &str) -> Result<Option<Self>, StoreError> {
         let found: Option<(i64, String, String, i64)> =
-            sqlx::query_as("SELECT id, name, role, revision FROM users WHERE folded = ?")
-                .bind(folded(name))
+            sqlx::query_as("SELECT id, name, role, revision FROM users WHERE key = ?")
+                .bind(id)
                 .fetch_optional(connection)
                 .await?;
         Ok(found.map(|(row, name, role, revision)| Self {
@@ -200,24 +205,33 @@ impl Kept {
             "UPDATE OR REPLACE comments_seen SET person = ?2 WHERE person = ?1",
             "UPDATE OR REPLACE favourites SET principal = ?2 WHERE principal = ?1",
             "UPDATE OR REPLACE removals SET person = ?2 WHERE person = ?1",
-            "UPDATE comments SET person = ?2 WHERE person = ?1",
             "UPDATE authors SET person = ?2 WHERE person = ?1",
-            "UPDATE trees SET principal = ?2 WHERE principal = ?1",
-            "UPDATE versions SET principal = ?2 WHERE principal = ?1",
             "UPDATE trees SET owner_person = ?2 WHERE owner_person = ?1",
         ] {
             sqlx::query(sql).bind(&old).bind(&new).execute(&mut *connection).await?;
         }
-        let mentioning: Vec<(i64, i64, String)> =
-            sqlx::query_as("SELECT thread, number, said FROM comments WHERE instr(said, ?) > 0")
-                .bind(&old)
-                .fetch_all(&mut *connection)
-                .await?;
-        for (thread, number, said) in mentioning {
-            let sql = "UPDATE comments SET said = ? WHERE thread = ? AND number = ?";
-            let said = mentioning_instead(&said, &old, &new);
-            sqlx::query(sql).bind(said).bind(thread).bind(number).execute(&mut *connection).await?;
-        }
-        Ok(())
+        count_for(connection, &old, &new).await
     }
+}
+
+/// What somebody has saved and said, and where they are mentioned, counts for another person from now on.
+async fn count_for(connection: &mut SqliteConnection, old: &str, new: &str) -> Result<(), StoreError> {
+    for sql in [
+        "UPDATE comments SET person = ?2 WHERE person = ?1",
+        "UPDATE trees SET principal = ?2 WHERE principal = ?1",
+        "UPDATE versions SET principal = ?2 WHERE principal = ?1",
+    ] {
+        sqlx::query(sql).bind(old).bind(new).execute(&mut *connection).await?;
+    }
+    let mentioning: Vec<(i64, i64, String)> =
+        sqlx::query_as("SELECT thread, number, said FROM comments WHERE instr(said, ?) > 0")
+            .bind(old)
+            .fetch_all(&mut *connection)
+            .await?;
+    for (thread, number, said) in mentioning {
+        let sql = "UPDATE comments SET said = ? WHERE thread = ? AND number = ?";
+        let said = mentioning_instead(&said, old, new);
+        sqlx::query(sql).bind(said).bind(thread).bind(number).execute(&mut *connection).await?;
+    }
+    Ok(())
 }

@@ -24,7 +24,7 @@ export function ProgramsTab({ studio, programs }: ProgramsTabProps) {
     <div class="stack">
       <p class="quiet">{say("accounts.programs.advice")}</p>
       {fresh === null ? (
-        <MakeForm studio={studio} programs={programs} />
+        studio.rights.mayMakeTokens && <MakeForm studio={studio} programs={programs} />
       ) : (
         <div class="fresh-link" role="status">
           <p>{say("accounts.programs.fresh", { name: fresh.name })}</p>
