@@ -97,6 +97,13 @@ pub struct StrokeSample {
 /// More names than there are parameters.
 const MAX_NAMES: usize = 64;
 
+/// Keys of one person that count as theirs beside the one they come with (`UD8`).
+pub const MAX_OWN_KEYS: usize = 1024;
+
+fn is_empty(keys: &[String]) -> bool {
+    keys.is_empty()
+}
+
 /// A lasso is as deep as it is wide unless it says otherwise.
 pub(crate) fn whole_depth() -> Depth {
     Depth::MOST
@@ -177,9 +184,22 @@ tagged_enum! {
         /// Do again what was last undone or ungrown.
         Redo {},
         /// Take back what this person did last and is in force, wherever it lies; what others drew stays (`UD1`).
-        TakeBack {},
+        TakeBack {
+            /// Written by the server into its journal: the other keys under which this person did something (`UD8`).
+            /// What a client says here counts for nothing.
+            #[serde(default, skip_serializing_if = "is_empty")]
+            #[schemars(skip)]
+            #[ts(skip)]
+            keys: List<String, 0, MAX_OWN_KEYS>,
+        },
         /// Put in force again what this person took back last (`UD3`).
-        BringBack {},
+        BringBack {
+            /// As in `take_back`.
+            #[serde(default, skip_serializing_if = "is_empty")]
+            #[schemars(skip)]
+            #[ts(skip)]
+            keys: List<String, 0, MAX_OWN_KEYS>,
+        },
         /// Change some of the parameters; growth from here on uses them.
         SetParameters {
             /// The fields to change.

@@ -108,9 +108,7 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
         page.trail.inVain(hint.stroke);
       }
     },
-    people: (people) => {
-      page.together.people.value = people;
-    },
+    people: (people) => page.together.meet(people),
     pong: ({ nonce, at }) => page.serverTime.heard(nonce, at),
     pins: ({ pins }) => page.comments.place(pins),
     threads_changed: ({ threads }) => page.comments.change(threads),
@@ -141,14 +139,16 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
   return {
     message: (message) => handle(handlers, message),
     refused: (problem, command) => {
-      page.undo.refused(command);
+      const isSaid = page.undo.refused(problem, command);
       if (command) {
         page.grammar.listener?.refused(command);
       } else if (problem.reason === "grammar-ends") {
         // That was found out after the command had been acknowledged.
         page.grammar.listener?.ended();
       }
-      refused(page, problem, command);
+      if (!isSaid) {
+        refused(page, problem, command);
+      }
     },
     opened: (how) => forget(page, how),
     rows: () => followRows(page),

@@ -38,6 +38,7 @@ pub(crate) use self::bytes::{Container, Reader, SESSION, Writer};
 use self::{
     bending::OpenBends,
     bytes::Section,
+    deeds::Person,
     designing::Designs,
     futures::Futures,
     grammars::Underway,
@@ -203,8 +204,8 @@ impl Document {
             Action::Ungrow { steps } => self.ungrow(steps.get()),
             Action::Undo {} => self.travel_back(),
             Action::Redo {} => self.travel_forth(),
-            Action::TakeBack {} => self.take_back(cause),
-            Action::BringBack {} => self.bring_back(cause),
+            Action::TakeBack { keys } => self.take_back(cause, &Person::new(author, keys)),
+            Action::BringBack { keys } => self.bring_back(cause, &Person::new(author, keys)),
             Action::SetParameters { parameters } => self.set_parameters(cause, parameters),
             Action::SetProgramme { programme, keep } => self.set_programme(cause, programme.as_ref(), *keep),
             Action::FollowProgramme { parameters } => self.follow_programme(cause, parameters),
@@ -392,8 +393,8 @@ fn keeps_set(action: &Action) -> bool {
             | Action::SetGrammarBody { .. }
             | Action::Derive { .. }
             | Action::SetGrammarValues { .. }
-            | Action::TakeBack {}
-            | Action::BringBack {}
+            | Action::TakeBack { .. }
+            | Action::BringBack { .. }
     )
 }
 

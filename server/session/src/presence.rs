@@ -247,7 +247,26 @@ impl Register {
         self.people.rename(&alone, &person);
         let number = self.people.of(&person, |_| true);
         self.authors.insert(author, number);
-        self.remembered.insert(number, name);
+        if !name.is_empty() {
+            self.remembered.insert(number, name);
+        }
+    }
+
+    /// The other keys of whoever is, or was last, at a device: those known as authors from before, and of the others
+    /// those of which something is so.
+    pub(crate) fn other_keys<'a>(
+        &'a self,
+        device: &'a Principal,
+        has_done: impl Fn(&&Principal) -> bool,
+    ) -> impl Iterator<Item = &'a Principal> {
+        let person = self.person_at.get(device);
+        let of_them = move |(key, number): (&'a Principal, &u32)| (Some(number) == person).then_some(key);
+        // Whoever is at a device now counts, whoever was before.
+        let before =
+            self.authors.iter().filter(|(key, _)| !self.person_at.contains_key(key)).filter_map(of_them);
+        let here = self.person_at.iter().filter_map(of_them);
+        let here = here.filter(move |key| has_done(key) || self.authors.contains_key(key));
+        before.chain(here).filter(move |key| *key != device)
     }
 
     /// Somebody chooses a name; whether it is another than before.

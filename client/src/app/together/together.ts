@@ -19,13 +19,27 @@ export interface Listener {
 export class Together {
   /** Who is here, as was told last; null while nobody knows. */
   readonly people = signal<PeopleHere | null>(null);
-  /** Who did what a replay shows, as it says. */
+  /** Who did what is on the line of time: those whom this page has met, and in a replay whom that names. */
   readonly authors = signal<readonly Author[]>([]);
   /** The device whose camera this page follows. */
   readonly followed = signal<number | null>(null);
   /** How often somebody has brought this page to their view. */
   readonly visits = signal(0);
   listener: Listener | null = null;
+
+  /** These are here now; what they are called is known after they have left as well. */
+  meet(here: PeopleHere): void {
+    this.people.value = here;
+    const known = this.authors.peek();
+    const nameOf = (number: number) => known.find(({ person }) => person === number)?.name;
+    const renamed = here.people.flatMap(({ person, name }) =>
+      name !== undefined && name !== nameOf(person) ? [{ person, name }] : [],
+    );
+    if (renamed.length > 0) {
+      const stays = known.filter((author) => renamed.every(({ person }) => person !== author.person));
+      this.authors.value = [...stays, ...renamed];
+    }
+  }
 
   /** What was told may be true no longer. */
   forget(): void {

@@ -120,8 +120,8 @@ export const HELP = {
 
   "help.topic.undo": ["Undo, redo", "Rückgängig, wiederholen"],
   "help.topic.undo.text": [
-    "Takes back the last thing done, by whomever, and brings it again; a tap with two fingers undoes, with three it redoes",
-    "Nimmt zurück, was zuletzt geschah, von wem auch immer, und holt es wieder; ein Tippen mit zwei Fingern nimmt zurück, mit dreien holt es wieder",
+    "Takes back what you did last, and brings it again; what others did is theirs. A tap with two fingers undoes, with three it redoes",
+    "Nimmt zurück, was du zuletzt getan hast, und holt es wieder; was andere taten, gehört ihnen. Ein Tippen mit zwei Fingern nimmt zurück, mit dreien holt es wieder",
   ],
   "help.topic.undo.words": [
     "back mistake revert two-finger three-finger tap oops step history",

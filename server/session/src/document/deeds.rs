@@ -33,11 +33,27 @@ pub struct Switched {
     pub passed: u32,
 }
 
+/// Somebody who takes back what is theirs: the author of a command, under whatever keys they came (`UD8`).
+pub(super) struct Person<'a> {
+    author: &'a Principal,
+    others: &'a [String],
+}
+
+impl<'a> Person<'a> {
+    pub(super) fn new(author: &'a Principal, others: &'a [String]) -> Self {
+        Self { author, others }
+    }
+
+    fn is(&self, author: &Principal) -> bool {
+        author == self.author || self.others.iter().any(|key| key == author.name())
+    }
+}
+
 impl Operation {
     /// What somebody did of it and may take back, the last first.
-    fn deeds_of<'a>(&'a self, author: &'a Principal) -> impl Iterator<Item = u8> + 'a {
+    fn deeds_of(&self, person: &Person<'_>) -> impl Iterator<Item = u8> {
         let is_deed = !self.kind.is_switch() && (!self.is_joint || self.parts.count() > 1);
-        self.parts_of(author).filter(move |_| is_deed)
+        self.parts_where(|author| person.is(author)).filter(move |_| is_deed)
     }
 
     /// Whether a hand drew the wood that was born in it, rather than that it grew by itself.
@@ -84,10 +100,10 @@ impl History {
         claims
     }
 
-    /// The deed that an author took back last, if they did nothing since.
-    fn taken_back_last(&self, author: &Principal) -> Option<(usize, u8)> {
+    /// The deed that somebody took back last, if they did nothing since.
+    fn taken_back_last(&self, person: &Person<'_>) -> Option<(usize, u8)> {
         let away = self.parts_away();
-        let is_of = |one: &&Operation| one.parts_of(author).next().is_some();
+        let is_of = |one: &&Operation| one.parts_where(|author| person.is(author)).next().is_some();
         for operation in self.operations[..self.done].iter().rev().filter(is_of) {
             match operation.deed.map(|deed| deed as usize).filter(|_| operation.kind.is_switch()) {
                 Some(deed) if away.get(deed).is_some_and(|away| away.holds(operation.part)) => {
@@ -102,21 +118,21 @@ impl History {
 }
 
 impl Document {
-    /// Takes back the newest deed of an author that is in force and of which anything can go (`UD1`). A stroke or bend of
+    /// Takes back the newest deed of somebody that is in force and of which anything can go (`UD1`). A stroke or bend of
     /// theirs ends first; where nothing else can be taken back, that is all.
-    pub(super) fn take_back(&mut self, cause: Cause<'_>) -> Result<(), Problem> {
-        self.require_no_bend_but_of(cause.author)?;
-        let has_ended = self.end_gestures_of(cause.author);
+    pub(super) fn take_back(&mut self, cause: Cause<'_>, person: &Person<'_>) -> Result<(), Problem> {
+        self.require_no_bend_but_of(|author| person.is(author))?;
+        let has_ended = self.end_gestures_of(person);
         let done =
-            if self.is_alone(cause.author) { self.travel_back() } else { self.take_back_newest(cause) };
+            if self.is_alone(person) { self.travel_back() } else { self.take_back_newest(cause, person) };
         if has_ended { Ok(()) } else { done }
     }
 
-    fn take_back_newest(&mut self, cause: Cause<'_>) -> Result<(), Problem> {
+    fn take_back_newest(&mut self, cause: Cause<'_>, person: &Person<'_>) -> Result<(), Problem> {
         let away = self.history.parts_away();
         let mut passed = 0;
         for deed in (0..self.history.done).rev() {
-            let parts: Vec<u8> = self.history.operations[deed].deeds_of(cause.author).collect();
+            let parts: Vec<u8> = self.history.operations[deed].deeds_of(person).collect();
             for part in parts.into_iter().filter(|&part| !away[deed].holds(part)) {
                 if self.switch(cause, Kind::TakenBack, (deed, part))? {
                     self.switched = self.switched.map(|switched| Switched { passed, ..switched });
@@ -164,31 +180,31 @@ impl Document {
         self.switched.take()
     }
 
-    /// Puts in force again what an author took back last (`UD3`).
-    pub(super) fn bring_back(&mut self, cause: Cause<'_>) -> Result<(), Problem> {
-        self.require_no_bend_but_of(cause.author)?;
-        if self.is_alone(cause.author) {
+    /// Puts in force again what somebody took back last (`UD3`).
+    pub(super) fn bring_back(&mut self, cause: Cause<'_>, person: &Person<'_>) -> Result<(), Problem> {
+        self.require_no_bend_but_of(|author| person.is(author))?;
+        if self.is_alone(person) {
             return self.travel_forth();
         }
-        let deed = self.history.taken_back_last(cause.author).ok_or_else(nothing_to_redo)?;
+        let deed = self.history.taken_back_last(person).ok_or_else(nothing_to_redo)?;
         if self.switch(cause, Kind::BroughtBack, deed)? { Ok(()) } else { Err(nothing_to_redo()) }
     }
 
     /// Whether nobody else has done anything on the line, or is about to: then going back in time takes nothing from
     /// anybody.
-    fn is_alone(&self, author: &Principal) -> bool {
-        let is_own = |operation: &Operation| operation.author == *author && !operation.is_joint;
+    fn is_alone(&self, person: &Person<'_>) -> bool {
+        let is_own = |operation: &Operation| person.is(&operation.author) && !operation.is_joint;
         self.history.operations.iter().all(is_own)
-            && self.strokes.open.iter().all(|open| open.author == *author)
+            && self.strokes.open.iter().all(|open| person.is(&open.author))
     }
 
-    /// Ends the strokes of an author where they are, and gives their bends up; whether there were any.
-    fn end_gestures_of(&mut self, author: &Principal) -> bool {
+    /// Ends the strokes of somebody where they are, and gives their bends up; whether there were any.
+    fn end_gestures_of(&mut self, person: &Person<'_>) -> bool {
         let open = (self.strokes.open.len(), self.bends.open.len());
-        for open in self.strokes.open.extract_if(.., |open| open.author == *author) {
+        for open in self.strokes.open.extract_if(.., |open| person.is(&open.author)) {
             self.simulation.end_stroke(open.id);
         }
-        self.bends.open.retain(|bend| bend.author != *author);
+        self.bends.open.retain(|bend| !person.is(&bend.author));
         let has_ended = open != (self.strokes.open.len(), self.bends.open.len());
         if has_ended && self.strokes.is_empty() {
             self.simulation.drop_guidance();
@@ -231,8 +247,8 @@ impl Document {
     }
 
     /// Refuses what would end a bend of somebody else.
-    pub(super) fn require_no_bend_but_of(&self, author: &Principal) -> Result<(), Problem> {
-        if self.bends.open.iter().all(|bend| bend.author == *author) {
+    pub(super) fn require_no_bend_but_of(&self, is_own: impl Fn(&Principal) -> bool) -> Result<(), Problem> {
+        if self.bends.open.iter().all(|bend| is_own(&bend.author)) {
             return Ok(());
         }
         let message = "somebody else is bending a branch";

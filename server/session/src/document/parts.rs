@@ -76,7 +76,12 @@ impl Operation {
 
     /// The parts of somebody, the last first.
     pub(super) fn parts_of<'a>(&'a self, author: &'a Principal) -> impl Iterator<Item = u8> + 'a {
-        (0..self.parts.count() as u8).rev().filter(move |&part| self.author_of(part) == author)
+        self.parts_where(move |of| of == author)
+    }
+
+    /// The parts of those for whom something is so, the last first.
+    pub(super) fn parts_where(&self, is_theirs: impl Fn(&Principal) -> bool) -> impl Iterator<Item = u8> {
+        (0..self.parts.count() as u8).rev().filter(move |&part| is_theirs(self.author_of(part)))
     }
 
     /// Whether all parts are in a set.

@@ -33,6 +33,15 @@ fn plain(action: Action) -> Command {
     action.into()
 }
 
+/// Taking back what somebody did under a key, and under these others.
+fn take_back_by(keys: &[&str]) -> Action {
+    Action::TakeBack { keys: list(keys.iter().map(|&key| key.to_owned()).collect()) }
+}
+
+fn bring_back_by(keys: &[&str]) -> Action {
+    Action::BringBack { keys: list(keys.iter().map(|&key| key.to_owned()).collect()) }
+}
+
 fn in_gesture(gesture: impl Into<Option<u32>>, action: Action) -> Command {
     Command { action, gesture: gesture.into() }
 }

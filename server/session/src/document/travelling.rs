@@ -61,7 +61,7 @@ impl Document {
                 Problem::new(Reason::BeingDrawn, message).at("kind", "a journey while nobody else draws")
             );
         }
-        self.require_no_bend_but_of(author)
+        self.require_no_bend_but_of(|of| of == author)
     }
 
     /// Whether parameters, looks or obstacles are not those of the line: ungrowing leaves them as they are.

@@ -21,7 +21,7 @@ pub(super) struct Act {
 impl Session {
     /// Takes a command from outside into the order.
     pub(super) fn act(&mut self, id: ActId, principal: &Principal, command: Command) {
-        match self.check(Access::Edit, command) {
+        match self.check(Access::Edit, principal, command) {
             Ok((command, text)) => {
                 let entry = self.accept(principal, 0, command, text, Some(id));
                 self.acts.push(Act { id, entry, outcome: None });

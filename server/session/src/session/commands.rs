@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use espalier_proto::{Action, Command, Problem, Reason, ServerMessage};
+use espalier_proto::{Action, Command, Problem, Reason, ServerMessage, bounded::List, command::MAX_OWN_KEYS};
 
 use super::Session;
 use crate::{
@@ -104,7 +104,7 @@ impl Session {
         }
         author.taken = id;
         author.forgot_refusals = false;
-        match command.and_then(|command| self.check(access, command)) {
+        match command.and_then(|command| self.check(access, principal, command)) {
             Ok((command, text)) => {
                 self.accept(principal, id, command, text, None);
             }
@@ -128,7 +128,7 @@ impl Session {
         if self.journal.is_waiting(principal, id) {
             return;
         }
-        let problem = match command.and_then(|command| self.check(access, command)) {
+        let problem = match command.and_then(|command| self.check(access, principal, command)) {
             Err(problem) => problem,
             Ok(_) => Problem::new(Reason::NumberTaken, format!("command {id} was refused before"))
                 .at("id", "a number that no command had"),
@@ -138,11 +138,18 @@ impl Session {
 
     /// A command that its author may give, in good form, read back from the very text the journal will hold, so that a
     /// replay cannot differ.
-    pub(super) fn check(&self, access: Access, mut command: Command) -> Result<(Command, String), Problem> {
+    pub(super) fn check(
+        &self,
+        access: Access,
+        principal: &Principal,
+        mut command: Command,
+    ) -> Result<(Command, String), Problem> {
         access.check(&command.action)?;
         form::check(&command.action)?;
-        if let Action::Stop { .. } = command.action {
-            command.action = self.stop_now();
+        match &mut command.action {
+            Action::Stop { .. } => command.action = self.stop_now(),
+            Action::TakeBack { keys } | Action::BringBack { keys } => *keys = self.other_keys(principal),
+            _ => {}
         }
         let text = serde_json::to_string(&command)
             .map_err(|error| Problem::new(Reason::Malformed, error.to_string()).at("kind", "plain values"))?;
@@ -159,6 +166,17 @@ impl Session {
             return Err(Problem::new(Reason::Behind, message).at("kind", allowed));
         }
         Ok((command, text))
+    }
+
+    /// The other keys under which whoever has this one did something (`UD8`).
+    fn other_keys(&self, principal: &Principal) -> List<String, 0, MAX_OWN_KEYS> {
+        let has_done = |key: &&Principal| self.authors.get(key).is_some_and(|author| author.last_entry > 0);
+        let keys = self.room.register.other_keys(principal, has_done);
+        keys.map(|key| key.name().to_owned())
+            .take(MAX_OWN_KEYS)
+            .collect::<Vec<_>>()
+            .try_into()
+            .unwrap_or_default()
     }
 
     /// A stop of all growth under way (`ST1`).

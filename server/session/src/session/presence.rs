@@ -188,9 +188,11 @@ impl Session {
         for client in self.clients.values() {
             let Some(ConnectedClient { principal, presence, .. }) = &client.connected else { continue };
             let is_author = self.authors.get(principal).is_some_and(|author| author.last_entry > 0);
-            let Some(name) = self.room.register.called(presence.person).filter(|_| is_author) else {
+            if !is_author {
                 continue;
-            };
+            }
+            // Those without a name are kept as well, for what they did stays theirs (`UD8`).
+            let name = self.room.register.called(presence.person).unwrap_or_default();
             if self.room.kept_names.get(principal).is_none_or(|kept| **kept != *name) {
                 let (author, name): (_, Arc<str>) = (principal.clone(), name.into());
                 self.room.kept_names.insert(author.clone(), Arc::clone(&name));

@@ -106,6 +106,51 @@ fn ud7_who_is_alone_is_told_as_well() {
     }
 }
 
+/// Reasons for which commands of a client were refused.
+fn refusals(peer: &Peer) -> Vec<Reason> {
+    let refused = peer.texts.iter().filter_map(|text| match text {
+        ServerMessage::Refused { problem, .. } => Some(problem.reason),
+        _ => None,
+    });
+    refused.collect()
+}
+
+#[test]
+fn ud8_who_comes_again_takes_back_what_they_did_before() {
+    let mut world = World::new();
+    // Nobody says what Ann is called.
+    let comes = |world: &mut World, person: &str, key: &str| {
+        let id = world.connect_as(Entrant::new(person, Role::Editor));
+        world.hello(id, key, None);
+        id
+    };
+    let ann = comes(&mut world, "machine", "ann-before");
+    world.command(ann, 1, grow(8));
+    world.settle();
+    let ben = enter(&mut world, "Ben", "ben-tablet");
+    draw(&mut world, ann, 2, -9.0);
+    draw(&mut world, ben, 1, 9.0);
+    world.pass(1000);
+    world.leave(ann);
+    for key in ["ann-same-day", "ann-next-day"] {
+        let ann = comes(&mut world, "machine", key);
+        world.command(ann, 1, json!({ "kind": "take_back" }));
+        world.settle();
+        let kinds: Vec<_> = deeds(world.peer(ann)).iter().map(|deed| deed.kind).collect();
+        let expected = if key == "ann-same-day" { OperationKind::Stroke } else { OperationKind::Growth };
+        assert_eq!((kinds, refusals(world.peer(ann))), (vec![expected], vec![]), "{key}");
+        // All of it is done again from the journal as it was.
+        let hash = world.document().hash();
+        world.crash();
+        assert_eq!(world.document().hash(), hash);
+    }
+    // What somebody says is their key counts for nothing.
+    let cy = enter(&mut world, "Cy", "cy-tablet");
+    world.command(cy, 1, json!({ "kind": "take_back", "keys": ["ben-tablet"] }));
+    world.settle();
+    assert_eq!(refusals(world.peer(cy)), [Reason::NothingOfYours]);
+}
+
 #[test]
 fn tt1_authors_have_the_numbers_of_people() {
     let mut world = World::new();

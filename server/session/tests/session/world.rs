@@ -368,16 +368,16 @@ impl World {
         id
     }
 
-    /// Connects and says hello.
+    /// Somebody connects who is known by the key alone, and says hello.
     pub fn join(&mut self, key: &str) -> u64 {
-        let id = self.connect();
+        let id = self.connect_as(stranger_at(key));
         self.hello(id, key, None);
         id
     }
 
     /// Connects again with what an earlier connection had.
     pub fn rejoin(&mut self, key: &str, mirror: Mirror) -> u64 {
-        let id = self.connect();
+        let id = self.connect_as(stranger_at(key));
         let resume = mirror.resume();
         self.peer_mut(id).mirror = mirror;
         self.hello(id, key, Some(resume));
@@ -515,6 +515,10 @@ fn room_for([growing, drawing]: [u64; 2], urgency: Urgency) -> u64 {
 }
 
 /// The client with this key.
+fn stranger_at(key: &str) -> Entrant {
+    Entrant::new(format!("stranger at {key}"), Role::Editor)
+}
+
 pub fn person(key: &str) -> Principal {
     Principal::client(key).expect("a key")
 }

@@ -42,11 +42,11 @@ fn is_held(document: &Document, row: u32) -> bool {
 }
 
 fn take_back(document: &mut Document, name: &str) -> Result<(), Problem> {
-    document.apply(&who(name), &plain(Action::TakeBack {}))
+    document.apply(&who(name), &plain(take_back_by(&[])))
 }
 
 fn bring_back(document: &mut Document, name: &str) -> Result<(), Problem> {
-    document.apply(&who(name), &plain(Action::BringBack {}))
+    document.apply(&who(name), &plain(bring_back_by(&[])))
 }
 
 /// Living metamers and the bits of their places.
@@ -158,7 +158,7 @@ fn ud2_a_bend_of_somebody_else_is_not_ended() {
     let path = long_path(&document, 6);
     let (base, touches) = (path[5].raw(), held(vec![path[0].raw()]));
     apply(&mut document, &plain(Action::BendBegin { bend: 1, base, touches, stretch: Share::nearest(0.2) }));
-    for action in [Action::TakeBack {}, Action::BringBack {}] {
+    for action in [take_back_by(&[]), bring_back_by(&[])] {
         let before = document.hash();
         let problem = document.apply(&who("bo"), &plain(action)).expect_err("ann is bending");
         assert_eq!((problem.reason, document.hash()), (Reason::BeingBent, before));
@@ -218,12 +218,51 @@ fn ud4_alone_they_are_undo_and_redo() {
     for document in [&mut one, &mut other] {
         draw(document, "ann", 1, 9.0, 4.0);
     }
-    apply(&mut one, &plain(Action::TakeBack {}));
+    apply(&mut one, &plain(take_back_by(&[])));
     apply(&mut other, &plain(Action::Undo {}));
     assert_eq!(one.hash(), other.hash());
-    apply(&mut one, &plain(Action::BringBack {}));
+    apply(&mut one, &plain(bring_back_by(&[])));
     apply(&mut other, &plain(Action::Redo {}));
     assert_eq!(one.hash(), other.hash());
+}
+
+#[test]
+fn ud8_what_a_person_did_under_another_key_is_theirs() {
+    let mut document = Document::new(5);
+    let grow = plain(Action::Grow { steps: Steps::nearest(9), until: None, bud: None });
+    document.apply(&who("bo"), &grow).expect("there is room");
+    let before = wood(&document);
+    draw(&mut document, "bo later", 1, 9.0, 4.0);
+    let drawn = wood(&document);
+    let act =
+        |document: &mut Document, name: &str, action: Action| document.apply(&who(name), &plain(action));
+    let refused = act(&mut document, "bo today", take_back_by(&[])).map_err(|problem| problem.reason);
+    assert_eq!(refused, Err(Reason::NothingOfYours));
+    // Alone on the line under all their keys they go back in time, as with `undo`.
+    assert_eq!(act(&mut document, "bo today", take_back_by(&["bo", "bo later"])), Ok(()));
+    assert_eq!((wood(&document), kinds(&document).len()), (before, 2));
+    assert_eq!(act(&mut document, "bo today", bring_back_by(&["bo", "bo later"])), Ok(()));
+    assert_eq!(wood(&document), drawn);
+    // Where others have drawn, what goes is the newest of what they did under any of them.
+    draw(&mut document, "cy", 1, -9.0, 5.0);
+    let with_cys = wood(&document);
+    assert_eq!(act(&mut document, "bo today", take_back_by(&["bo", "bo later"])), Ok(()));
+    let away = document.timeline().operations.iter().map(|operation| operation.away).collect::<Vec<_>>();
+    assert_eq!(away, [false, true, false, false]);
+    assert_eq!(act(&mut document, "bo later", bring_back_by(&["bo", "bo today"])), Ok(()));
+    assert_eq!(wood(&document), with_cys);
+}
+
+#[test]
+fn ud8_a_bend_on_another_device_of_ones_own_is_in_nobodys_way() {
+    let mut document = tree();
+    draw(&mut document, "bo", 1, 9.0, 4.0);
+    let path = long_path(&document, 6);
+    let (base, touches) = (path[5].raw(), held(vec![path[0].raw()]));
+    let begin = Action::BendBegin { bend: 1, base, touches, stretch: Share::nearest(0.2) };
+    document.apply(&who("bo's phone"), &plain(begin)).expect("it can bend");
+    assert_eq!(document.apply(&who("bo"), &plain(take_back_by(&["bo's phone"]))), Ok(()));
+    assert!(document.open_bends(&who("bo's phone")).is_empty());
 }
 
 #[test]
@@ -385,8 +424,8 @@ pub(super) fn happen(document: &mut Document, number: u32, name: &str, event: &E
             return document.apply(&who(name), &patch(f32::from(hundredths) / 100.0));
         }
         Event::Seed(x) => Action::PlantSeed { position: Position::nearest(Vec3::X * f32::from(x) * 3.0) },
-        Event::TakeBack => Action::TakeBack {},
-        Event::BringBack => Action::BringBack {},
+        Event::TakeBack => take_back_by(&[]),
+        Event::BringBack => bring_back_by(&[]),
         Event::Undo => Action::Undo {},
         Event::GoTo(step) => Action::GoTo { step: u32::from(step) % (document.plant().last_step() + 1) },
     };

@@ -308,7 +308,7 @@ fn ds6_everyones_undo_takes_back_what_they_said() {
     document.apply(&who("ben"), &said("/1", "roll", json!(80))).expect("it is said");
     document.apply(&who("ann"), &said("/2", "roll", json!(50))).expect("it is said");
     document.apply(&who("ben"), &said("/2", "reach", json!(0.6))).expect("it is said");
-    document.apply(&who("ann"), &plain(Action::TakeBack {})).expect("she takes hers back");
+    document.apply(&who("ann"), &plain(take_back_by(&[]))).expect("she takes hers back");
     check_wood(&document);
     let has = |document: &Document, of: &str, key: Key| {
         let node: NodeId = of.parse().expect("a way");
@@ -316,11 +316,11 @@ fn ds6_everyones_undo_takes_back_what_they_said() {
     };
     assert!(has(&document, "/1", Key::Roll) && has(&document, "/2", Key::Reach));
     assert!(!has(&document, "/2", Key::Roll));
-    document.apply(&who("ben"), &plain(Action::TakeBack {})).expect("he takes his back");
-    document.apply(&who("ben"), &plain(Action::TakeBack {})).expect("and the other");
+    document.apply(&who("ben"), &plain(take_back_by(&[]))).expect("he takes his back");
+    document.apply(&who("ben"), &plain(take_back_by(&[]))).expect("and the other");
     check_wood(&document);
     assert!(!has(&document, "/1", Key::Roll) && !has(&document, "/2", Key::Reach));
-    document.apply(&who("ann"), &plain(Action::BringBack {})).expect("she brings hers back");
+    document.apply(&who("ann"), &plain(bring_back_by(&[]))).expect("she brings hers back");
     assert!(has(&document, "/2", Key::Roll));
     check_wood(&document);
     // Once something has grown, nobody changes the wood below it by taking back.
@@ -328,7 +328,7 @@ fn ds6_everyones_undo_takes_back_what_they_said() {
     document
         .apply(&who("ben"), &plain(Action::Grow { steps: Steps::nearest(1), until: None, bud: None }))
         .expect("it grows");
-    let refused = document.apply(&who("ann"), &plain(Action::TakeBack {})).expect_err("it is sealed");
+    let refused = document.apply(&who("ann"), &plain(take_back_by(&[]))).expect_err("it is sealed");
     assert_eq!(refused.reason, Reason::DesignSealed);
 }
 

@@ -469,16 +469,16 @@ fn what_one_person_planted_is_taken_back_where_another_has_grown_on() {
     document.apply(&who("bob"), &plain(seed)).expect("there is room");
     apply(&mut document, &derive(2));
     let before = document.metamers();
-    apply(&mut document, &plain(Action::TakeBack {}));
+    apply(&mut document, &plain(take_back_by(&[])));
     assert_eq!((document.metamers(), depth(&document)), (before - 4, 3), "two depths fall");
-    apply(&mut document, &plain(Action::BringBack {}));
+    apply(&mut document, &plain(bring_back_by(&[])));
     assert_eq!((document.metamers(), depth(&document)), (before, 5));
-    apply(&mut document, &plain(Action::TakeBack {}));
+    apply(&mut document, &plain(take_back_by(&[])));
     apply(&mut document, &derive(1));
     assert_eq!((document.metamers(), depth(&document)), (before - 2, 4), "it goes on from there");
     assert_eq!(checks::all(document.plant()), Ok(()));
     for _ in 0..2 {
-        apply(&mut document, &plain(Action::TakeBack {}));
+        apply(&mut document, &plain(take_back_by(&[])));
     }
     assert!(document.grammar_depth().is_none(), "what was planted is taken back");
     assert_eq!(document.metamers(), 0);

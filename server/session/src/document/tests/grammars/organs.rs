@@ -46,11 +46,11 @@ fn what_one_person_derived_is_taken_back_with_its_organs() {
     let before = organs(&document);
     apply(&mut document, &derive(1));
     assert_ne!(organs(&document), before);
-    apply(&mut document, &plain(Action::TakeBack {}));
+    apply(&mut document, &plain(take_back_by(&[])));
     assert_eq!(organs(&document), before, "the leaves of the bud are there again");
     let read = Document::from_bytes(&document.to_bytes()).expect("it was written");
     assert_eq!((read.plant(), read.hash()), (document.plant(), document.hash()));
-    apply(&mut document, &plain(Action::BringBack {}));
+    apply(&mut document, &plain(bring_back_by(&[])));
     assert_eq!(organs(&document), [Some(1), Some(1), Some(3)]);
     assert_eq!(checks::all(document.plant()), Ok(()));
 }
