@@ -474,6 +474,18 @@ pub struct TreeLink {
     pub used: bool,
 }
 
+/// `GET /api/v1/sessions/{session}/guests`: somebody who is in a session and came by a link of a tree (`AC12`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct GuestHere {
+    /// Their number, as in `people` (`PS3`).
+    pub person: u32,
+    /// The identifier of the tree.
+    pub tree: String,
+    /// The link by which they came.
+    pub link: TreeLink,
+}
+
 /// `GET`, `PUT`, `DELETE /api/v1/trees/{tree}/lock`: whether owners alone change a tree (`AC16`).
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]

@@ -258,6 +258,7 @@ pub fn declarations() -> String {
         access::TreeLink::decl(&config),
         access::MadeLink::decl(&config),
         access::TreeLock::decl(&config),
+        access::GuestHere::decl(&config),
         access::RemovedPerson::decl(&config),
         access::KeptOut::decl(&config),
         access::HandOver::decl(&config),

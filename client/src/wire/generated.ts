@@ -3768,6 +3768,20 @@ export type TreeLock = {
  */
 by?: string, };
 
+export type GuestHere = { 
+/**
+ * Their number, as in `people` (`PS3`).
+ */
+person: number, 
+/**
+ * The identifier of the tree.
+ */
+tree: string, 
+/**
+ * The link by which they came.
+ */
+link: TreeLink, };
+
 export type RemovedPerson = { 
 /**
  * What they are called.

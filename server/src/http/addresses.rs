@@ -6,9 +6,10 @@ use axum::routing::{MethodRouter, delete, get, patch, post, put};
 use espalier_proto::{
     CheckGrammar, GrammarOrigins, GrammarReport, ShippedGrammar,
     access::{
-        Admitted, AuditEvent, ChangeGroup, ChangeLink, ChangePassword, ChangeUser, Entrance, HandOver,
-        KeptOut, ListedGroup, ListedToken, ListedUser, LogIn, MadeLink, MadeToken, Me, NewGroup, NewLink,
-        NewMember, NewToken, NewUser, Redeem, RemovedPerson, TreeLink, TreeLock, TreeMember, TreeOwner,
+        Admitted, AuditEvent, ChangeGroup, ChangeLink, ChangePassword, ChangeUser, Entrance, GuestHere,
+        HandOver, KeptOut, ListedGroup, ListedToken, ListedUser, LogIn, MadeLink, MadeToken, Me, NewGroup,
+        NewLink, NewMember, NewToken, NewUser, Redeem, RemovedPerson, TreeLink, TreeLock, TreeMember,
+        TreeOwner,
     },
     comment::{ChangeComment, ChangeThread, NewComment, NewThread, Seen, Thread},
     library::{
@@ -28,9 +29,9 @@ use tower::limit::GlobalConcurrencyLimitLayer;
 
 use super::{
     Shared, audit, collections, comments, description, description::About, entry, exports, failure::Path,
-    grammars, groups, guard::TIME_LIMIT, imports, jobs, keys::Shown, links, locks, members, obstacles,
-    origin::METRICS, owners, removals, reviews, schematic, session_list, sessions, species, status, tokens,
-    trees, uploads::uploads, users, versions,
+    grammars, groups, guard::TIME_LIMIT, guests, imports, jobs, keys::Shown, links, locks, members,
+    obstacles, origin::METRICS, owners, removals, reviews, schematic, session_list, sessions, species,
+    status, tokens, trees, uploads::uploads, users, versions,
 };
 use crate::{
     access::Action,
@@ -253,6 +254,7 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/sessions/{session}/obstacles", Action::EditSession, post(obstacles::upload).layer(uploads(MAX_UPLOADS)), About::new("Place a glTF or OBJ model as an obstacle (OB6).").takes_file("model/gltf-binary").gives::<UploadedObstacle>(201)).up_to(MAX_MODEL_BYTES).within(UPLOAD_TIME),
         route("GET /api/v1/sessions/{session}/obstacles/{obstacle}", Action::SeeObstacle, get(obstacles::mesh), About::new("The mesh of an obstacle (OB5).").gives_parts("application/octet-stream")),
         route("DELETE /api/v1/sessions/{session}/people/{person}", Action::ShareTree, delete(removals::remove), About::new("Remove somebody from the session and its tree (AC17); the number is that of `people`.").gives::<RemovedPerson>(200)).noted("remove"),
+        route("GET /api/v1/sessions/{session}/guests", Action::ShareTree, get(guests::list), About::new("Who of those in the session came by a link of its tree, and by which (AC12); the numbers are those of `people`.").gives::<Vec<GuestHere>>(200)),
         route("GET /api/v1/sessions/{session}/removals", Action::ShareTree, get(removals::list), About::new("Who is kept out of the session and its tree, and can be let back (AC17).").gives::<Vec<KeptOut>>(200)),
         route("DELETE /api/v1/sessions/{session}/removals/{removal}", Action::ShareTree, delete(removals::let_back), About::new("Let somebody back before their time.").gives_nothing()).noted("let-back"),
         route("GET /api/v1/sessions/{session}/owner", Action::SeeSession, get(owners::find), About::new("To whom the tree of the session was handed over (AC18).").gives::<TreeOwner>(200)),

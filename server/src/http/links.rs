@@ -106,7 +106,7 @@ fn no_link() -> Failure {
     Failure::none_such("link", "link", "the identifier of a link of this tree")
 }
 
-fn described(pass: Pass) -> TreeLink {
+pub(super) fn described(pass: Pass) -> TreeLink {
     TreeLink {
         id: pass.id,
         name: pass.name,

@@ -15,6 +15,7 @@ mod file_name;
 mod grammars;
 mod groups;
 mod guard;
+mod guests;
 mod imports;
 mod jobs;
 mod keys;

@@ -3,8 +3,17 @@ import { program, type Server } from "./server";
 import type { Tablet } from "./tablet";
 
 /** A link that lets one device into a server, as an owner who is called so. */
-export function ownersLink({ database, address }: Server, name: string): string {
-  const options = ["--role", "owner", "--name", name, "--database", database, "--url", address];
+export function ownersLink(server: Server, name: string): string {
+  return devicesLink(server, name, "owner");
+}
+
+/** The same as an editor. */
+export function editorsLink(server: Server, name: string): string {
+  return devicesLink(server, name, "editor");
+}
+
+function devicesLink({ database, address }: Server, name: string, role: string): string {
+  const options = ["--role", role, "--name", name, "--database", database, "--url", address];
   const printed = execFileSync(program, ["invite", ...options], { encoding: "utf8" });
   const link = /http:\/\/\S+\/pair#\S+/.exec(printed)?.[0];
   if (!link) throw new Error(`there is no link in ${printed}`);

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { guestsLink, ownersLink } from "./invitations";
+import { editorsLink, guestsLink, ownersLink } from "./invitations";
 import { LANDSCAPE, PHONE, type Screen } from "./screens";
 import { until } from "./server";
 import { press } from "./visits";
@@ -42,6 +42,42 @@ test.each([
     await expect.poll(() => guest.page.evaluate(async () => (await fetch("/api/v1/me")).status)).toBe(401);
   },
 );
+
+test.each<[string, Screen]>([
+  ["tablet", LANDSCAPE],
+  ["upright", { ...LANDSCAPE, width: LANDSCAPE.height, height: LANDSCAPE.width }],
+  ["phone", PHONE],
+])("AC12: on a %s the owner lets whoever is here do more or less", async (name, screen) => {
+  const owner = await workshop.open(ownersLink(workshop.server, "Ann"), screen);
+  const { page } = owner;
+  const link = await guestsLink(owner, `Larch of the ${name}`, "Bo");
+  const guest = await workshop.open(link, { width: 600, height: 500, detail: 0.3 });
+  await owner.press(page.locator(".people-chip"));
+  const bo = page.getByRole("dialog").locator(".people").first().locator("li").filter({ hasText: "Bo" });
+  const may = (text: string) => bo.getByText(text, { exact: true }).waitFor();
+  const lets = async () => (await bo.getByRole("button", { name: /: Bo$/ }).allInnerTexts()).sort();
+  await may("May draw");
+  await bo.getByRole("button", { name: "Let comment: Bo" }).waitFor();
+  expect(await lets()).toEqual(["Let comment", "Only let look"]);
+  await owner.show(`people-roles-${name}`);
+  await owner.press(bo.getByRole("button", { name: "Let comment: Bo" }));
+  await may("May comment");
+  await guest.page.locator(".toast", { hasText: "You may no longer draw on this tree" }).waitFor();
+  await until("the others are offered", async () => (await lets()).join() === "Let draw,Only let look");
+  await owner.press(bo.getByRole("button", { name: "Only let look: Bo" }));
+  await may("May look");
+  await owner.press(bo.getByRole("button", { name: "Let draw: Bo" }));
+  await may("May draw");
+  await guest.page.locator(".toast", { hasText: "You may draw on this tree now" }).waitFor();
+
+  // Who came otherwise has their role elsewhere, and the list says so.
+  const cy = await workshop.open(editorsLink(workshop.server, "Cy"), { width: 600, height: 500, detail: 0.3 });
+  await cy.page.goto(page.url());
+  const cys = page.getByRole("dialog").locator(".people").first().locator("li").filter({ hasText: "Cy" });
+  await cys.getByText("comes with their login or their device", { exact: false }).waitFor();
+  expect(await cys.getByRole("button", { name: /: Cy$/ }).count()).toBe(0);
+  await owner.show(`people-roles-elsewhere-${name}`);
+});
 
 test.each<[string, Screen]>([
   ["tablet", { ...LANDSCAPE, detail: 0.3 }],

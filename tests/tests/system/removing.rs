@@ -152,6 +152,43 @@ async fn ac17_a_guest_is_removed_for_good_and_hears_by_whom() {
 }
 
 #[tokio::test]
+async fn ac12_a_guest_who_is_here_may_do_more_or_less_by_their_link() {
+    let scratch = Scratch::new();
+    let (server, [ann, bo]) = studio(&scratch.path("trees.db"), [("Ann", "owner"), ("Bo", "editor")]);
+    let (session, tree) = tree(&server, &ann);
+    let links = format!("/api/v1/trees/{tree}/links");
+    let made = ask(&server, "POST", &links, &ann, r#"{"role":"editor","name":"Guest tablet"}"#).json();
+    let guest =
+        format!("cookie: {}", cookie(&server, secret_in(made["url"].as_str().expect("it has an address"))));
+    let mut anns = come(&server, &session, &ann, "client-of-ann").await;
+    let _bos = come(&server, &session, &bo, "client-of-bo").await;
+    let mut guests = come(&server, &session, &guest, "client-of-guest").await;
+    until(&mut anns, |message| message["people"].as_array().is_some_and(|people| people.len() == 3)).await;
+    let path = format!("/api/v1/sessions/{session}/guests");
+    assert_eq!(ask(&server, "GET", &path, &bo, "").status, 403, "owners see who came how");
+    let here = ask(&server, "GET", &path, &ann, "").json();
+    assert_eq!(here.as_array().map(Vec::len), Some(1), "who logs in came by no link: {here}");
+    let (link, number) = (&here[0]["link"], here[0]["person"].as_u64().expect("a number"));
+    assert_eq!(
+        (&link["name"], &link["role"], &link["id"]),
+        (&json!("Guest tablet"), &json!("editor"), &made["id"])
+    );
+    assert_eq!(here[0]["tree"], json!(tree));
+    let patch = format!("{links}/{}", link["id"].as_str().expect("it has an identifier"));
+    for wanted in ["commenter", "viewer", "editor"] {
+        let body = json!({ "role": wanted }).to_string();
+        assert_eq!(ask(&server, "PATCH", &patch, &ann, &body).status, 200);
+        assert_eq!(role(&mut guests).await, wanted, "it holds at once");
+        let is_told = |message: &Value| {
+            let people = message["people"].as_array().into_iter().flatten();
+            people.into_iter().any(|one| one["person"] == number && one["role"] == wanted)
+        };
+        until(&mut anns, is_told).await;
+        assert_eq!(ask(&server, "GET", &path, &ann, "").json()[0]["link"]["role"], wanted);
+    }
+}
+
+#[tokio::test]
 async fn ac18_a_tree_is_handed_on_while_people_are_connected() {
     let scratch = Scratch::new();
     let users = [("Ann", "owner"), ("Bo", "editor"), ("Cy", "viewer")];

@@ -1,9 +1,14 @@
-import type { KeptOut, RemovedPerson, TreeOwner } from "../../wire/generated";
+import type { GuestHere, KeptOut, RemovedPerson, TreeOwner } from "../../wire/generated";
 import { ask } from "../requests/request";
 
 /** Somebody is removed from a session and its tree (`AC17`). */
 export function removePerson(session: string, person: number): Promise<RemovedPerson> {
   return ask<RemovedPerson>("DELETE", `${pathOf(session)}/people/${person}`);
+}
+
+/** Who of those in a session came by a link of a tree, and by which (`AC12`). */
+export function listGuests(session: string): Promise<readonly GuestHere[]> {
+  return ask<GuestHere[]>("GET", `${pathOf(session)}/guests`);
 }
 
 /** Who is kept out of a session and its tree, and can be let back. */

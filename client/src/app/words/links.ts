@@ -22,6 +22,7 @@ export const LINKS = {
   "links.let.commenter": ["Let comment", "Kommentieren lassen"],
   "links.let.editor": ["Let draw", "Zeichnen lassen"],
   "links.let.viewer": ["Only let look", "Nur zusehen lassen"],
+  "links.let.which": ["{what}: {name}", "{what}: {name}"],
   "links.lasting": ["For", "Für"],
   "links.lasting.day": ["A day", "Einen Tag"],
   "links.lasting.week": ["A week", "Eine Woche"],

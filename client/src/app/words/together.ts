@@ -18,6 +18,10 @@ export const TOGETHER = {
   "together.role.editor": ["May draw", "Darf zeichnen"],
   "together.role.owner": ["Owner", "Besitzt den Baum"],
   "together.role.admin": ["Looks after the server", "Betreut den Server"],
+  "together.role.elsewhere": [
+    "What they may do comes with their login or their device, not from this tree.",
+    "Was sie dürfen, kommt von ihrer Anmeldung oder ihrem Gerät, nicht von diesem Baum.",
+  ],
   "together.remove": ["Remove", "Entfernen"],
   "together.remove.which": ["Remove {name}", "{name} entfernen"],
   "together.remove.sure": [

@@ -1,18 +1,30 @@
 import { useCallback, useEffect, useState } from "preact/hooks";
-import { KEPT_OUT_HOURS, type KeptOut, type Person, ROLES } from "../../../wire/generated";
+import {
+  type GuestHere,
+  KEPT_OUT_HOURS,
+  type KeptOut,
+  type LinkRole,
+  type Person,
+  ROLES,
+} from "../../../wire/generated";
+import { changeLink } from "../../library/links/link-api";
 import { explained } from "../../problems/explained";
 import type { Studio } from "../../studio";
 import * as api from "../../together/governing-api";
 import { momentText } from "../../words/date-text";
 import { say } from "../../words/say";
 import { ConfirmRow } from "./confirm-row";
+import { LinkRoles } from "./share/link-roles";
 
-interface GoverningNow {
+export interface GoverningNow {
   /** Who is kept out. */
   readonly removals: readonly KeptOut[];
   /** To whom the tree was handed over. */
   readonly heir: string | undefined;
+  /** Who of those here came by a link; null while nobody knows. */
+  readonly guests: readonly GuestHere[] | null;
   readonly look: () => Promise<void>;
+  readonly letDo: (guest: GuestHere, role: LinkRole) => Promise<void>;
   readonly letBack: (removal: KeptOut) => Promise<void>;
   readonly takeBack: () => Promise<void>;
 }
@@ -21,6 +33,7 @@ interface GoverningNow {
 export function useGoverning(studio: Studio): GoverningNow {
   const [removals, setRemovals] = useState<readonly KeptOut[]>([]);
   const [heir, setHeir] = useState<string | undefined>();
+  const [guests, setGuests] = useState<readonly GuestHere[] | null>(null);
   const { link, rights, together } = studio;
   const session = link.session.value ?? "";
   const look = useCallback(async () => {
@@ -28,13 +41,19 @@ export function useGoverning(studio: Studio): GoverningNow {
       return;
     }
     await told(studio, async () => {
-      const [removals, owner] = await Promise.all([api.listRemovals(session), api.findOwner(session)]);
+      const asked = [api.listRemovals(session), api.findOwner(session), api.listGuests(session)] as const;
+      const [removals, owner, guests] = await Promise.all(asked);
       setRemovals(removals);
       setHeir(owner.name);
+      setGuests(guests);
     });
   }, [studio, rights, session]);
   // Whoever comes or goes may have been removed, or let back, by another owner.
   useEffect(() => together.people.subscribe(() => void look()), [together, look]);
+  const letDo = async ({ tree, link }: GuestHere, role: LinkRole) => {
+    await told(studio, () => changeLink(tree, link.id, role));
+    await look();
+  };
   const letBack = async ({ id }: KeptOut) => {
     await told(studio, () => api.letBack(session, id));
     await look();
@@ -43,7 +62,7 @@ export function useGoverning(studio: Studio): GoverningNow {
     await told(studio, () => api.handOver(session, null));
     await look();
   };
-  return { removals, heir, look, letBack, takeBack };
+  return { removals, heir, guests, look, letDo, letBack, takeBack };
 }
 
 /** Who was removed, to let them back; and to whom the tree was handed over. */
@@ -94,11 +113,14 @@ interface PersonActsProps {
   readonly studio: Studio;
   readonly person: Person;
   readonly name: string;
-  readonly onDone: () => Promise<void>;
+  readonly governing: GoverningNow;
 }
 
-/** Hands the tree over to somebody who is here, or removes them; each is asked about once. Owners are left alone. */
-export function PersonActs({ studio, person: { person, role }, name, onDone }: PersonActsProps) {
+/**
+ * Lets somebody who is here do more or less, which holds at once; hands the tree over to them, or removes them, each of
+ * which is asked about once. Owners are left alone.
+ */
+export function PersonActs({ studio, person: { person, role }, name, governing }: PersonActsProps) {
   const [asks, setAsks] = useState<"remove" | "hand-over" | null>(null);
   const session = studio.link.session.value ?? "";
   if (ROLES.indexOf(role) >= ROLES.indexOf("owner")) {
@@ -119,7 +141,7 @@ export function PersonActs({ studio, person: { person, role }, name, onDone }: P
       await api.handOver(session, person);
       studio.toasts.show(say("together.handed-over", { name }));
     });
-    await onDone();
+    await governing.look();
   };
   if (asks !== null) {
     return (
@@ -131,20 +153,25 @@ export function PersonActs({ studio, person: { person, role }, name, onDone }: P
       />
     );
   }
+  const guest = governing.guests?.find((guest) => guest.person === person);
   return (
-    <div class="person-acts">
-      {(["hand-over", "remove"] as const).map((act) => (
-        <button
-          key={act}
-          type="button"
-          class="small"
-          aria-label={say(`together.${act}.which`, { name })}
-          onClick={() => setAsks(act)}
-        >
-          {say(`together.${act}`)}
-        </button>
-      ))}
-    </div>
+    <>
+      {governing.guests !== null && !guest && <p class="quiet">{say("together.role.elsewhere")}</p>}
+      <div class="person-acts">
+        {guest && <LinkRoles link={{ ...guest.link, name }} onChange={(role) => governing.letDo(guest, role)} />}
+        {(["hand-over", "remove"] as const).map((act) => (
+          <button
+            key={act}
+            type="button"
+            class="small"
+            aria-label={say(`together.${act}.which`, { name })}
+            onClick={() => setAsks(act)}
+          >
+            {say(`together.${act}`)}
+          </button>
+        ))}
+      </div>
+    </>
   );
 }
 

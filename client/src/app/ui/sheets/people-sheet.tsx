@@ -4,7 +4,7 @@ import type { Studio } from "../../studio";
 import { companions, isReplaying, nameOf } from "../../together/people";
 import { descriptorOf, TOOL_NAMES } from "../../tools/tools";
 import { say } from "../../words/say";
-import { Governing, PersonActs, useGoverning } from "./governing";
+import { Governing, type GoverningNow, PersonActs, useGoverning } from "./governing";
 
 /** Who has the tree open, where they are, and what they do; to follow them, or to bring them here. */
 export function PeopleSheet({ studio }: { studio: Studio }) {
@@ -32,7 +32,7 @@ export function PeopleSheet({ studio }: { studio: Studio }) {
             person={person}
             you={here.you}
             close={close}
-            onHandedOver={governing.look}
+            governing={governing}
           />
         ))}
       </ul>
@@ -69,10 +69,10 @@ interface PersonRowProps {
   /** This page's own device. */
   readonly you: number;
   readonly close: () => void;
-  readonly onHandedOver: () => Promise<void>;
+  readonly governing: GoverningNow;
 }
 
-function PersonRow({ studio, person, you, close, onHandedOver }: PersonRowProps) {
+function PersonRow({ studio, person, you, close, governing }: PersonRowProps) {
   const isYou = person.devices.some(({ device }) => device === you);
   const name = nameOf(person);
   const { followed } = studio.together;
@@ -112,7 +112,7 @@ function PersonRow({ studio, person, you, close, onHandedOver }: PersonRowProps)
           </p>
         ))}
         {!isYou && studio.rights.mayGovern && (
-          <PersonActs studio={studio} person={person} name={name} onDone={onHandedOver} />
+          <PersonActs studio={studio} person={person} name={name} governing={governing} />
         )}
       </div>
     </li>

@@ -1,9 +1,9 @@
 import { useState } from "preact/hooks";
 import type { LinkRole, TreeLink } from "../../../../wire/generated";
-import { LINK_ROLES } from "../../../library/links/lasting";
 import { momentText } from "../../../words/date-text";
 import { type Key, say } from "../../../words/say";
 import { ConfirmRow } from "../confirm-row";
+import { LinkRoles } from "./link-roles";
 
 interface LinkRowProps {
   readonly link: TreeLink;
@@ -16,9 +16,9 @@ interface LinkRowProps {
  * Who was invited, since when and until when; ways to let them do more or less, which holds at once, and to take it all
  * back, which is asked about once.
  */
-export function LinkRow({ link: { name, role, since, until, used }, onChange, onRevoke }: LinkRowProps) {
+export function LinkRow({ link, onChange, onRevoke }: LinkRowProps) {
+  const { name, role, since, until, used } = link;
   const [asks, setAsks] = useState(false);
-  const others = LINK_ROLES.filter((other) => other !== role);
   return (
     <li class="link-row" data-used={used}>
       <div>
@@ -37,11 +37,7 @@ export function LinkRow({ link: { name, role, since, until, used }, onChange, on
         />
       ) : (
         <div class="link-acts">
-          {others.map((other) => (
-            <button key={other} type="button" class="small" onClick={() => void onChange(other)}>
-              {say(`links.let.${other}`)}
-            </button>
-          ))}
+          <LinkRoles link={link} onChange={onChange} />
           <button
             type="button"
             class="small"
