@@ -36,6 +36,7 @@ pub fn declarations() -> String {
     constant("MAX_THUMBNAIL_BYTES", thumbnail::MAX_THUMBNAIL_BYTES.to_string());
     constant("KEPT_DAYS", version::KEPT_DAYS.to_string());
     constant("KEPT_OUT_HOURS", version::KEPT_OUT_HOURS.to_string());
+    constant("COMMENT_MINUTES", version::COMMENT_MINUTES.to_string());
     constant("TURNTABLE_PICTURES", version::TURNTABLE_PICTURES.to_string());
     constant("FARTHEST", place::FARTHEST.to_string());
     constant("DEEPEST", place::DEEPEST.to_string());

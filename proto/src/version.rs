@@ -33,6 +33,9 @@ pub const MAX_LINK_HOURS: u32 = 365 * 24;
 /// Hours for which somebody who was removed is kept out (`AC17`).
 pub const KEPT_OUT_HOURS: u32 = 12;
 
+/// Minutes for which a comment may be changed by whoever wrote it (`CT5`).
+pub const COMMENT_MINUTES: u32 = 15;
+
 /// Days for which a deleted tree can be taken back (`LB6`).
 pub const KEPT_DAYS: u32 = 30;
 /// Pictures of a turntable, from all around a tree (`LB9`).

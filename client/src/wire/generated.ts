@@ -12,6 +12,7 @@ export const MAX_NOTE_CHARACTERS = 2000;
 export const MAX_THUMBNAIL_BYTES = 196608;
 export const KEPT_DAYS = 30;
 export const KEPT_OUT_HOURS = 12;
+export const COMMENT_MINUTES = 15;
 export const TURNTABLE_PICTURES = 12;
 export const FARTHEST = 1000;
 export const DEEPEST = -10;

@@ -18,6 +18,7 @@ use espalier_proto::{
         SketchNote, Thread, ThreadPlace,
     },
     thumbnail,
+    version::COMMENT_MINUTES,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -41,7 +42,7 @@ use crate::{
 /// Threads in one answer.
 const MAX_THREADS: u32 = 200;
 /// For so long a comment may be changed by whoever wrote it.
-const CHANGED_WITHIN: Duration = Duration::from_mins(15);
+const CHANGED_WITHIN: Duration = Duration::from_mins(COMMENT_MINUTES as u64);
 /// Comments that somebody writes in a minute.
 const WRITTEN: u32 = 60;
 const WRITTEN_TIME: Duration = Duration::from_mins(1);
@@ -180,9 +181,9 @@ pub(super) async fn edit(
         return Err(espalier_session::forbidden().into());
     }
     if found.written_at < written(SystemTime::now() - CHANGED_WITHIN) {
-        let sentence = "A comment is changed within 15 minutes alone.";
+        let sentence = format!("A comment is changed within {COMMENT_MINUTES} minutes alone.");
         let problem = Problem::new(Reason::CommentStays, sentence);
-        return Err(problem.at("comment", "one of the last 15 minutes").into());
+        return Err(problem.at("comment", format!("one of the last {COMMENT_MINUTES} minutes")).into());
     }
     let said = Said { text: text.into(), ..Said::from_json(&found.said)? };
     let edited = CommentChange::Edited { said: said.to_json(), at: now() };

@@ -1,9 +1,9 @@
-import type { NewComment, NewThread, Thread } from "../../wire/generated";
+import { COMMENT_MINUTES, type NewComment, type NewThread, type Thread } from "../../wire/generated";
 import { newClientKey } from "../connection/client-record";
 import { ask } from "../requests/request";
 
 /** So long its words can be changed, in milliseconds (`CT5`). */
-export const CHANGED_WITHIN = 15 * 60_000;
+export const CHANGED_WITHIN = COMMENT_MINUTES * 60_000;
 
 /** Threads in one answer. */
 const PAGE = 200;

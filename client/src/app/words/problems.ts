@@ -218,8 +218,8 @@ export const REFUSALS = {
     "{cause} hat dich von diesem Baum entfernt. Dein Link gilt nicht mehr; bitte um einen neuen, wenn du zurückkommen sollst.",
   ],
   "problems.comment-stays": [
-    "A comment can be changed for 15 minutes only. Delete it, or write another one.",
-    "Ein Kommentar lässt sich nur 15 Minuten lang ändern. Lösch ihn oder schreib einen neuen.",
+    "A comment can be changed for {least} minutes only. Delete it, or write another one.",
+    "Ein Kommentar lässt sich nur {least} Minuten lang ändern. Lösch ihn oder schreib einen neuen.",
   ],
   "problems.not-deleted": ["This tree is not deleted.", "Dieser Baum ist nicht gelöscht."],
   "problems.collection-in-itself": [
