@@ -85,12 +85,12 @@ pub(super) async fn create(
         ));
     };
     shared.ask(&caller, Action::OpenTree, Named::Tree(&tree)).await?;
+    // Two who open a tree at once come into one session: the second reads which one the first has begun.
+    let _one = shared.opening.lock().await;
     let stored = trees::stored(&shared, &tree).await?;
     if stored.deleted_at.is_some() {
         return Err(Failure::no_tree(" any more: it was deleted, and can be taken back"));
     }
-    // Two who open a tree at once come into one session.
-    let _one = shared.opening.lock().await;
     if new.version.is_none()
         && !new.template
         && let Some(session) = to_join(&shared, &principal, &stored).await?
@@ -98,7 +98,7 @@ pub(super) async fn create(
         return Ok((StatusCode::OK, Json(session)));
     }
     count(&shared, &caller)?;
-    let is_beside = is_in_work(&shared, &principal, &stored).await;
+    let is_beside = is_in_work(&shared, &principal, &stored).await?;
     let version = new.version.unwrap_or(stored.head.number);
     let name = name::unguessable();
     let (mut session, snapshot, room) = planted(&shared, &name, &tree, version).await?;
@@ -177,13 +177,14 @@ async fn to_join(
     let found = described(shared, session.clone()).await?;
     let is_saved = found.tree.as_ref().is_some_and(|of| of.saved && of.version == tree.head.number);
     let is_theirs = found.tree.as_ref().is_some_and(|of| of.id == tree.id);
-    Ok((is_theirs && (is_saved || is_in_work(shared, principal, tree).await)).then_some(found))
+    Ok((is_theirs && is_saved || is_in_work(shared, principal, tree).await?).then_some(found))
 }
 
-/// Whether somebody else is in the session of a tree.
-async fn is_in_work(shared: &Shared, principal: &Principal, tree: &StoredTree) -> bool {
-    let Some(session) = &tree.session else { return false };
-    shared.sessions.people(session).await.iter().any(|other| other != principal)
+/// Whether somebody else is in the session of a tree, which was not saved as another one since.
+async fn is_in_work(shared: &Shared, principal: &Principal, tree: &StoredTree) -> Result<bool, Failure> {
+    let Some(session) = &tree.session else { return Ok(false) };
+    let is_theirs = shared.store.tree_of(session).await?.is_some_and(|of| of.id == tree.id);
+    Ok(is_theirs && shared.sessions.people(session).await.iter().any(|other| other != principal))
 }
 
 /// A session with the tree that it belongs to.
