@@ -28,6 +28,10 @@ use crate::{
     time::now,
 };
 
+/// What is noted and not counted, for it takes from nobody else and gives nothing away: it protects.
+const PROTECTIVE: [&str; 8] =
+    ["token-revoke", "password", "remove", "unlink", "take-back", "lock", "delete-comment", "review"];
+
 /// The key of the client that asks, as in its hello.
 pub(super) const CLIENT: HeaderName = HeaderName::from_static("espalier-client");
 
@@ -126,7 +130,7 @@ pub(super) async fn ask(
         let named = |name| params.iter().find(|(other, _)| *other == name).map(|(_, value)| value);
         let named = named("session").map(Named::Session).or_else(|| named("tree").map(Named::Tree));
         shared.ask(&caller, action, named.unwrap_or(Named::Server)).await?;
-        if noted.is_some_and(|noted| noted != EXPORT) {
+        if noted.is_some_and(|noted| noted != EXPORT && !PROTECTIVE.contains(&noted)) {
             shared.count_noted(&caller, action)?;
         }
         Ok::<_, Failure>(principal(&parts.headers)?)
@@ -225,10 +229,10 @@ impl Shared {
         Ok((caller.role_where(given), standing))
     }
 
-    /// Counts something that is noted (`AC10`). Tokens are everybody's own; what else owners of all trees do, they may do as
+    /// Counts something that is noted (`AC10`) and protects nobody. Tokens are everybody's own; what else owners of all trees do, they may do as
     /// often as they like.
     fn count_noted(&self, caller: &Caller, action: Action) -> Result<(), Failure> {
-        let is_counted = matches!(action, Action::OwnTokens | Action::MakeToken) || !caller.owns_all();
+        let is_counted = action == Action::MakeToken || !caller.owns_all();
         let Some(by) = caller.counted_as().filter(|_| is_counted) else { return Ok(()) };
         let counted = self.noted_done.0.count(by, Instant::now());
         counted.map_err(|wait| Failure::too_often("path", "That was done too often.", wait))

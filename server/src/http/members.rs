@@ -109,8 +109,8 @@ async fn add(
     let name = String::from(name);
     let to = if group { Receiver::Group(name.clone()) } else { Receiver::User(name.clone()) };
     let role = Role::from(role);
-    let tried = NamesTried::count(shared, caller)?;
     ask_to_give(shared, caller, what, &to, role).await?;
+    let tried = NamesTried::count(shared, caller)?;
     match shared.store.give(what, &to, role).await {
         Err(StoreError::NotFound(Missing::User)) => {
             return Err(Failure::none_such("user", "name", "the name of somebody who can log in"));

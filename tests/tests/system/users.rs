@@ -163,7 +163,7 @@ async fn ac22_what_was_given_is_told_and_taken_while_somebody_is_connected() {
     assert_eq!(ask(&server, "GET", &path, &bo, "").status, 404);
     let audit = program::run(&["audit", "--database", name(&database)]).stdout;
     assert!(
-        audit.contains("give Old ash Bo: done") && audit.contains("take-back Old ash Bo: done"),
+        audit.contains("give Old ash Bo editor: done") && audit.contains("take-back Old ash Bo: done"),
         "{audit}"
     );
 }
