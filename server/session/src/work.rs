@@ -36,6 +36,9 @@ const LOOKS_MS: u64 = 500;
 /// Whoever has drawn draws on as long as no more time than this goes by, in milliseconds.
 pub(crate) const PAUSE_MS: u64 = 3000;
 
+/// Growth that has so much left, in metamers times steps, is long: it takes some tenths of a second at least.
+const LONG_GROWTH: u64 = 1_000_000;
+
 /// What a slice of work is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Urgency {
@@ -222,9 +225,11 @@ impl Work {
         (self.orders, self.stops, self.hold) = (orders, stops, hold);
     }
 
-    /// Whether more of what was taken over is to be done before anybody comes: growth that nobody has stopped is not.
+    /// Whether more of what was taken over is to be done before anybody comes: long growth that nobody has stopped is not.
     pub(crate) fn follows(&self) -> bool {
-        let grows_on = self.busy && self.doing_alone && self.stops.end_of(self.applied).is_none();
+        let left = u64::from(self.document.pending_steps()) * u64::from(self.document.metamers());
+        let is_stopped = self.stops.end_of(self.applied).is_some();
+        let grows_on = self.busy && self.doing_alone && !is_stopped && left >= LONG_GROWTH;
         self.hold.is_none() && (self.busy || !self.orders.is_empty()) && !grows_on
     }
 

@@ -86,7 +86,8 @@ async fn lm16_whoever_says_nothing_where_there_is_no_place_holds_up_nobody() {
 #[tokio::test]
 async fn lm15_places_of_those_who_do_not_read_become_free() {
     let patience = Duration::from_millis(50);
-    let house = House::new(Limits { connections: 3, of_one: 1, told: 2, patience, asking: LONG }).await;
+    let limits = Limits { connections: 3, of_one: 1, told: 2, patience, ..Limits::default() };
+    let house = House::new(limits).await;
     let mut unread = Vec::new();
     for _ in 0..3 {
         unread.push(house.ask("/endless", 20).await);

@@ -195,7 +195,6 @@ async fn restore(
     progress: &Progress,
 ) -> Result<Opened, OpenError> {
     let last = stored.through + stored.entries.len() as u64;
-    tracing::info!(session = name, entries = stored.entries.len(), last, "loading");
     let fresh = notices(&stored);
     for damage in &stored.damage {
         match damage {
@@ -213,6 +212,7 @@ async fn restore(
     let room = Growing::new(services.memory.take_soon(Use::Session, memory::restore(bytes)).await?);
     // It is tried only where there is memory for it.
     let tries = tries(services, name, lease, &stored).await;
+    tracing::info!(session = name, entries = stored.entries.len(), last, "loading");
     let waits = tries > MOST_TRIES;
     let StoredSession { seed, snapshot, entries, damage, notices, written_by, .. } = stored;
     let follow = entries.len();

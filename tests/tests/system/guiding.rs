@@ -92,7 +92,8 @@ async fn lm4_the_budget_of_a_session_is_the_one_it_began_with() {
     let server = Server::start_with(&scratch.path("trees.db"), 0, &["--metamer-budget", "900"]);
     client.reconnect(server.port()).await;
     client.until_form(&form).await;
-    assert_eq!((client.state.metamer_budget, client.state.budget_reached), (600, true));
+    client.until("the budget is reached", |client| client.state.budget_reached).await;
+    assert_eq!(client.state.metamer_budget, 600);
     let session = server.new_session(7);
     let newer = Client::connect(server.port(), &session, "browser-2").await;
     assert_eq!((newer.state.metamer_budget, newer.state.budget_reached), (900, false));

@@ -79,8 +79,8 @@ impl Restoring {
 
     /// Does a slice of what the journal holds; whether more is to follow before anybody comes.
     ///
-    /// Nothing more follows when all is done, when there is no room for it (`LM19`), and when what comes next is growth
-    /// that nobody has stopped: that goes on in the session, where people look on and may stop it.
+    /// Nothing more follows when all is done, when there is no room for it (`LM19`), and when what comes next is long
+    /// growth that nobody has stopped: that goes on in the session, where people look on and may stop it.
     pub fn follow(&mut self, is_over: impl Fn() -> bool, has_room: HasRoom<'_>) -> bool {
         if self.work.follows() {
             self.work.follow(is_over, has_room);

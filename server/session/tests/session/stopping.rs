@@ -137,13 +137,14 @@ fn st1_growth_that_a_crash_interrupted_goes_on_and_can_be_stopped() {
 fn cm5_what_a_crash_let_begin_again_ends_if_nobody_returns() {
     let mut world = World::new();
     let ann = world.join("birch-01");
-    world.command(ann, 1, grow(12));
+    world.command(ann, 1, grow(1000));
     world.command(ann, 2, json!({ "kind": "stroke_begin", "stroke": 1 }));
     world.pass(30);
     // Growth that nobody stopped is what is done first, and the stroke begins only after the session was opened.
     world.crash_to(Tail::Follows);
-    world.join("maple-01");
+    let maple = world.join("maple-01");
     assert!(!world.session.has_caught_up());
+    world.command(maple, 1, stop());
     world.settle();
     assert!(world.session.has_caught_up());
     assert_eq!(world.document().open_strokes(&person("birch-01")), [1]);
