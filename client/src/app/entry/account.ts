@@ -4,9 +4,14 @@ import { backTo } from "./invitation";
 
 export type { Account };
 
+/** What one can come in by; fails where the server does not say it. */
+export function askEntrance(): Promise<Entrance> {
+  return ask<Entrance>("GET", "/api/v1/entry");
+}
+
 /** What one can come in by; a server that does not say is asked for no password. */
 export async function entrance(): Promise<Entrance> {
-  return ask<Entrance>("GET", "/api/v1/entry").catch(() => ({ passwords: false }));
+  return askEntrance().catch(() => ({ passwords: false }));
 }
 
 /** Comes in with a password; gives the path to go to. `search` is that of the page, which may name where from. */

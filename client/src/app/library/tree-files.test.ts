@@ -71,6 +71,7 @@ describe("files", () => {
     await take(file("ash.csv"));
     files.species.value = "ash";
     await take(file("ash.csv"), file("ash.json"));
+    await take(file("birch.csv"));
     expect(sent.slice(1)).toEqual([
       "/api/v1/trees/import?name=walnut&format=mtg",
       "/api/v1/trees/import?name=walnut&format=mtg&unit=0.01&diameter_unit=0.0001",
@@ -78,6 +79,7 @@ describe("files", () => {
       "/api/v1/trees/import?name=ash&format=csv&unit=0.0254",
       "/api/v1/trees/import?name=ash&format=csv&unit=0.0254&species=ash",
       "/api/v1/trees/import?name=ash&format=json",
+      "/api/v1/trees/import?name=birch&format=csv&unit=0.0254",
     ]);
   });
 

@@ -72,6 +72,10 @@ export class TreeFiles {
     }
     let taken: Readonly<Record<string, string>> = {};
     if (isScan(format)) {
+      if (this.scan.peek()?.name !== file.name) {
+        // What was chosen for another scan says nothing of this one.
+        this.species.value = "";
+      }
       this.scan.value = file;
       const species = this.species.peek();
       taken = { ...fieldsOf(this.units.peek()), ...(species === "" ? {} : { species }) };

@@ -13,7 +13,7 @@ export const GIFTS = {
   ],
   "gifts.within": [
     "It lies in “{collection}”: whoever was given that has this as well.",
-    "Das liegt in „{collection}“: Wem die gegeben ist, hat auch dies.",
+    "Das liegt in „{collection}“: Wem sie gegeben ist, der hat auch dies.",
   ],
   "gifts.kind": ["With whom", "Mit wem"],
   "gifts.kind.user": ["A person", "Einer Person"],

@@ -5,10 +5,10 @@ export const OPERATIONS = {
   "operations.undo.none": ["There is nothing to undo.", "Es gibt nichts rückgängig zu machen."],
   "operations.undo.theirs": [
     "Nothing of yours is left to undo. What was done last is by {who}; the timeline goes back through it.",
-    "Von dir ist nichts mehr rückgängig zu machen. Das Letzte ist von {who}; die Zeitleiste führt hinter es zurück.",
+    "Von dir ist nichts mehr rückgängig zu machen. Das Letzte ist von {who}; die Zeitleiste führt dahinter zurück.",
   ],
   "operations.redo.line": [
-    "Nothing that you took back is left to redo. The timeline goes forth through what lies ahead.",
+    "Nothing that you took back is left to redo. The timeline goes forward through what lies ahead.",
     "Du hast nichts zurückgenommen, das sich wiederholen ließe. Die Zeitleiste führt durch das, was noch vor dem Baum liegt.",
   ],
   "timeline.person": ["Person {number}", "Person {number}"],

@@ -112,7 +112,7 @@ describe("everyone's own undo", () => {
     const { undo, said } = setUp({ line: [by(2), by(2)], done: 1 });
     expect(undo.refused({ reason: "nothing-to-redo" }, { kind: "bring_back" })).toBe(true);
     expect(said).toEqual([
-      "Nothing that you took back is left to redo. The timeline goes forth through what lies ahead.",
+      "Nothing that you took back is left to redo. The timeline goes forward through what lies ahead.",
     ]);
   });
 

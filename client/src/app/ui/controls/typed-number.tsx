@@ -18,12 +18,14 @@ interface TypedNumberProps {
   readonly value: number;
   readonly disabled?: boolean;
   readonly notation?: Notation | undefined;
+  /** Whether Enter does nothing else than to take what was typed, where it would send a form. */
+  readonly staysOnEnter?: boolean;
   readonly onCommit: (value: number) => void;
 }
 
 /** A number in a box, typed over when it is touched. */
 export function TypedNumber(props: TypedNumberProps) {
-  const { label, unit, least, most, step, value, disabled = false, onCommit } = props;
+  const { label, unit, least, most, step, value, disabled = false, staysOnEnter = false, onCommit } = props;
   const { write, read } = props.notation ?? { write: (number: number) => numberText(number, step), read: typedNumber };
   const set = (to: number) => {
     const next = onStep(to, least, most, step);
@@ -33,7 +35,7 @@ export function TypedNumber(props: TypedNumberProps) {
   };
   return (
     <Typed
-      {...{ label, unit, disabled }}
+      {...{ label, unit, disabled, staysOnEnter }}
       text={write(value)}
       width={Math.max(write(least).length, write(most).length)}
       inputMode={least < 0 ? "text" : "decimal"}
@@ -57,6 +59,7 @@ interface TypedProps {
   readonly unit?: string;
   readonly inputMode?: "text" | "decimal";
   readonly disabled?: boolean;
+  readonly staysOnEnter?: boolean;
   /** What was typed over it, once that is done. */
   readonly onTyped: (typed: string) => void;
   /** An arrow key, with what was typed until then. */
@@ -65,7 +68,17 @@ interface TypedProps {
 
 /** A value in a box, typed over when it is touched. */
 export function Typed(props: TypedProps) {
-  const { label, text, width, unit = "", inputMode = "text", disabled = false, onTyped, onStep } = props;
+  const {
+    label,
+    text,
+    width,
+    unit = "",
+    inputMode = "text",
+    disabled = false,
+    staysOnEnter = false,
+    onTyped,
+    onStep,
+  } = props;
   const [typed, setTyped] = useState<string | null>(null);
   const finish = () => {
     setTyped(null);
@@ -89,6 +102,9 @@ export function Typed(props: TypedProps) {
         onKeyDown={(event) => {
           const notches = { ArrowUp: 1, ArrowDown: -1 }[event.key];
           if (event.key === "Enter") {
+            if (staysOnEnter) {
+              event.preventDefault();
+            }
             finish();
             event.currentTarget.select();
           } else if (event.key === "Escape") {

@@ -51,6 +51,7 @@ export function SizeField({ usual, chosen, onChoose }: SizeFieldProps) {
                 least={LEAST_SIDE}
                 most={MOST_PIXELS / LEAST_SIDE}
                 step={1}
+                staysOnEnter
                 value={size[side]}
                 onCommit={set(side)}
               />

@@ -5,7 +5,12 @@ import { say } from "../../../words/say";
 import { RoleSelect } from "../accounts/role-select";
 
 /** What somebody can be given something as, the least first. */
-export const MEMBER_ROLES = ["viewer", "commenter", "editor", "owner"] as const satisfies readonly MemberRole[];
+const MEMBER_ROLES = ["viewer", "commenter", "editor", "owner"] as const satisfies readonly MemberRole[];
+
+/** As what somebody can give: owners of the server alone give something to own (`AC22`). */
+export function rolesToGive(studio: Studio): readonly MemberRole[] {
+  return studio.rights.mayShare ? MEMBER_ROLES : MEMBER_ROLES.filter((role) => role !== "owner");
+}
 
 interface GiftRowProps {
   readonly studio: Studio;
@@ -16,6 +21,7 @@ interface GiftRowProps {
 /** Who was given it: what they may do with it, and a way to take it back. */
 export function GiftRow({ studio, gifts, member }: GiftRowProps) {
   const { name, group, role } = member;
+  const isTheirs = rolesToGive(studio).includes(role as MemberRole);
   const give = (as: MemberRole) => gifts.give({ name, group, role: as });
   const show = (text: string) =>
     studio.toasts.show(text, { label: say("gifts.undo"), act: () => void give(role as MemberRole) });
@@ -38,16 +44,16 @@ export function GiftRow({ studio, gifts, member }: GiftRowProps) {
         </div>
         <RoleSelect
           label={say("accounts.role.of", { name })}
-          roles={MEMBER_ROLES}
+          roles={isTheirs ? rolesToGive(studio) : [role as MemberRole]}
           chosen={role as MemberRole}
-          disabled={gifts.busy.value}
+          disabled={gifts.busy.value || !isTheirs}
           onChoose={(next) => void allow(next)}
         />
         <button
           type="button"
           class="small"
           aria-label={say("gifts.take-back.which", { name })}
-          disabled={gifts.busy.value}
+          disabled={gifts.busy.value || !isTheirs}
           onClick={() => void takeBack()}
         >
           {say("gifts.take-back")}

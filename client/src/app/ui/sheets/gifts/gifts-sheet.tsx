@@ -1,7 +1,7 @@
 import { useEffect, useMemo, useState } from "preact/hooks";
 import { Directory } from "../../../access/directory";
 import * as peopleApi from "../../../access/people-api";
-import { entrance } from "../../../entry/account";
+import { askEntrance } from "../../../entry/account";
 import * as api from "../../../library/gifts/gift-api";
 import { Gifts } from "../../../library/gifts/gifts";
 import type { Given } from "../../../page/layout";
@@ -34,13 +34,19 @@ function Gift({ studio, what }: GiftProps) {
   const { mayChangePeople } = studio.rights;
   /** Whether anybody has a name and a password here; null until the server has said it. */
   const [open, setOpen] = useState<boolean | null>(null);
+  /** Why the server has not. */
+  const [unsaid, setUnsaid] = useState<unknown>(null);
   const { gifts, directory } = useMemo(() => {
     const failed = (error: unknown) => studio.toasts.show(sentence(error));
     return { gifts: new Gifts({ gift: what, api, failed }), directory: new Directory({ api: peopleApi, failed }) };
   }, [studio, what]);
-  useEffect(() => {
+  const look = () => {
+    setUnsaid(null);
     void gifts.look();
-    void entrance().then(({ passwords }) => setOpen(passwords));
+    askEntrance().then(({ passwords }) => setOpen(passwords), setUnsaid);
+  };
+  useEffect(() => {
+    look();
     if (mayChangePeople) {
       void directory.look();
     }
@@ -50,7 +56,7 @@ function Gift({ studio, what }: GiftProps) {
     <div class="stack">
       <BackBar studio={studio} title={what.name} to={what.from} />
       {members === null || open === null ? (
-        <Unknown gifts={gifts} />
+        <Unknown failure={gifts.failure.value ?? unsaid} onAgain={look} />
       ) : (
         <>
           {open && <p class="quiet">{say(`gifts.advice.${what.kind}`)}</p>}
@@ -91,14 +97,13 @@ function SharedWith({ studio, gifts, within }: SharedWithProps) {
 }
 
 /** Why it is not known, or not yet, to whom it is given. */
-function Unknown({ gifts }: { readonly gifts: Gifts }) {
-  const failure = gifts.failure.value;
+function Unknown({ failure, onAgain }: { readonly failure: unknown; readonly onAgain: () => void }) {
   return failure === null ? (
     <p class="quiet">{say("gifts.asking")}</p>
   ) : (
     <div class="actions">
       <p role="alert">{sentence(failure)}</p>
-      <button type="button" class="small" onClick={() => void gifts.look()}>
+      <button type="button" class="small" onClick={onAgain}>
         {say("sheets.library.again")}
       </button>
     </div>

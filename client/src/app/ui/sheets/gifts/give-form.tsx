@@ -7,7 +7,7 @@ import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
 import { Segments } from "../../controls/segments";
 import { RoleSelect } from "../accounts/role-select";
-import { MEMBER_ROLES, mayText } from "./gift-row";
+import { mayText, rolesToGive } from "./gift-row";
 
 const KINDS = ["user", "group"] as const;
 type Kind = (typeof KINDS)[number];
@@ -88,7 +88,7 @@ export function GiveForm({ studio, gifts, directory }: GiveFormProps) {
           ))}
         </fieldset>
       )}
-      <RoleSelect label={say("links.role")} isLabelled roles={MEMBER_ROLES} chosen={role} onChoose={setRole} />
+      <RoleSelect label={say("links.role")} isLabelled roles={rolesToGive(studio)} chosen={role} onChoose={setRole} />
       <p class="quiet">{say(`gifts.role.${role}`)}</p>
       <div class="actions">
         <button type="submit" class="primary" disabled={gifts.busy.value || called === ""}>
