@@ -200,12 +200,10 @@ describe("the brush and the picture", () => {
 describe("files", () => {
   const dialog = (tablet: Tablet) => tablet.page.getByRole("dialog", { name: "Download this tree" });
   const fileOf = async (tablet: Tablet, format: string, size?: string) => {
-    const file = tablet.page.waitForEvent("download");
     await tablet.tap("Download");
     await dialog(tablet).getByRole("radio", { name: format }).check();
     if (size) await dialog(tablet).getByRole("radio", { name: size }).check();
-    await dialog(tablet).getByRole("button", { name: "Download file" }).tap();
-    const download = await file;
+    const download = await tablet.download(dialog(tablet).getByRole("button", { name: "Download file" }));
     const path = join(screenshots, `downloaded.${format.includes("PNG") ? "png" : "json"}`);
     await download.saveAs(path);
     return { name: download.suggestedFilename(), bytes: await readFile(path) };

@@ -10,7 +10,6 @@ import { Workshop } from "./workshop";
 const workshop = Workshop.withItsOwnServer();
 
 /** A turntable takes long where the processor does much else, in milliseconds. */
-const PATIENCE = 150_000;
 
 /** What a file of each format begins with. */
 const HEADS: Readonly<Record<string, string>> = {
@@ -73,8 +72,7 @@ async function file(tablet: Tablet, label: string): Promise<Download> {
     const choice = page.getByRole("radio", { name: fewest, exact: true });
     if ((await choice.count()) > 0) await choice.check();
   }
-  const download = page.waitForEvent("download", { timeout: PATIENCE });
-  await page.getByRole("button", { name: "Download file" }).tap();
+  const download = await tablet.download(page.getByRole("button", { name: "Download file" }));
   await closed(tablet);
   return download;
 }

@@ -268,9 +268,7 @@ test("a tree of the library is downloaded from its menu, and the one on the page
   const card = tablet.page.getByRole("dialog", { name: "Download this tree" });
   await card.getByRole("radio", { name: "Skeleton (JSON)" }).check();
   await tablet.show("library-download");
-  const saved = tablet.page.waitForEvent("download");
-  await tablet.press(card.getByRole("button", { name: "Download file" }));
-  const file = await saved;
+  const file = await tablet.download(card.getByRole("button", { name: "Download file" }));
   expect(file.suggestedFilename()).toMatch(/^Larch\..*json$/);
   const { metamers: rows } = JSON.parse(await text(await file.createReadStream()));
   expect(rows.filter((row: { parent: number | null }) => row.parent !== null).length, "as it was saved").toBe(metamers);

@@ -43,9 +43,8 @@ test.each<[string, Screen]>([
   }
   expect(await misses(tablet, "the size of a picture", ".sheet", false)).toEqual([]);
   await tablet.show(`picture-size-${name}`);
-  const coming = page.waitForEvent("download", { timeout: 120_000 });
-  await tablet.press(download);
-  const png = await buffer(await (await coming).createReadStream());
+  const file = await tablet.download(download);
+  const png = await buffer(await file.createReadStream());
   expect([png.readUInt32BE(16), png.readUInt32BE(20)], "width and height in its head").toEqual([320, 200]);
 
   // It is kept for the next time.

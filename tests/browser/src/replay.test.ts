@@ -103,10 +103,9 @@ async function recording({ encodes }: { encodes: boolean }) {
   const record = async (kind: string) => {
     await form.getByRole("radio", { name: kind }).check();
     await form.getByRole("radio", { name: "5 s", exact: true }).check();
-    const saved = page.waitForEvent("download", { timeout: 200_000 });
-    await tablet.press(form.getByRole("button", { name: "Record" }));
+    const saved = await tablet.download(form.getByRole("button", { name: "Record" }));
     const file = join(folder, kind);
-    await (await saved).saveAs(file);
+    await saved.saveAs(file);
     return await readFile(file);
   };
   await asked();

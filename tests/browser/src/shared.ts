@@ -3,6 +3,7 @@ import { inject } from "vitest";
 import type { TestProject } from "vitest/node";
 import { serveBrowser } from "./browser";
 import { watchDrawing } from "./drawing-faults";
+import { bePatient } from "./patience";
 import { Server, ServerAt, until } from "./server";
 
 declare module "vitest" {
@@ -43,7 +44,8 @@ async function drawSpecies({ address }: Server): Promise<void> {
 
 /** The browser; closing it closes the pages that were opened here. A fault in what they draw has the test fail. */
 export async function theBrowser(): Promise<Browser> {
-  return watchDrawing(await chromium.connect(inject("browser")));
+  const browser = await chromium.connect(inject("browser"));
+  return watchDrawing(browser.on("context", bePatient));
 }
 
 export function theServer(): ServerAt {

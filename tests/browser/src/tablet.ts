@@ -1,12 +1,13 @@
 import { mkdir } from "node:fs/promises";
 import { join } from "node:path";
-import type { Browser, BrowserContext, CDPSession, Locator, Page } from "playwright-core";
+import type { Browser, BrowserContext, CDPSession, Download, Locator, Page } from "playwright-core";
 import { atMost } from "./at-most";
 import { FRAMES, isAtRest, restAsked } from "./at-rest";
 import { screenshots } from "./browser";
 import { withClient } from "./client-build";
 import { type Facts, factsOf } from "./facts";
 import { Glass } from "./glass";
+import { PATIENCE } from "./patience";
 import type { Box, Darkroom, Picture } from "./picture";
 import { COARSE, type Screen } from "./screens";
 import { until } from "./server";
@@ -27,8 +28,6 @@ const TOOLS = {
 
 export type Tool = keyof typeof TOOLS;
 
-/** The longest growth of a test ends sooner, in milliseconds, also on a machine that has much else to do. */
-const PATIENCE = 150_000;
 /** For what may be gone before it can be pressed. */
 const BRIEFLY = { timeout: 5000 };
 /** What narrow glass may have no button for but in its menu. */
@@ -172,6 +171,12 @@ export class Tablet extends Glass {
     await (this.touches ? control.tap() : control.click());
   }
 
+  /** The file that the page hands over after a control was pressed. */
+  async download(control: Locator): Promise<Download> {
+    const [file] = await Promise.all([this.page.waitForEvent("download"), this.press(control)]);
+    return file;
+  }
+
   /** Takes up a tool by what its button is called. */
   async take(button: Tool): Promise<void> {
     // On narrow glass the tools are folded.
@@ -240,7 +245,7 @@ export class Tablet extends Glass {
     const still = async () => {
       // What was touched last is seen by the picture within two frames, and is part of its movement from then on.
       await this.frames();
-      await this.page.waitForSelector(STILL, { state: "attached", timeout: PATIENCE });
+      await this.page.waitForSelector(STILL, { state: "attached" });
       await this.untilSettled();
       // What has settled beside it may have changed its size.
       return (await this.page.locator(STILL).count()) > 0;

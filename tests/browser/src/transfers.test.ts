@@ -1,3 +1,4 @@
+import type { Locator } from "playwright-core";
 import { describe, expect, it } from "vitest";
 import { gridModel } from "./grid-model";
 import { PHONE, SMALL } from "./screens";
@@ -8,18 +9,22 @@ import { Workshop } from "./workshop";
 const workshop = Workshop.withItsOwnServer();
 
 /** Has the page make a glTF file. */
-async function downloadModel(tablet: Tablet, open = () => tablet.tap("Download")): Promise<void> {
+async function downloadModel(tablet: Tablet, open?: () => Promise<void>): Promise<void> {
+  await tablet.press(await modelChosen(tablet, open));
+}
+
+/** The button that has the page make a glTF file. */
+async function modelChosen(tablet: Tablet, open = () => tablet.tap("Download")): Promise<Locator> {
   await open();
   await tablet.page.getByRole("radio", { name: "Model (glTF)" }).check();
-  await tablet.page.getByRole("button", { name: "Download file" }).tap();
+  return tablet.page.getByRole("button", { name: "Download file" });
 }
 
 describe("long work", () => {
   it("an export ends with a file", async () => {
     const { tablet } = await workshop.drawn();
-    const file = tablet.page.waitForEvent("download");
-    await downloadModel(tablet);
-    expect((await file).suggestedFilename()).toMatch(/\.glb$/);
+    const file = await tablet.download(await modelChosen(tablet));
+    expect(file.suggestedFilename()).toMatch(/\.glb$/);
   });
 
   it("an export can be given up", async () => {

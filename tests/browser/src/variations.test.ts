@@ -45,18 +45,13 @@ test.each<[string, Screen]>([
   await job(tablet).getByText("Done", { exact: true }).waitFor();
   await tablet.show(`variations-done-${name}`);
   expect(await page.locator(".job-files strong").allTextContents()).toEqual(["Seed 7", "Seed 8", "Seed 9"]);
-  // A busy machine is slow to begin it.
-  const coming = page.waitForEvent("download", { timeout: 120_000 });
-  await page.getByRole("link", { name: "Download seed 8" }).tap();
-  const file = await coming;
+  const file = await tablet.download(page.getByRole("link", { name: "Download seed 8" }));
   const path = join(screenshots, "variation.json");
   await file.saveAs(path);
   expect(file.suggestedFilename()).toMatch(/8.*\.json$/);
   expect((await stat(path)).size).toBeGreaterThan(500);
   // All of them come as one.
-  const all = page.waitForEvent("download", { timeout: 120_000 });
-  await page.getByRole("link", { name: "Download all 3 as ZIP" }).tap();
-  const archive = await all;
+  const archive = await tablet.download(page.getByRole("link", { name: "Download all 3 as ZIP" }));
   await archive.saveAs(path);
   expect(archive.suggestedFilename()).toBe("trees.zip");
   expect((await readFile(path)).subarray(0, 4)).toEqual(Buffer.from("PK\x03\x04"));
