@@ -177,6 +177,24 @@ impl Outline {
     }
 }
 
+/// A ring of a strip, or where it was cut between two rings.
+#[derive(Clone, Copy)]
+struct Row {
+    first: u32,
+    /// After each vertex stands another one, where the diagonal of the side is cut.
+    is_between: bool,
+}
+
+impl Row {
+    fn at(self, side: u32) -> u32 {
+        self.first + side * if self.is_between { 2 } else { 1 }
+    }
+
+    fn on_diagonal(self, side: u32) -> Option<u32> {
+        self.is_between.then(|| self.at(side) + 1)
+    }
+}
+
 /// One body on its way into the texture.
 struct Unrolling<'a> {
     map: &'a LightMap,
@@ -200,25 +218,35 @@ impl Unrolling<'_> {
             let rows: Vec<Cut> = once(from).chain(inner).chain([to]).collect();
             let widest = rows.iter().map(|&row| outline.at(row).width).fold(0.0, f32::max);
             let foot = outline.at(from).height;
-            let mut below: Option<u32> = None;
-            for row in rows {
-                let ring = outline.at(row);
-                let line =
-                    |share: f32| Vec2::new(0.5 * widest + ring.width * (share - 0.5), ring.height - foot);
-                let first = self.count();
+            let mut below: Option<Row> = None;
+            for cut in rows {
+                let ring = outline.at(cut);
+                let is_between = cut.share > 0.0;
+                let row = Row { first: self.count(), is_between };
                 for side in 0..=self.sides {
-                    let place = self.map.at(piece, line(side as f32 / self.sides as f32));
-                    self.between(sheet, row, side, place);
-                }
-                if let Some(below) = below {
-                    for side in 0..self.sides {
-                        self.to.wood.surface.triangle(below + side, below + side + 1, first + side + 1);
-                        self.to.wood.surface.triangle(below + side, first + side + 1, first + side);
+                    let across = ring.width * (side as f32 / self.sides as f32 - 0.5);
+                    let at = Vec2::new(0.5 * widest + across, ring.height - foot);
+                    let here = sheet.rings[cut.ring] + side;
+                    if !is_between {
+                        self.copy(here, self.map.at(piece, at));
+                        continue;
+                    }
+                    let next = sheet.rings[cut.ring + 1] + side;
+                    self.between([here, next], cut.share, self.map.at(piece, at));
+                    if side < self.sides {
+                        let along = cut.share * outline.rings[cut.ring + 1].width / self.sides as f32;
+                        let place = self.map.at(piece, at + Vec2::new(along, 0.0));
+                        self.between([here, next + 1], cut.share, place);
                     }
                 }
-                below = Some(first);
+                if let Some(below) = below {
+                    (0..self.sides).for_each(|side| self.join([below, row], side));
+                }
+                below = Some(row);
             }
-            if let (Closing::Cone(apex), Some(ring), true) = (sheet.end, below, number + 1 == strips) {
+            if let (Closing::Cone(apex), Some(Row { first: ring, .. }), true) =
+                (sheet.end, below, number + 1 == strips)
+            {
                 let end = outline.rings[last];
                 let height = end.height - foot + outline.cone.unwrap_or(0.0);
                 for side in 0..self.sides {
@@ -250,29 +278,35 @@ impl Unrolling<'_> {
         self.to.wood.surface.vertex(surface.positions[at], surface.normals[at], surface.uvs[at])
     }
 
-    /// Makes the vertex of a side where a tube may be cut between two rings.
-    fn between(&mut self, sheet: &Sheet, cut: Cut, side: u32, place: Vec2) {
-        let here = sheet.rings[cut.ring] + side;
-        let Some(next) = sheet.rings.get(cut.ring + 1).filter(|_| cut.share > 0.0) else {
-            self.copy(here, place);
-            return;
-        };
-        let (from, share) = (self.from, cut.share);
-        let [a, b] = [here, next + side].map(|vertex| vertex as usize);
+    /// Makes a vertex between two that an edge or a diagonal joins.
+    fn between(&mut self, ends: [u32; 2], share: f32, place: Vec2) {
+        let (from, [a, b]) = (self.from, ends.map(|vertex| vertex as usize));
         let surface = &from.surface;
         let normal = surface.normals[a].lerp(surface.normals[b], share).normalize_or(surface.normals[a]);
         let along = from.tangents[a].lerp(from.tangents[b], share).truncate().reject_from_normalized(normal);
+        let tangent = along.normalize_or(normal.any_orthonormal_vector()).extend(from.tangents[a].w);
         self.to.places.push(place);
         self.to.wood.radii.push(from.radii[a] + (from.radii[b] - from.radii[a]) * share);
-        self.to
-            .wood
-            .tangents
-            .push(along.normalize_or(normal.any_orthonormal_vector()).extend(from.tangents[a].w));
-        let (position, uv) = (
-            surface.positions[a].lerp(surface.positions[b], share),
-            surface.uvs[a].lerp(surface.uvs[b], share),
-        );
-        self.to.wood.surface.vertex(position, normal, uv);
+        self.to.wood.tangents.push(tangent);
+        let position = surface.positions[a].lerp(surface.positions[b], share);
+        self.to.wood.surface.vertex(position, normal, surface.uvs[a].lerp(surface.uvs[b], share));
+    }
+
+    /// Fills one side of the tube between two rows of a strip: what lies there of the two triangles that the tube has
+    /// between its rings, so that a cut changes nothing of the surface.
+    fn join(&mut self, [below, above]: [Row; 2], side: u32) {
+        let ([a, b], [d, c]) =
+            ([side, side + 1].map(|side| below.at(side)), [side, side + 1].map(|side| above.at(side)));
+        let (low, high) = (below.on_diagonal(side), above.on_diagonal(side));
+        let surface = &mut self.to.wood.surface;
+        surface.triangle(low.unwrap_or(a), b, c);
+        if let Some(high) = high {
+            surface.triangle(low.unwrap_or(a), c, high);
+        }
+        surface.triangle(a, high.unwrap_or(c), d);
+        if let Some(low) = low {
+            surface.triangle(a, low, high.unwrap_or(c));
+        }
     }
 
     /// Copies a face, its triangles side by side like teeth, and gives them as they are seen from above.
