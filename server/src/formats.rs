@@ -129,6 +129,21 @@ const fn row(
     FormatRow { format, ending, what, media_type, label, text, options, bytes }
 }
 
+/// The project's own format.
+pub const DOCUMENT: FormatRow = row(
+    Format::Document,
+    ["espalier", "document", "application/octet-stream"],
+    [
+        ["Document", "Dokument"],
+        [
+            "The whole tree with its history, to be opened in Espalier again.",
+            "Der ganze Baum mit seiner Geschichte, um ihn wieder in Espalier zu öffnen.",
+        ],
+    ],
+    &[],
+    [60e3, 75.0, 0.0],
+);
+
 /// Every format.
 pub const FORMATS: &[FormatRow] = &[
     row(
@@ -309,19 +324,7 @@ pub const FORMATS: &[FormatRow] = &[
         option::PICTURES,
         [270e3, 0.0, 0.0],
     ),
-    row(
-        Format::Document,
-        ["espalier", "document", "application/octet-stream"],
-        [
-            ["Document", "Dokument"],
-            [
-                "The whole tree with its history, to be opened in Espalier again.",
-                "Der ganze Baum mit seiner Geschichte, um ihn wieder in Espalier zu öffnen.",
-            ],
-        ],
-        &[],
-        [60e3, 75.0, 0.0],
-    ),
+    DOCUMENT,
 ];
 
 /// Shares of the bytes of the finest level that each level of detail has.
@@ -465,7 +468,7 @@ pub fn write(
             let sampling = Sampling { points: options.points(), seed };
             espalier_export::ply(document.portrait(), &style, &appearance, metres, sampling, out)
         }
-        Format::Document => Ok(out.write_all(&document.to_saved_bytes())?),
+        Format::Document => Ok(out.write_all(&document.to_bytes_for_people())?),
         Format::Picture => {
             let stand = species.map(|species| species.stand).unwrap_or_default();
             let look = Look { appearance, stand };

@@ -7,6 +7,9 @@ const OF_KEYS: [u8; 2] = *b"-_";
 /// The name of every principal without a client key. It is shorter than the shortest key, so no client can have it.
 const VISITOR: &str = "outside";
 
+/// What those are called who did something elsewhere, before a number. No client key has a space.
+const ELSEWHERE: &str = "author ";
+
 /// Who does something, in every request, socket and journal entry.
 ///
 /// A page is known by the client key it made up (`HS1`), a request without one comes from a visitor. Who may do what is
@@ -27,6 +30,16 @@ impl Principal {
     /// Someone who sends requests and has no key.
     pub fn visitor() -> Self {
         Self(VISITOR.into())
+    }
+
+    /// The author with this number of a document that people took along: nobody who comes in here.
+    pub(crate) fn elsewhere(number: u32) -> Self {
+        Self(format!("{ELSEWHERE}{number}").into())
+    }
+
+    /// Whether it is nobody who comes in here.
+    pub(crate) fn is_elsewhere(&self) -> bool {
+        self.0.starts_with(ELSEWHERE)
     }
 
     /// Reads what a principal is written as (`Display`).

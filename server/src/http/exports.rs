@@ -99,6 +99,7 @@ impl Progresses {
 
 /// What stands behind the question mark of a download: options of its format, and by which name the client asks how far
 /// it is (`EX3`).
+#[derive(Default)]
 pub(super) struct Wish {
     options: ExportOptions,
     ticket: Option<String>,

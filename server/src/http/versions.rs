@@ -16,9 +16,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{
-    Shared, exports,
+    Shared,
+    exports::{self, Wish},
     failure::{Body, Failure, Path, Query},
-    file_name,
     guard::Named,
     limit::Limit,
     ranges,
@@ -29,6 +29,7 @@ use crate::{
     SIMULATION_VERSION,
     access::{Action, Caller},
     drawn::{DrawError, Kind, Png, Why},
+    formats::DOCUMENT,
     pool::Panicked,
     store::{Contents, Library, NewVersion, Saved, StoredVersion, TreeChange, TreeDocument},
     time::now,
@@ -181,19 +182,13 @@ async fn version_of(shared: &Shared, tree: &str, number: u32) -> Result<TreeVers
     found.map(|version| to_proto(tree, version)).ok_or_else(Failure::no_version)
 }
 
+/// The document of a version: the same as its file of that format.
 pub(super) async fn document(
-    State(shared): State<Shared>,
-    Path((tree, number)): Path<(String, u32)>,
+    shared: State<Shared>,
+    version: Path<(String, u32)>,
     asked: HeaderMap,
 ) -> Result<Response, Failure> {
-    let document = sessions::saved_document(&shared, &tree, number).await?;
-    let name = exports::name_of(&shared, &tree, number).await?;
-    let said = [
-        (header::CONTENT_TYPE, "application/octet-stream".to_owned()),
-        (header::CONTENT_DISPOSITION, file_name::attachment(&name, "espalier")),
-        (FOR_GOOD.0, FOR_GOOD.1.to_owned()),
-    ];
-    ranges::answer_with(&asked, said, document.bytes)
+    exports::take_version(shared, version, Wish::default(), asked, &DOCUMENT).await
 }
 
 /// The picture that was saved with a version, or else one that is drawn (`LB1`).

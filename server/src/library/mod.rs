@@ -30,7 +30,7 @@ use crate::{
     },
     document::Stored,
     export_options::NotOfFormat,
-    formats::{FORMATS, Format},
+    formats::DOCUMENT,
     import,
     output::{OutputError, Target},
     progress::Bar,
@@ -178,8 +178,7 @@ async fn versions(Versions { tree, from }: &Versions) -> Result<(), LibraryError
 
 async fn get(Get { of, file }: &Get) -> Result<(), LibraryError> {
     let document = document_of(of).await?;
-    let row = FORMATS.iter().find(|row| row.format == Format::Document).ok_or(cli::NoFormat)?;
-    let target = Target { path: file.clone(), row };
+    let target = Target { path: file.clone(), row: &DOCUMENT };
     Ok(target.write(|out| Ok(out.write_all(&document)?))?)
 }
 

@@ -9,6 +9,7 @@ mod gestures;
 mod grammars;
 mod growth;
 mod lengths;
+mod names;
 mod organs;
 mod packing;
 mod plain;
@@ -30,6 +31,7 @@ pub(crate) use self::{
 };
 pub use self::{lengths::MAX_METAMER_BUDGET, plain::plain};
 use self::{
+    names::Names,
     sections::{Kind, Release},
     settings::Pool,
 };
@@ -69,28 +71,34 @@ impl DocumentError {
 impl Document {
     /// The whole document, its history and futures included, packed. Steps still pending are run first by the caller.
     pub fn to_bytes(&self) -> Vec<u8> {
-        self.to_container(&self.futures).packed().to_bytes()
+        self.to_container(&self.futures, &Names::Keys).packed().to_bytes()
     }
 
     /// The document with its present line of time alone, for keeping as a tree (`TT3`). As snapshots, it is not packed:
     /// the store packs its parts.
     pub fn to_saved_bytes(&self) -> Vec<u8> {
-        self.to_container(&Futures::default()).to_bytes()
+        self.to_container(&Futures::default(), &Names::Keys).to_bytes()
+    }
+
+    /// As [`Self::to_saved_bytes`], for people to take along: authors have numbers instead of their keys (`PS6`).
+    pub fn to_bytes_for_people(&self) -> Vec<u8> {
+        let names = Names::numbered(&self.history, &self.strokes, &self.bends);
+        self.to_container(&Futures::default(), &names).to_bytes()
     }
 
     /// The whole document with the section of a session, not packed.
     pub(crate) fn to_snapshot_bytes(&self, session: Writer) -> Vec<u8> {
-        let mut container = self.to_container(&self.futures);
+        let mut container = self.to_container(&self.futures, &Names::Keys);
         container.sections.push(Section::new(&SESSION, session.into_bytes()));
         container.to_bytes()
     }
 
-    fn to_container(&self, futures: &Futures) -> Container {
+    fn to_container(&self, futures: &Futures, names: &Names) -> Container {
         debug_assert!(self.pending.is_empty(), "a document is written between two actions");
         if !self.is_line_complete() {
             let mut complete = self.clone();
             complete.complete_line();
-            return complete.to_container(futures);
+            return complete.to_container(futures, names);
         }
         let mut sections = Vec::new();
         let mut add = |kind: &Kind, write: &dyn Fn(&mut Writer)| {
@@ -134,15 +142,15 @@ impl Document {
         }
         add(&sections::LOOKS, &|out| pool.write_looks(out, &self.appearance));
         add(&sections::OBSTACLES, &|out| pool.write_obstacles(out, &self.obstacles));
-        add(&sections::HISTORY, &|out| times::write_history(out, &self.history, &pool));
+        add(&sections::HISTORY, &|out| times::write_history(out, &self.history, &pool, names));
         if designs::are_there(&self.history, futures) {
             add(&sections::DESIGNS, &|out| designs::write(out, &self.history, futures));
         }
         if *futures != Futures::default() {
-            add(&sections::FUTURES, &|out| times::write_futures(out, futures, &pool));
+            add(&sections::FUTURES, &|out| times::write_futures(out, futures, &pool, names));
         }
         if self.strokes.begun > 0 || self.bends.begun > 0 {
-            add(&sections::GESTURES, &|out| gestures::write(out, &self.strokes, &self.bends));
+            add(&sections::GESTURES, &|out| gestures::write(out, &self.strokes, &self.bends, names));
         }
         add(&sections::WRITER, &|out| out.u32(Release::THIS.to_number()));
         sections.extend(self.unknown.iter().cloned());

@@ -74,6 +74,11 @@ impl Operation {
             .unwrap_or(&self.author)
     }
 
+    /// Everybody who did some of it.
+    pub(super) fn authors(&self) -> impl Iterator<Item = &Principal> {
+        std::iter::once(&self.author).chain(&self.parts.others)
+    }
+
     /// The parts of somebody, the last first.
     pub(super) fn parts_of<'a>(&'a self, author: &'a Principal) -> impl Iterator<Item = u8> + 'a {
         self.parts_where(move |of| of == author)

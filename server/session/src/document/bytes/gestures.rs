@@ -6,6 +6,7 @@ use espalier_plant::{Bend, BendState, MetamerId, Plant};
 use super::{
     DocumentError, damaged,
     fields::{Reader, Writer},
+    names::Names,
 };
 use crate::{
     document::{
@@ -15,9 +16,9 @@ use crate::{
     principal::Principal,
 };
 
-pub(super) fn write(out: &mut Writer, strokes: &OpenStrokes, bends: &OpenBends) {
-    write_strokes(out, strokes);
-    write_bends(out, bends);
+pub(super) fn write(out: &mut Writer, strokes: &OpenStrokes, bends: &OpenBends, names: &Names) {
+    write_strokes(out, strokes, names);
+    write_bends(out, bends, names);
 }
 
 pub(super) fn read(reader: &mut Reader<'_>) -> Result<(OpenStrokes, OpenBends), DocumentError> {
@@ -44,10 +45,10 @@ pub(super) fn check(strokes: &OpenStrokes, bends: &OpenBends, plant: &Plant) -> 
     }
 }
 
-fn write_strokes(out: &mut Writer, strokes: &OpenStrokes) {
+fn write_strokes(out: &mut Writer, strokes: &OpenStrokes, names: &Names) {
     out.u32(strokes.begun);
     out.list(&strokes.open, |out, stroke| {
-        out.text(stroke.author.name());
+        out.text(&names.of(&stroke.author));
         out.u32(stroke.number);
         out.u32(stroke.id.0);
         out.option(stroke.chosen.map(MetamerId::raw));
@@ -69,10 +70,10 @@ fn read_strokes(reader: &mut Reader<'_>) -> Result<OpenStrokes, DocumentError> {
     Ok(OpenStrokes { open, begun })
 }
 
-fn write_bends(out: &mut Writer, bends: &OpenBends) {
+fn write_bends(out: &mut Writer, bends: &OpenBends, names: &Names) {
     out.u32(bends.begun);
     out.list(&bends.open, |out, bend| {
-        out.text(bend.author.name());
+        out.text(&names.of(&bend.author));
         out.u32(bend.number);
         out.u32(bend.id);
         out.list(&bend.path, |out, row| out.u32(row.raw()));

@@ -7,6 +7,7 @@ use espalier_proto::version::MAX_FUTURES;
 use super::{
     DocumentError, damaged,
     fields::{Reader, Writer},
+    names::Names,
     settings::Pool,
     wood::{read_future, write_future},
 };
@@ -19,10 +20,10 @@ use crate::{
     principal::Principal,
 };
 
-pub(super) fn write_history(out: &mut Writer, history: &History, pool: &Pool) {
+pub(super) fn write_history(out: &mut Writer, history: &History, pool: &Pool, names: &Names) {
     pool.write_setting(out, &history.initial);
     out.u32(history.done as u32);
-    write_operations(out, &history.operations, pool);
+    write_operations(out, &history.operations, pool, names);
     write_latest(out, history.latest);
     out.list(history.before.as_slice(), |out, before| {
         out.u32(before.done as u32);
@@ -66,7 +67,7 @@ pub(super) fn read_history(reader: &mut Reader<'_>, pool: &Pool) -> Result<Histo
     Ok(History { operations, done, initial, latest, states: Vec::new(), before })
 }
 
-pub(super) fn write_futures(out: &mut Writer, futures: &Futures, pool: &Pool) {
+pub(super) fn write_futures(out: &mut Writer, futures: &Futures, pool: &Pool, names: &Names) {
     out.u32(futures.present);
     out.u32(futures.newest);
     out.list(&futures.all, |out, future| {
@@ -74,7 +75,7 @@ pub(super) fn write_futures(out: &mut Writer, futures: &Futures, pool: &Pool) {
         out.option(future.on);
         out.u32(future.fork.shared as u32);
         out.u32(future.fork.step);
-        write_operations(out, &future.operations, pool);
+        write_operations(out, &future.operations, pool, names);
         write_future(out, &future.rows);
     });
 }
@@ -147,10 +148,10 @@ pub(super) fn check_futures(
     Ok(())
 }
 
-fn write_operations(out: &mut Writer, operations: &[Operation], pool: &Pool) {
+fn write_operations(out: &mut Writer, operations: &[Operation], pool: &Pool, names: &Names) {
     out.list(operations, |out, operation| {
         out.u8(operation.kind as u8);
-        out.text(operation.author.name());
+        out.text(&names.of(&operation.author));
         out.option(operation.gesture);
         out.u32(operation.first);
         out.u32(operation.last);
@@ -161,7 +162,7 @@ fn write_operations(out: &mut Writer, operations: &[Operation], pool: &Pool) {
         let flags = [operation.is_joint, operation.is_chosen, has_parts, operation.part > 0];
         out.u8(flags.iter().rev().fold(0, |bits, &flag| bits << 1 | u8::from(flag)));
         if has_parts {
-            write_parts(out, &operation.parts);
+            write_parts(out, &operation.parts, names);
         }
         if operation.part > 0 {
             out.u8(operation.part);
@@ -169,8 +170,8 @@ fn write_operations(out: &mut Writer, operations: &[Operation], pool: &Pool) {
     });
 }
 
-fn write_parts(out: &mut Writer, parts: &Parts) {
-    out.list(&parts.others, |out, other| out.text(other.name()));
+fn write_parts(out: &mut Writer, parts: &Parts, names: &Names) {
+    out.list(&parts.others, |out, other| out.text(&names.of(other)));
     out.list(&parts.strokes, |out, &(stroke, part)| {
         out.u32(stroke.0);
         out.u8(part);
