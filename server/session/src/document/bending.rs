@@ -202,7 +202,7 @@ impl Document {
     }
 }
 
-fn held(field: &str, row: MetamerId) -> Problem {
+pub(super) fn held(field: &str, row: MetamerId) -> Problem {
     let message = format!("the branch at row {} is being bent; wait until it is let go", row.raw());
     Problem::new(Reason::BeingBent, message).at(field, "wood that nobody is bending")
 }

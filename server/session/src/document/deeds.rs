@@ -9,6 +9,7 @@ use espalier_proto::{OperationKind, Problem, Reason};
 
 use super::{
     Document,
+    bending::held,
     branches::said,
     history::{History, Kind, Operation},
     parts::PartSet,
@@ -121,7 +122,6 @@ impl Document {
     /// Takes back the newest deed of somebody that is in force and of which anything can go (`UD1`). A stroke or bend of
     /// theirs ends first; where nothing else can be taken back, that is all.
     pub(super) fn take_back(&mut self, cause: Cause<'_>, person: &Person<'_>) -> Result<(), Problem> {
-        self.require_no_bend_but_of(|author| person.is(author))?;
         let has_ended = self.end_gestures_of(person);
         let done =
             if self.is_alone(person) { self.travel_back() } else { self.take_back_newest(cause, person) };
@@ -130,20 +130,38 @@ impl Document {
 
     fn take_back_newest(&mut self, cause: Cause<'_>, person: &Person<'_>) -> Result<(), Problem> {
         let away = self.history.parts_away();
-        let mut passed = 0;
+        let (mut passed, mut refused) = (0, None);
         for deed in (0..self.history.done).rev() {
-            let parts: Vec<u8> = self.history.operations[deed].deeds_of(person).collect();
+            let (parts, kind) = {
+                let operation = &self.history.operations[deed];
+                (operation.deeds_of(person).collect::<Vec<u8>>(), operation.kind)
+            };
             for part in parts.into_iter().filter(|&part| !away[deed].holds(part)) {
-                if self.switch(cause, Kind::TakenBack, (deed, part))? {
-                    self.switched = self.switched.map(|switched| Switched { passed, ..switched });
-                    return Ok(());
+                let is_sealed = |problem: &Problem| problem.reason == Reason::DesignSealed;
+                if kind == Kind::Design && refused.as_ref().is_some_and(is_sealed) {
+                    // Nobody wants the whole design gone whose last change cannot go.
+                    passed += 1;
+                    continue;
+                }
+                match self.switch(cause, person, Kind::TakenBack, (deed, part)) {
+                    Ok(true) => {
+                        self.switched = self.switched.map(|switched| Switched { passed, ..switched });
+                        return Ok(());
+                    }
+                    // It can be taken back as soon as the bend has ended.
+                    Err(problem) if problem.reason == Reason::BeingBent => return Err(problem),
+                    Err(problem) => refused = refused.or(Some(problem)),
+                    Ok(false) => {}
                 }
                 passed += 1;
             }
         }
-        let message = "nothing that you did can be taken back; what others did is theirs";
-        Err(Problem::new(Reason::NothingOfYours, message)
-            .at("kind", "what some deed of yours is in force for"))
+        // What kept the newest from going says most.
+        Err(refused.unwrap_or_else(|| {
+            let message = "nothing that you did can be taken back; what others did is theirs";
+            Problem::new(Reason::NothingOfYours, message)
+                .at("kind", "what some deed of yours is in force for")
+        }))
     }
 
     /// Takes back what was done last on the line, whoever did it, by going back in time.
@@ -182,20 +200,24 @@ impl Document {
 
     /// Puts in force again what somebody took back last (`UD3`).
     pub(super) fn bring_back(&mut self, cause: Cause<'_>, person: &Person<'_>) -> Result<(), Problem> {
-        self.require_no_bend_but_of(|author| person.is(author))?;
         if self.is_alone(person) {
             return self.travel_forth();
         }
         let deed = self.history.taken_back_last(person).ok_or_else(nothing_to_redo)?;
-        if self.switch(cause, Kind::BroughtBack, deed)? { Ok(()) } else { Err(nothing_to_redo()) }
+        if self.switch(cause, person, Kind::BroughtBack, deed)? { Ok(()) } else { Err(nothing_to_redo()) }
     }
 
     /// Whether nobody else has done anything on the line, or is about to: then going back in time takes nothing from
-    /// anybody.
+    /// anybody. What was done elsewhere is nobody's here.
     fn is_alone(&self, person: &Person<'_>) -> bool {
-        let is_own = |operation: &Operation| person.is(&operation.author) && !operation.is_joint;
-        self.history.operations.iter().all(is_own)
-            && self.strokes.open.iter().all(|open| person.is(&open.author))
+        let is_own = |author: &Principal| person.is(author) || author.is_elsewhere();
+        let is_free = |operation: &Operation| match operation.is_joint {
+            false => is_own(&operation.author),
+            true => operation.authors().all(Principal::is_elsewhere),
+        };
+        self.history.operations.iter().all(is_free)
+            && self.strokes.open.iter().all(|open| is_own(&open.author))
+            && self.bends.open.iter().all(|open| is_own(&open.author))
     }
 
     /// Ends the strokes of somebody where they are, and gives their bends up; whether there were any.
@@ -214,12 +236,19 @@ impl Document {
     }
 
     /// Records that a deed is in force no more, or again; whether that changed anything.
-    fn switch(&mut self, cause: Cause<'_>, kind: Kind, (deed, part): (usize, u8)) -> Result<bool, Problem> {
+    fn switch(
+        &mut self,
+        cause: Cause<'_>,
+        person: &Person<'_>,
+        kind: Kind,
+        (deed, part): (usize, u8),
+    ) -> Result<bool, Problem> {
         let recorded = self.record(kind, Cause { gesture: None, ..cause });
         self.history.concern(deed, part);
         let claims = self.history.claims(self.plant());
         let settled = self.history.folded(&self.setting()).and_then(|setting| {
             self.require_design_open_for(&setting)?;
+            self.require_bends_kept(&claims, person)?;
             let settled = self.simulation.settle(&claims).map_err(said("kind"))?;
             Ok((setting, settled))
         });
@@ -243,7 +272,26 @@ impl Document {
         self.keep_grammar_to(deed, away);
         self.history.keep_places(settled.falls.len() + settled.rises.len());
         self.reach();
+        self.release_lost_bends();
         Ok(true)
+    }
+
+    /// Refuses what would fell or move wood that somebody else is bending.
+    fn require_bends_kept(&self, claims: &Claims, person: &Person<'_>) -> Result<(), Problem> {
+        let mut bent = self.bends.open.iter().filter(|bend| !person.is(&bend.author)).peekable();
+        if bent.peek().is_none() {
+            return Ok(());
+        }
+        let (now, mut then) = (self.plant(), self.plant().clone());
+        then.stash_future();
+        then.settle(claims);
+        then.go_to(then.last_step());
+        let is_kept =
+            |&id: &MetamerId| then.is_alive(id) && then.metamers().end(id) == now.metamers().end(id);
+        match bent.flat_map(|bend| &bend.path).find(|id| !is_kept(id)) {
+            Some(&row) => Err(held("kind", row)),
+            None => Ok(()),
+        }
     }
 
     /// Refuses what would end a bend of somebody else.

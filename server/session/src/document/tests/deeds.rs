@@ -151,18 +151,173 @@ fn ud2_a_stroke_of_somebody_else_goes_on() {
     cy(&mut document, Action::StrokeEnd { stroke: 7 });
 }
 
+/// Somebody takes hold of a path from its base on and moves its end.
+fn take_hold(document: &mut Document, name: &str, number: u32, path: &[MetamerId]) -> Result<(), Problem> {
+    let (base, end) = (path[path.len() - 1].raw(), path[0]);
+    let touches = held(vec![end.raw()]);
+    let begin = Action::BendBegin { bend: number, base, touches, stretch: Share::nearest(0.2) };
+    document.apply(&who(name), &plain(begin))?;
+    let place = document.plant().metamers().end(end) + Vec3::new(1.0, 0.5, 0.5);
+    document.apply(&who(name), &plain(Action::BendMove { bend: number, targets: places(vec![place]) }))
+}
+
+fn let_go(document: &mut Document, name: &str, number: u32) -> Result<(), Problem> {
+    document.apply(&who(name), &plain(Action::BendEnd { bend: number }))
+}
+
+/// The way from the newest metamer of somebody down to their first.
+fn own_path(document: &Document, first: u32) -> Vec<MetamerId> {
+    let end = wood(document).into_keys().next_back().expect("some wood");
+    let below = |id: &MetamerId| document.plant().metamers().parent(*id).filter(|id| id.raw() >= first);
+    std::iter::successors(Some(MetamerId::new(end as usize)), below).collect()
+}
+
 #[test]
 fn ud2_a_bend_of_somebody_else_is_not_ended() {
     let mut document = tree();
-    draw(&mut document, "bo", 1, 9.0, 4.0);
+    draw(&mut document, "bo", 1, -9.0, 4.0);
+    let first = document.plant().metamer_count() as u32;
+    draw(&mut document, "bo", 2, 9.0, 5.0);
+    let path = own_path(&document, first);
+    assert!(path.len() > 3);
+    take_hold(&mut document, "ann", 1, &path).expect("it can bend");
+    let before = document.hash();
+    let problem = take_back(&mut document, "bo").expect_err("ann is bending what would fall");
+    assert_eq!((problem.reason, document.hash()), (Reason::BeingBent, before));
+    let_go(&mut document, "ann", 1).expect("it bends");
+    assert_eq!(take_back(&mut document, "bo"), Ok(()));
+    // Nor what would only move it.
+    let row = long_path(&document, 6)[4].raw();
+    let rotation = UnitRotation::nearest(Quat::from_xyzw(0.0, 0.0, 0.6, 0.8));
+    document.apply(&who("bo"), &plain(Action::TurnBranch { row, rotation })).expect("it turns");
+    let path = long_path(&document, 3);
+    take_hold(&mut document, "ann", 2, &path).expect("it can bend");
+    assert_eq!(take_back(&mut document, "bo").expect_err("it would move").reason, Reason::BeingBent);
+}
+
+#[test]
+fn ud2_a_bend_elsewhere_is_in_nobodys_way() {
+    let mut document = tree();
     let path = long_path(&document, 6);
-    let (base, touches) = (path[5].raw(), held(vec![path[0].raw()]));
-    apply(&mut document, &plain(Action::BendBegin { bend: 1, base, touches, stretch: Share::nearest(0.2) }));
-    for action in [take_back_by(&[]), bring_back_by(&[])] {
-        let before = document.hash();
-        let problem = document.apply(&who("bo"), &plain(action)).expect_err("ann is bending");
-        assert_eq!((problem.reason, document.hash()), (Reason::BeingBent, before));
+    let first = document.plant().metamer_count() as u32;
+    draw(&mut document, "bo", 1, 9.0, 4.0);
+    let drawn = wood(&document);
+    take_hold(&mut document, "ann", 1, &path[..4]).expect("it can bend");
+    for away in [true, false] {
+        let done = if away { take_back(&mut document, "bo") } else { bring_back(&mut document, "bo") };
+        assert_eq!((done, document.open_bends(&who("ann"))), (Ok(()), vec![1]));
+        assert_eq!(wood(&document).into_keys().any(|row| row >= first), !away);
     }
+    assert_eq!(wood(&document), drawn);
+    let_go(&mut document, "ann", 1).expect("it bends");
+    assert_eq!(take_back(&mut document, "bo"), Ok(()));
+}
+
+#[test]
+fn ud1_a_bend_among_others_work_goes_and_comes() {
+    let mut document = tree();
+    let path = long_path(&document, 8);
+    let straight = wood(&document);
+    take_hold(&mut document, "bo", 1, &path[..6]).expect("it can bend");
+    let_go(&mut document, "bo", 1).expect("it bends");
+    draw(&mut document, "cy", 1, -9.0, 5.0);
+    let bent = wood(&document);
+    assert_ne!(straight[&path[0].raw()], bent[&path[0].raw()]);
+    assert_eq!(take_back(&mut document, "bo"), Ok(()));
+    let place = |wood: &BTreeMap<u32, [u32; 3]>, row: u32| Vec3::from(wood[&row].map(f32::from_bits));
+    let is_near = |one: &BTreeMap<u32, [u32; 3]>, other: &BTreeMap<u32, [u32; 3]>| {
+        one.keys().all(|row| place(one, *row).distance(place(other, *row)) < 1e-5)
+    };
+    let after = wood(&document);
+    assert!(is_near(&straight, &after), "what it bent is where it was");
+    assert_eq!(bring_back(&mut document, "bo"), Ok(()));
+    assert!(is_near(&bent, &wood(&document)) && wood(&document).len() == bent.len());
+}
+
+#[test]
+fn ud1_what_cannot_go_bars_nothing_that_was_done_before() {
+    let mut document = Document::new(5);
+    document.apply(&who("ann"), &designing::begin(8.0)).expect("a design");
+    let before = document.parameters();
+    document.apply(&who("bo"), &patch(0.61)).expect("in range");
+    document.apply(&who("bo"), &designing::say(1, 0.3, None)).expect("a branch of the design");
+    grow(&mut document, 2, None);
+    assert_eq!(take_back(&mut document, "bo"), Ok(()), "the design is sealed, the parameter is not");
+    assert_eq!(document.parameters(), before);
+    assert_eq!(document.take_switched().map(|switched| switched.passed), Some(1));
+    let refused = take_back(&mut document, "bo").expect_err("nothing else is left");
+    assert_eq!(refused.reason, Reason::DesignSealed, "and it says what keeps the newest");
+}
+
+#[test]
+fn ud2_two_who_take_back_against_each_other_change_nothing_of_a_strokes_wood() {
+    // Of somebody who draws meanwhile, the rows are those that they would be.
+    let drawn = |with_others: bool| {
+        let mut document = tree();
+        draw(&mut document, "bo", 1, 9.0, 4.0);
+        draw(&mut document, "cy", 1, -9.0, 4.0);
+        let first = document.plant().metamer_count();
+        let act = |document: &mut Document, name: &str, action: Action| {
+            document.apply(&who(name), &plain(action)).expect("in good form");
+        };
+        act(&mut document, "ann", Action::StrokeBegin { stroke: 7, bud: None });
+        for part in 0..10 {
+            let [x, y] = [0.4 * part as f32, 9.0 + part as f32];
+            act(
+                &mut document,
+                "ann",
+                Action::StrokeMove { stroke: 7, samples: list(vec![sample(x, y, 0.6)]) },
+            );
+            for name in ["bo", "cy"].into_iter().cycle().take(if with_others { 100 } else { 0 }) {
+                take_back(&mut document, name).expect("it is in force");
+                bring_back(&mut document, name).expect("it was taken back");
+            }
+        }
+        act(&mut document, "ann", Action::StrokeEnd { stroke: 7 });
+        wood(&document).into_iter().filter(|(row, _)| *row as usize >= first).collect::<Vec<_>>()
+    };
+    let alone = drawn(false);
+    assert!(alone.len() > 5);
+    assert_eq!(drawn(true), alone);
+}
+
+#[test]
+fn lm11_taking_back_leaves_the_futures() {
+    let mut document = tree();
+    for number in 0..espalier_proto::version::MAX_FUTURES as u32 {
+        apply(&mut document, &plain(Action::Undo {}));
+        grow(&mut document, 9 + number % 2, None);
+    }
+    let futures = document.timeline().futures.len();
+    assert!(futures > 1, "{futures}");
+    draw(&mut document, "bo", 1, 9.0, 4.0);
+    for _ in 0..100 {
+        take_back(&mut document, "bo").expect("it is in force");
+        bring_back(&mut document, "bo").expect("it was taken back");
+    }
+    assert_eq!(document.timeline().futures.len(), futures);
+}
+
+#[test]
+fn ps6_what_people_take_along_has_no_keys() {
+    let mut document = tree();
+    draw_at_once(&mut document, [("bo-browser", 1, 14.0), ("cy-browser", 1, -14.0)]);
+    let path = long_path(&document, 4);
+    take_hold(&mut document, "di-browser", 1, &path).expect("it can bend");
+    document.apply(&who("ed-browser"), &plain(Action::StrokeBegin { stroke: 1, bud: None })).expect("room");
+    let holds = |bytes: &[u8], key: &str| bytes.windows(key.len()).any(|found| found == key.as_bytes());
+    let (kept, taken) = (document.to_saved_bytes(), document.to_bytes_for_people());
+    for key in ["ann", "bo-browser", "cy-browser", "di-browser", "ed-browser"] {
+        assert_eq!((holds(&kept, key), holds(&taken, key)), (true, false), "{key}");
+    }
+    // Otherwise it is the same, and taken along again no other.
+    let mut again = Document::from_bytes(&taken).expect("it was just written");
+    assert_eq!((again.to_bytes_for_people(), again.plant().hash()), (taken, document.plant().hash()));
+    // Whoever is alone with it goes back in time past what others did elsewhere.
+    again.apply(&who("fay"), &plain(Action::StrokeEnd { stroke: 1 })).expect_err("that is not theirs");
+    let steps = again.plant().step();
+    assert_eq!(take_back(&mut again, "fay"), Ok(()));
+    assert!(again.plant().step() < steps);
 }
 
 #[test]
@@ -367,6 +522,8 @@ pub(super) enum Event {
     Turn(u16),
     Graft(u16, u16, bool),
     Widen(u16),
+    Bend(u16),
+    Hold(u16),
     Control(u8),
     Seed(i8),
     TakeBack,
@@ -384,6 +541,8 @@ pub(super) fn events() -> impl Strategy<Value = Vec<(u8, Event)>> {
         1 => any::<u16>().prop_map(Event::Turn),
         1 => any::<(u16, u16, bool)>().prop_map(|(row, onto, keep)| Event::Graft(row, onto, keep)),
         1 => any::<u16>().prop_map(Event::Widen),
+        2 => any::<u16>().prop_map(Event::Bend),
+        1 => any::<u16>().prop_map(Event::Hold),
         1 => (45u8..60).prop_map(Event::Control),
         1 => (-9i8..9).prop_map(Event::Seed),
         8 => Just(Event::TakeBack),
@@ -420,6 +579,13 @@ pub(super) fn happen(document: &mut Document, number: u32, name: &str, event: &E
             Action::Graft { row: row(pick), onto: row(onto), rotation, keep }
         }
         Event::Widen(pick) => Action::SetWidth { row: row(pick), diameter: Some(Diameter::nearest(0.7)) },
+        Event::Bend(pick) | Event::Hold(pick) => {
+            let below = |id: &MetamerId| document.plant().metamers().parent(*id).filter(|id| id.raw() > 0);
+            let path: Vec<_> =
+                std::iter::successors(Some(MetamerId::new(row(pick) as usize)), below).take(5).collect();
+            take_hold(document, name, number, &path)?;
+            return if matches!(event, Event::Bend(_)) { let_go(document, name, number) } else { Ok(()) };
+        }
         Event::Control(hundredths) => {
             return document.apply(&who(name), &patch(f32::from(hundredths) / 100.0));
         }
@@ -445,6 +611,10 @@ proptest! {
             let others = drawn(&document, |author| *author != who(&name));
             let done = happen(&mut document, number, &name, event);
             prop_assert_eq!(espalier_plant::checks::all(document.plant()), Ok(()));
+            for bend in &document.bends.open {
+                let is_whole = bend.path.iter().all(|&id| document.plant().is_alive(id));
+                prop_assert!(is_whole, "{:?}", event);
+            }
             if !matches!(event, Event::TakeBack) || done.is_err() {
                 continue;
             }
@@ -457,6 +627,10 @@ proptest! {
                 prop_assert!(after.contains_key(&row), "{} fell", row);
                 prop_assert!(moves || before[&row] == after[&row], "{} moved", row);
             }
+        }
+        while let Some((author, number)) = document.bends.open.first().map(|bend| (bend.author.clone(), bend.number)) {
+            // Refused or not, it ends.
+            let _ = let_go(&mut document, author.name(), number);
         }
         // What is written is read again, and goes back and forth.
         let mut again = Document::from_bytes(&document.to_bytes()).expect("it was just written");
