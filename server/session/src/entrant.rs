@@ -12,6 +12,8 @@ pub struct Entrant {
     /// Who they are, whichever device they come with: two connections of one person have the same. It stays in the
     /// server.
     pub person: Arc<str>,
+    /// As whom authors know them, whatever they are called: nobody after them is the same.
+    pub identity: Arc<str>,
     /// What others may call them until they choose a name.
     pub name: Option<Arc<str>>,
     /// What they may do.
@@ -21,7 +23,8 @@ pub struct Entrant {
 impl Entrant {
     /// Somebody without a name.
     pub fn new(person: impl Into<Arc<str>>, role: Role) -> Self {
-        Self { person: person.into(), name: None, role }
+        let person = person.into();
+        Self { identity: Arc::clone(&person), person, name: None, role }
     }
 
     /// What they may do in a session.

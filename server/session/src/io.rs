@@ -78,7 +78,7 @@ pub enum Input {
     /// Someone outside wants the document as it is (to save it, to export it).
     Read(ReadId),
     /// Someone outside who may edit wants something done (an uploaded mesh placed).
-    Act(ActId, Principal, Box<Command>),
+    Act(ActId, Principal, Entrant, Box<Command>),
     /// The time asked for by `WakeAt` has come.
     Woken,
     /// The snapshot through this entry is kept.

@@ -213,6 +213,17 @@ pub struct Register {
 }
 
 impl Register {
+    /// Whether what is done under a key counts for somebody else (`HS4`).
+    pub(crate) fn is_of_another(&self, key: &Principal, person: &Arc<str>) -> bool {
+        let people = &self.people.numbers;
+        let known = self.person_at.get(key).or_else(|| self.authors.get(key));
+        let Some(number) = known.filter(|number| people.get(&author_alone(key)) != Some(number)) else {
+            return false;
+        };
+        // Whoever is forgotten by now has nothing any more.
+        people.get(person) != Some(number) && people.values().any(|other| other == number)
+    }
+
     /// The numbers of a device and of whoever is at it, where these are in use.
     pub(crate) fn enter(
         &mut self,

@@ -275,7 +275,7 @@ impl Session {
             Input::Worked(work) => self.worked(work),
             Input::Predicted(prediction) => self.finish_prediction(*prediction),
             Input::Read(read) => self.reads.push(read),
-            Input::Act(act, principal, command) => self.act(act, &principal, *command),
+            Input::Act(act, principal, by, command) => self.act(act, &principal, &by, *command),
             Input::Woken => self.upkeep.woken(),
             Input::SnapshotKept(through) => self.upkeep.snapshot_kept(through),
             Input::SnapshotFailed => self.upkeep.snapshot_failed(self.now),

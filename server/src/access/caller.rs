@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     hosts,
-    store::{Holder, Pass, PassKind, Passes, StoreError, Users, person_of},
+    store::{Holder, Pass, PassKind, Passes, StoreError, Users, identity_of, person_of},
     time::written,
 };
 
@@ -190,6 +190,11 @@ impl Caller {
         self.pass.as_ref().map_or_else(|| "machine".to_owned(), Held::person)
     }
 
+    /// As whom authors know them: as [`Self::person`], but a user is the same under another name, and nobody after them.
+    pub fn identity(&self) -> String {
+        self.user().map_or_else(|| self.person(), identity_of)
+    }
+
     /// The pass by which somebody came who is counted as a person (see [`Self::person`]), unless they have logged in.
     pub fn pass_of(person: &str) -> Option<SecretHash> {
         let hash = BASE64_URL_SAFE_NO_PAD.decode(person.strip_prefix("pass ")?).ok()?;
@@ -287,7 +292,12 @@ impl Caller {
             Some(Holder::Device { name, .. }) => is_named(name).then_some(name.as_str()),
             None => is_named(&held.name).then_some(held.name.as_str()),
         });
-        Entrant { person: self.person().into(), name: named.map(Into::into), role: self.grant.role }
+        Entrant {
+            person: self.person().into(),
+            identity: self.identity().into(),
+            name: named.map(Into::into),
+            role: self.grant.role,
+        }
     }
 
     /// Whether they may still do it to the server as a whole. A user may who has logged out.

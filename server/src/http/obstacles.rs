@@ -14,7 +14,7 @@ use espalier_proto::{
 };
 use espalier_session::Principal;
 
-use crate::pool::Class;
+use crate::{access::Caller, pool::Class};
 
 use super::{
     Shared,
@@ -34,6 +34,7 @@ const LIMITS: Limits = Limits {
 pub(super) async fn upload(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
+    caller: Caller,
     Path(session): Path<String>,
     FileOnDisk(mut file, turn): FileOnDisk,
 ) -> Result<impl IntoResponse, Failure> {
@@ -57,7 +58,7 @@ pub(super) async fn upload(
         vertices: vertices as u32,
         triangles: triangles as u32,
     });
-    match session.act(principal, action.into()).await?? {
+    match session.act(principal, caller.entrant(), action.into()).await?? {
         Some(placed) => Ok((StatusCode::CREATED, Json(UploadedObstacle::new(placed, simplified_from)))),
         None => Err(Failure::new(Reason::NotPlaced, "The obstacle was not placed.")),
     }

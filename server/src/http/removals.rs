@@ -30,7 +30,7 @@ pub(super) async fn remove(
     caller: Caller,
 ) -> Result<impl IntoResponse, Failure> {
     let there = person(&shared, &session, number, &principal).await?;
-    let Entrant { person, name, role } = there.entrant;
+    let Entrant { person, name, role, .. } = there.entrant;
     if *person == caller.person() || role >= Role::Owner {
         let forbidden = espalier_session::forbidden();
         return Err(forbidden.at("person", "somebody else, who is no owner").into());

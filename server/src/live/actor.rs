@@ -283,11 +283,11 @@ impl Actor {
                 Input::Disconnected(client)
             }
             Request::Read(answer) => Input::Read(self.readers.ask(Instant::now(), answer)),
-            Request::Act(principal, command, answer) => {
+            Request::Act(principal, by, command, answer) => {
                 let act = self.next_act;
                 self.next_act += 1;
                 self.acts.insert(act, answer);
-                Input::Act(ActId(act), principal, command)
+                Input::Act(ActId(act), principal, by, command)
             }
             Request::Anchor(row, answer) => {
                 let anchor = self.next_anchor;

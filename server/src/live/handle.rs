@@ -27,7 +27,7 @@ pub(super) enum Request {
     Written(ClientId, usize),
     Leave(ClientId),
     Read(Answer),
-    Act(Principal, Box<Command>, oneshot::Sender<Outcome>),
+    Act(Principal, Entrant, Box<Command>, oneshot::Sender<Outcome>),
     Parameters(oneshot::Sender<ParameterValues>),
     Mesh(u32, oneshot::Sender<Option<Arc<Mesh>>>),
     People(oneshot::Sender<Vec<Principal>>),
@@ -115,9 +115,9 @@ impl SessionHandle {
     }
 
     /// Does a command that comes over no socket; answers when it is durable.
-    pub async fn act(&self, principal: Principal, command: Command) -> Result<Outcome, Ended> {
+    pub async fn act(&self, principal: Principal, by: Entrant, command: Command) -> Result<Outcome, Ended> {
         let (answer, answered) = oneshot::channel();
-        self.send(Request::Act(principal, Box::new(command), answer)).await?;
+        self.send(Request::Act(principal, by, Box::new(command), answer)).await?;
         answered.await.map_err(|_| Ended)
     }
 

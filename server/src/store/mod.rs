@@ -53,7 +53,7 @@ pub use self::{
     passes::{Holder, Pass, PassKind, Passes},
     sqlite::{CareError, LibraryFile, OpenError, Report, SqliteStore, backup, check, restore},
     standings::{Heir, Removal, Removed, Room, Standing, Standings},
-    users::{Terms, User, UserChange, Users, person_of},
+    users::{Terms, User, UserChange, Users, identity_of, person_of},
     visits::{LineTree, SessionLine, SessionPlace, SessionQuery, Visits},
 };
 #[cfg(test)]

@@ -32,6 +32,11 @@ pub fn person_of(user: &str) -> String {
     format!("login {}", folded(user))
 }
 
+/// As whom authors know a user, whatever they are called.
+pub fn identity_of(id: &str) -> String {
+    format!("user {id}")
+}
+
 /// Whom it counts for that somebody did who was removed: nobody who is let in.
 pub(super) fn person_removed(id: &str) -> String {
     format!("removed {id}")

@@ -1,9 +1,10 @@
 //! Commands from outside: from people who upload, not over a client's socket.
 
-use espalier_proto::{Command, PlacedObstacle, Problem};
+use espalier_proto::{Command, PlacedObstacle, Problem, Reason};
 
 use super::Session;
 use crate::{
+    entrant::Entrant,
     io::{ActId, Output},
     principal::Principal,
     rights::Access,
@@ -20,8 +21,14 @@ pub(super) struct Act {
 
 impl Session {
     /// Takes a command from outside into the order.
-    pub(super) fn act(&mut self, id: ActId, principal: &Principal, command: Command) {
-        match self.check(Access::Edit, principal, command) {
+    pub(super) fn act(&mut self, id: ActId, principal: &Principal, by: &Entrant, command: Command) {
+        let checked = if self.is_key_of_another(principal, &by.identity) {
+            let message = "This client key is somebody else's.";
+            Err(Problem::new(Reason::Forbidden, message).at("espalier-client", "a client key of one's own"))
+        } else {
+            self.check(Access::Edit, principal, command)
+        };
+        match checked {
             Ok((command, text)) => {
                 let entry = self.accept(principal, 0, command, text, Some(id));
                 self.acts.push(Act { id, entry, outcome: None });

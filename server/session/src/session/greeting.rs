@@ -1,5 +1,7 @@
 //! Clients that connect, resume and leave (`HS`, `RS1`).
 
+use std::sync::Arc;
+
 use espalier_proto::{
     ClientMessage, Problem, Resume, ServerMessage, Unreadable,
     frame::CHUNK_ROWS,
@@ -21,6 +23,9 @@ use crate::{
 
 /// How long a client may take for its hello, in milliseconds (`HS1`).
 const HELLO_MS: u64 = 10_000;
+/// Why somebody is not let in under a key.
+const KEY_OF_ANOTHER: &str = "this client key is somebody else's: take another one";
+
 impl Session {
     pub(super) fn connect(&mut self, client: ClientId, entrant: Entrant) {
         self.forget(client);
@@ -64,6 +69,10 @@ impl Session {
     }
 
     fn welcome(&mut self, client: ClientId, principal: Principal, resume: Option<Resume>) {
+        let identity = self.clients.get(&client).map(|client| &client.entrant.identity);
+        if identity.is_some_and(|identity| self.is_key_of_another(&principal, identity)) {
+            return self.close(client, CloseCode::Replaced, KEY_OF_ANOTHER);
+        }
         if let Some(older) = self.authors.get(&principal).and_then(|author| author.client) {
             self.close(older, CloseCode::Replaced, "the same client connected again");
         }
@@ -137,6 +146,11 @@ impl Session {
             client.notified_after = Some(client.unread);
         }
         self.upkeep.state_changed = true;
+    }
+
+    /// Whether a key is known as that of somebody else than this one (`HS4`). In a replay nobody does anything.
+    pub(super) fn is_key_of_another(&self, key: &Principal, identity: &Arc<str>) -> bool {
+        !self.is_replay && self.room.register.is_of_another(key, identity)
     }
 
     pub(super) fn forget(&mut self, id: ClientId) {

@@ -56,8 +56,8 @@ impl Session {
     pub(super) fn enter_room(&mut self, client: ClientId, principal: &Principal) -> Presence {
         let here: Here = self.present().map(|presence| (presence.device, presence.person)).unzip();
         let entrant = self.clients.get(&client).map(|client| client.entrant.clone());
-        let Entrant { person, name, .. } = entrant.unwrap_or_else(|| Entrant::new("", Role::Viewer));
-        let (device, person) = self.room.register.enter(principal, &person, &here);
+        let Entrant { identity, name, .. } = entrant.unwrap_or_else(|| Entrant::new("", Role::Viewer));
+        let (device, person) = self.room.register.enter(principal, &identity, &here);
         if let Some(given) = name {
             self.room.register.give_name(person, given);
         }
@@ -196,7 +196,7 @@ impl Session {
             if self.room.kept_names.get(principal).is_none_or(|kept| **kept != *name) {
                 let (author, name): (_, Arc<str>) = (principal.clone(), name.into());
                 self.room.kept_names.insert(author.clone(), Arc::clone(&name));
-                let person = Some(Arc::clone(&client.entrant.person));
+                let person = Some(Arc::clone(&client.entrant.identity));
                 self.outputs.push_back(Output::Named(Named { author, person, name }));
             }
         }

@@ -1,10 +1,12 @@
 //! `UD`: everyone's own undo, as clients are told of it.
 
-use espalier_proto::{Deed, OperationKind, Reason, ServerMessage, Timeline, TimelineChange, access::Role};
-use espalier_session::Entrant;
+use espalier_proto::{
+    Deed, OperationKind, Reason, ServerMessage, Timeline, TimelineChange, access::Role, version::CloseCode,
+};
+use espalier_session::{ActId, Entrant, Input};
 use serde_json::json;
 
-use crate::world::{Peer, World, grow};
+use crate::world::{Peer, World, grow, person};
 
 fn enter(world: &mut World, person: &str, key: &str) -> u64 {
     let id = world.connect_as(Entrant { name: Some(person.into()), ..Entrant::new(person, Role::Editor) });
@@ -113,6 +115,55 @@ fn refusals(peer: &Peer) -> Vec<Reason> {
         _ => None,
     });
     refused.collect()
+}
+
+#[test]
+fn hs4_a_key_is_nobody_elses() {
+    let mut world = World::new();
+    let (ann, ben) = (enter(&mut world, "Ann", "ann-tablet"), enter(&mut world, "Ben", "ben-tablet"));
+    world.command(ann, 1, grow(8));
+    world.settle();
+    draw(&mut world, ben, 1, 9.0);
+    // Whoever has read Ben's key somewhere is sent away with it, whether or not he is there.
+    for is_there in [true, false] {
+        let eve = world.connect_as(Entrant::new("Eve", Role::Viewer));
+        world.hello(eve, "ben-tablet", None);
+        assert_eq!(world.peer(eve).closed, Some(CloseCode::Replaced));
+        if is_there {
+            assert_eq!(world.peer(ben).closed, None);
+            world.leave(ben);
+        }
+    }
+    let command = serde_json::from_value(grow(1)).expect("in good form");
+    let (key, eve) = (person("ben-tablet"), Entrant::new("Eve", Role::Editor));
+    world.handle(Input::Act(ActId(1), key, eve, Box::new(command)));
+    assert!(matches!(&world.acts[..], [(_, Err(problem))] if problem.reason == Reason::Forbidden));
+    // Ben has it again, under another name as well.
+    let called = Entrant { person: "login Benjamin".into(), ..Entrant::new("Ben", Role::Editor) };
+    let ben = world.connect_as(called);
+    world.hello(ben, "ben-tablet", None);
+    world.command(ben, 4, json!({ "kind": "take_back" }));
+    world.settle();
+    assert_eq!(deeds(world.peer(ben)).len(), 1);
+}
+
+#[test]
+fn ud8_a_namesake_is_somebody_else() {
+    let mut world = World::new();
+    let ann = enter(&mut world, "Ann", "ann-tablet");
+    world.command(ann, 1, grow(8));
+    world.settle();
+    let named =
+        |identity: &str| Entrant { identity: identity.into(), ..Entrant::new("login ben", Role::Editor) };
+    let ben = world.connect_as(named("user 1"));
+    world.hello(ben, "ben-tablet", None);
+    draw(&mut world, ben, 1, 9.0);
+    world.leave(ben);
+    let namesake = world.connect_as(named("user 2"));
+    world.hello(namesake, "another-tablet", None);
+    world.command(namesake, 1, json!({ "kind": "take_back" }));
+    world.settle();
+    assert_eq!(refusals(world.peer(namesake)), [Reason::NothingOfYours]);
 }
 
 #[test]

@@ -1,11 +1,15 @@
 //! `OB`: obstacles in the scene, sent to everybody and undone like anything else.
 
-use espalier_proto::{Command, Mesh, PlacedObstacle, PlacedShape, ProblemCode, ServerMessage};
-use espalier_session::{ActId, Input, Principal};
+use espalier_proto::{Command, Mesh, PlacedObstacle, PlacedShape, ProblemCode, ServerMessage, access::Role};
+use espalier_session::{ActId, Entrant, Input, Principal};
 use glam::Vec3;
 use serde_json::{Value, json};
 
 use crate::world::{World, grow};
+
+fn somebody() -> Entrant {
+    Entrant::new("somebody", Role::Editor)
+}
 
 pub fn at(x: f32, y: f32, z: f32) -> Value {
     json!({ "position": [x, y, z], "rotation": [0.0, 0.0, 0.0, 1.0] })
@@ -189,7 +193,7 @@ fn lm6_the_scene_and_its_history_are_bounded() {
     let client = world.join("birch-01");
     for number in 1..=8 {
         let command = parsed(&json!({ "kind": "place_obstacle", "obstacle": obstacle.clone() }));
-        world.handle(Input::Act(ActId(number), Principal::visitor(), command));
+        world.handle(Input::Act(ActId(number), Principal::visitor(), somebody(), command));
         world.command(client, number as u32, json!({ "kind": "remove_obstacle", "id": number as u32 }));
         world.settle();
     }
@@ -203,7 +207,7 @@ fn ob6_an_upload_is_answered_when_it_is_durable() {
     let mut world = World::new();
     let client = world.join("birch-01");
     world.write_ms = 500;
-    world.handle(Input::Act(ActId(7), Principal::visitor(), parsed(&mesh(&tetrahedron()))));
+    world.handle(Input::Act(ActId(7), Principal::visitor(), somebody(), parsed(&mesh(&tetrahedron()))));
     world.pass(400);
     assert!(world.acts.is_empty() && !world.session.is_idle());
     assert_eq!(ids(&world, client), [1], "it stands there already");
@@ -212,7 +216,7 @@ fn ob6_an_upload_is_answered_when_it_is_durable() {
     assert_eq!((act, outcome.unwrap().unwrap().id), (ActId(7), 1));
     // What is no obstacle is refused at once, and nothing is written.
     let flat = Mesh { triangles: vec![[0, 0, 1]], ..tetrahedron() };
-    world.handle(Input::Act(ActId(8), Principal::visitor(), parsed(&mesh(&flat))));
+    world.handle(Input::Act(ActId(8), Principal::visitor(), somebody(), parsed(&mesh(&flat))));
     let (act, outcome) = world.acts.remove(0);
     assert_eq!((act, outcome.unwrap_err().field.as_deref()), (ActId(8), Some("obstacle.shape.mesh")));
     assert_eq!(world.disk.len(), 1);

@@ -1,9 +1,9 @@
 //! Who may edit a session (`AU`).
 
-use espalier_proto::{ProblemCode, ServerMessage};
-use espalier_session::Access;
+use espalier_proto::{ProblemCode, ServerMessage, access::Role};
+use espalier_session::{Access, Entrant};
 
-use crate::world::{World, grow};
+use crate::world::{World, grow, stranger_at};
 
 #[test]
 fn au2_who_may_look_sees_all_and_changes_nothing() {
@@ -37,7 +37,7 @@ fn au2_who_may_look_sees_all_and_changes_nothing() {
 #[test]
 fn au2_what_one_may_is_told_of_each_connection() {
     let mut world = World::new();
-    let viewer = world.connect_with(Access::Look);
+    let viewer = world.connect_as(Entrant { role: Role::Viewer, ..stranger_at("birch-01") });
     world.hello(viewer, "birch-01", None);
     world.command(viewer, 1, grow(1));
     // The same client comes again, and may edit by now.

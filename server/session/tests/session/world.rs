@@ -515,7 +515,7 @@ fn room_for([growing, drawing]: [u64; 2], urgency: Urgency) -> u64 {
 }
 
 /// The client with this key.
-fn stranger_at(key: &str) -> Entrant {
+pub fn stranger_at(key: &str) -> Entrant {
     Entrant::new(format!("stranger at {key}"), Role::Editor)
 }
 

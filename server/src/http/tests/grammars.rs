@@ -3,6 +3,7 @@
 use espalier_session::{Principal, grammar_script};
 
 use super::*;
+use crate::access::Caller;
 
 const TEXT: &str = "axiom: A\nA --> F[+(30)B]A\nB --> F\n";
 
@@ -56,7 +57,7 @@ async fn gr8_rules_of_a_session_are_told_row_by_row() {
     assert_eq!((status, &problem["reason"]), (StatusCode::NOT_FOUND, &json!("no-grammar")));
     let session = sessions::open(&shared, "oak").await.unwrap();
     let action = grammar_script(TEXT, Some(espalier_proto::Steps::nearest(3))).unwrap();
-    session.act(Principal::visitor(), action.into()).await.unwrap().unwrap();
+    session.act(Principal::visitor(), Caller::local().entrant(), action.into()).await.unwrap().unwrap();
     let (status, origins) = asked(&server, Method::GET, path, Value::Null).await;
     assert_eq!(status, StatusCode::OK);
     assert_eq!(origins["rows"].as_array().map(Vec::len), Some(5));

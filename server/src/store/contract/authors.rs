@@ -4,7 +4,7 @@ use espalier_proto::access::Role;
 use espalier_session::{Named, Principal};
 
 use super::{
-    super::{Authors, Terms, Users, person_of},
+    super::{Authors, Terms, Users, identity_of},
     users::user,
 };
 
@@ -18,7 +18,7 @@ fn named(author: &str, person: Option<String>, name: &str) -> Named {
 
 pub(super) async fn authors_are_called_as_they_were_last(store: &(impl Authors + Users)) {
     store.add_user(user("Ann", Role::Editor)).await.unwrap();
-    let ann = Some(person_of("Ann"));
+    let ann = Some(identity_of("Ann's key"));
     let bo = Some("pass bo".to_owned());
     for (author, person, name, at) in [
         ("browser-1", &ann, "Ann", "2026-01"),

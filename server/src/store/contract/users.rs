@@ -6,7 +6,8 @@ use super::{
     super::{
         Authors, Comments, Finding, Gift, Gifts, Group, Groups, Heir, Holder, Library, Missing, NewComment,
         NewSession, NewTree, NewVersion, Pass, PassKind, Passes, Receiver, Removal, Room, Standing,
-        Standings, Store, StoreError, Terms, TreeQuery, User, UserChange, Users, Visits, person_of,
+        Standings, Store, StoreError, Terms, TreeQuery, User, UserChange, Users, Visits, identity_of,
+        person_of,
     },
     library::tree,
     passes::{LATER, NOW, hash, pass},
@@ -125,12 +126,9 @@ pub(super) async fn under_another_name_one_is_the_same(
     store.add_thread("ash", None, comment).await.unwrap();
     store.see_thread("ash", &ada, 1, 1).await.unwrap();
     let browser = espalier_session::Principal::client("browser-1").unwrap();
-    let named = |person: &str| espalier_session::Named {
-        author: browser.clone(),
-        person: Some(person.into()),
-        name: "Ada".into(),
-    };
-    store.name_author(&named(&ada), NOW).await.unwrap();
+    let (author, identity) = (browser.clone(), identity_of("Ada's key"));
+    let named = espalier_session::Named { author, person: Some(identity.into()), name: "Ada".into() };
+    store.name_author(&named, NOW).await.unwrap();
     store.add_pass(hash(1), login_of("Ada", "login")).await.unwrap();
     let (id, name, created_at, members) = ("g".into(), "Studio".into(), "2026".into(), Vec::new());
     let studio = Group { id, name, role: Role::Editor, created_at, members, revision: 1 };
@@ -161,7 +159,7 @@ pub(super) async fn under_another_name_one_is_the_same(
     let comment = &store.thread("ash", 1).await.unwrap().unwrap().comments[0];
     let expected = r#"{"mentions":[{"name":"Ada","people":["login cy"]}],"text":"login ada"}"#;
     assert_eq!((&*comment.person, &*comment.said), (&*cy, expected), "words stay as they were");
-    assert_eq!(store.named_authors(std::slice::from_ref(&browser)).await.unwrap(), [named(&cy)]);
+    assert_eq!(store.named_authors(std::slice::from_ref(&browser)).await.unwrap(), [named]);
 }
 
 /// Whoever has the name after somebody who was removed finds nothing of theirs.
@@ -191,7 +189,8 @@ pub(super) async fn nothing_is_left_to_a_namesake(
     store.see_thread("ash", &ada, 1, 1).await.unwrap();
     let browser = espalier_session::Principal::client("browser-1").unwrap();
     let (author, name) = (browser.clone(), "Ada".into());
-    let named = espalier_session::Named { author, person: Some(ada.as_str().into()), name };
+    let person = Some(identity_of("Ada's key").into());
+    let named = espalier_session::Named { author, person, name };
     store.name_author(&named, NOW).await.unwrap();
     store.add_pass(hash(1), login_of("Ada", "login")).await.unwrap();
     let (id, name, created_at, members) = ("g".into(), "Studio".into(), "2026".into(), Vec::new());

@@ -6,7 +6,7 @@ use super::{
     super::{
         Holder, Pass, PassKind, StoreError, Terms, User, UserChange, Users,
         folding::folded,
-        person_of,
+        identity_of, person_of,
         users::{mentioning_instead, person_removed},
     },
     Kept, MemoryStore,
@@ -69,8 +69,9 @@ impl Users for MemoryStore {
         let person = person_of(&user.name);
         kept.sessions.values_mut().for_each(|session| _ = session.people.remove(&person));
         kept.threads.values_mut().flatten().for_each(|(_, thread)| thread.forget_reader(&person));
+        let identity = identity_of(id);
         for (_, named) in kept.authors.values_mut() {
-            named.person.take_if(|of| **of == *person);
+            named.person.take_if(|of| **of == *identity);
         }
         // Nothing of theirs is left to whoever has the name after them.
         kept.heirs.retain(|_, heir| heir.person != person);
@@ -131,11 +132,6 @@ impl Kept {
             person.clone_from(&new);
         }
         self.count_for(&old, &new);
-        for (_, named) in self.authors.values_mut() {
-            if named.person.as_deref() == Some(&*old) {
-                named.person = Some(new.as_str().into());
-            }
-        }
     }
 }
 

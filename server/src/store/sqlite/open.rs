@@ -47,6 +47,7 @@ const MIGRATIONS: &[(&str, &str)] = &[
     ("0022_people_over_http", include_str!("../../../../migrations/0022_people_over_http.sql")),
     ("0023_gifts", include_str!("../../../../migrations/0023_gifts.sql")),
     ("0024_trees_in_collections", include_str!("../../../../migrations/0024_trees_in_collections.sql")),
+    ("0025_identities_of_authors", include_str!("../../../../migrations/0025_identities_of_authors.sql")),
 ];
 
 /// Releases before this one can lose a committed transaction when the write-ahead log starts over.

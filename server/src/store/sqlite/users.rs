@@ -7,7 +7,7 @@ use super::{
     super::{
         StoreError, Terms, User, UserChange, Users,
         folding::folded,
-        person_of,
+        identity_of, person_of,
         users::{mentioning_instead, person_removed},
     },
     SqliteStore,
@@ -96,7 +96,6 @@ impl UserWrite {
                 for sql in [
                     "DELETE FROM session_people WHERE person = ?",
                     "DELETE FROM comments_seen WHERE person = ?",
-                    "UPDATE authors SET person = NULL WHERE person = ?",
                     // Nothing of theirs is left to whoever has the name after them.
                     "UPDATE trees SET owner_person = NULL, owner_name = NULL WHERE owner_person = ?",
                     "DELETE FROM favourites WHERE principal = ?",
@@ -104,6 +103,10 @@ impl UserWrite {
                 ] {
                     sqlx::query(sql).bind(&person).execute(&mut *connection).await?;
                 }
+                sqlx::query("UPDATE authors SET person = NULL WHERE person = ?")
+                    .bind(identity_of(id))
+                    .execute(&mut *connection)
+                    .await?;
                 count_for(connection, &person, &person_removed(id)).await?;
                 let removed = sqlx::query("DELETE FROM users WHERE id = ?").bind(there.row);
                 Ok(removed.execute(connection).await?.rows_affected())
@@ -205,7 +208,6 @@ impl Kept {
             "UPDATE OR REPLACE comments_seen SET person = ?2 WHERE person = ?1",
             "UPDATE OR REPLACE favourites SET principal = ?2 WHERE principal = ?1",
             "UPDATE OR REPLACE removals SET person = ?2 WHERE person = ?1",
-            "UPDATE authors SET person = ?2 WHERE person = ?1",
             "UPDATE trees SET owner_person = ?2 WHERE owner_person = ?1",
         ] {
             sqlx::query(sql).bind(&old).bind(&new).execute(&mut *connection).await?;
