@@ -1,4 +1,5 @@
 import { expect, test } from "vitest";
+import { misses } from "./hits";
 import { editorsLink, guestsLink, ownersLink } from "./invitations";
 import { LANDSCAPE, PHONE, type Screen } from "./screens";
 import { until } from "./server";
@@ -55,28 +56,35 @@ test.each<[string, Screen]>([
   await owner.press(page.locator(".people-chip"));
   const bo = page.getByRole("dialog").locator(".people").first().locator("li").filter({ hasText: "Bo" });
   const may = (text: string) => bo.getByText(text, { exact: true }).waitFor();
-  const lets = async () => (await bo.getByRole("button", { name: /: Bo$/ }).allInnerTexts()).sort();
+  const role = bo.getByRole("combobox", { name: "What Bo may do" });
   await may("May draw");
-  await bo.getByRole("button", { name: "Let comment: Bo" }).waitFor();
-  expect(await lets()).toEqual(["Let comment", "Only let look"]);
+  await role.waitFor();
+  expect(await role.inputValue()).toBe("editor");
+  expect(await misses(owner, "the list", ".sheet", false)).toEqual([]);
   await owner.show(`people-roles-${name}`);
-  await owner.press(bo.getByRole("button", { name: "Let comment: Bo" }));
+  await role.selectOption("commenter");
   await may("May comment");
   await guest.page.locator(".toast", { hasText: "You may no longer draw on this tree" }).waitFor();
-  await until("the others are offered", async () => (await lets()).join() === "Let draw,Only let look");
-  await owner.press(bo.getByRole("button", { name: "Only let look: Bo" }));
+  await until("the choice stays", async () => (await role.inputValue()) === "commenter");
+  await role.selectOption("viewer");
   await may("May look");
-  await owner.press(bo.getByRole("button", { name: "Let draw: Bo" }));
+  await role.selectOption("editor");
   await may("May draw");
   await guest.page.locator(".toast", { hasText: "You may draw on this tree now" }).waitFor();
 
-  // Who came otherwise has their role elsewhere, and the list says so.
+  // Who came otherwise has their role elsewhere: the list says so, and leads to what may have given it to them.
   const cy = await workshop.open(editorsLink(workshop.server, "Cy"), { width: 600, height: 500, detail: 0.3 });
   await cy.page.goto(page.url());
   const cys = page.getByRole("dialog").locator(".people").first().locator("li").filter({ hasText: "Cy" });
-  await cys.getByText("comes with their login or their device", { exact: false }).waitFor();
-  expect(await cys.getByRole("button", { name: /: Cy$/ }).count()).toBe(0);
+  await cys.getByText("this tree was shared with them by name", { exact: false }).waitFor();
+  expect(await cys.getByRole("combobox").count()).toBe(0);
+  await until("no note is left", async () => (await page.locator(".toast").count()) === 0, 20_000);
+  expect(await misses(owner, "the list with Cy", ".sheet", false)).toEqual([]);
   await owner.show(`people-roles-elsewhere-${name}`);
+  await owner.press(cys.getByRole("button", { name: "Share with people…" }));
+  await page.getByRole("dialog", { name: "Share with people" }).waitFor();
+  await owner.press(page.getByRole("button", { name: "Back to who is here" }));
+  await cys.waitFor();
 });
 
 test.each<[string, Screen]>([

@@ -41,7 +41,7 @@ export type SectionName = (typeof SECTION_NAMES)[number];
 
 /** What is given to people and groups, and what is gone back to. */
 export interface Given extends Gift {
-  readonly from: "library" | "share";
+  readonly from: "library" | "share" | "people";
   /** The collection that it lies in. */
   readonly within?: string | undefined;
 }

@@ -2,6 +2,7 @@
 export const GIFTS = {
   "gifts.open": ["Share with people…", "Mit Menschen teilen…"],
   "gifts.back": ["Back to Share", "Zurück zu Teilen"],
+  "gifts.back.people": ["Back to who is here", "Zurück zu denen, die hier sind"],
   "gifts.asking": ["Asking the server…", "Der Server wird gefragt…"],
   "gifts.advice.tree": [
     "Whoever is listed below finds this tree in their library when they log in, also where they may see nothing else.",

@@ -19,8 +19,8 @@ export const TOGETHER = {
   "together.role.owner": ["Owner", "Besitzt den Baum"],
   "together.role.admin": ["Looks after the server", "Betreut den Server"],
   "together.role.elsewhere": [
-    "What they may do comes with their login or their device, not from this tree.",
-    "Was sie dürfen, kommt von ihrer Anmeldung oder ihrem Gerät, nicht von diesem Baum.",
+    "They came by no link of this tree. What they may do comes with their login or device, or this tree was shared with them by name.",
+    "Sie kamen nicht über einen Link zu diesem Baum. Was sie dürfen, kommt von ihrer Anmeldung oder ihrem Gerät, oder der Baum ist namentlich mit ihnen geteilt.",
   ],
   "together.remove": ["Remove", "Entfernen"],
   "together.remove.which": ["Remove {name}", "{name} entfernen"],

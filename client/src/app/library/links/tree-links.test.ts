@@ -20,6 +20,8 @@ function desk() {
     trouble.next = null;
     if (next) throw next;
   };
+  /** Changes that wait for their answer; null where they are answered at once. */
+  const held: { changes: (() => void)[] | null } = { changes: null };
   let asked = 0;
   const links = new TreeLinks({
     tree: "oak",
@@ -38,6 +40,8 @@ function desk() {
         return { id, url: `http://192.168.1.7:7700/pair#${id}` };
       },
       changeLink: async (_, id, role) => {
+        const { changes } = held;
+        await (changes && new Promise<void>((go) => changes.push(go)));
         or();
         const found = there.findIndex((link) => link.id === id);
         const changed = { ...there[found]!, role };
@@ -53,7 +57,7 @@ function desk() {
       },
     },
   });
-  return { links, there, failures, clock, trouble, asked: () => asked };
+  return { links, there, failures, clock, trouble, held, asked: () => asked };
 }
 
 describe("the links of a tree", () => {
@@ -65,6 +69,35 @@ describe("the links of a tree", () => {
     trouble.next = refused(403);
     await links.change("link-0", "editor");
     expect([failures.length, links.list.value?.[0]?.role]).toEqual([1, "viewer"]);
+  });
+
+  it("AC12: of two choices the later one counts, in whatever time the server answers them", async () => {
+    const { links, there, held } = desk();
+    await links.make({ role: "editor", name: "Ann" });
+    held.changes = [];
+    const both = Promise.all([links.change("link-0", "viewer"), links.change("link-0", "commenter")]);
+    await settled();
+    // The server is slow with the first and quick with the second.
+    const [first, second] = held.changes;
+    held.changes = null;
+    second?.();
+    first!();
+    await both;
+    expect([there[0]?.role, links.list.value?.[0]?.role]).toEqual(["commenter", "commenter"]);
+  });
+
+  it("AC12: what was changed is shown where it cannot be asked again", async () => {
+    const { links, trouble, held } = desk();
+    await links.make({ role: "editor", name: "Ann" });
+    held.changes = [];
+    const changing = links.change("link-0", "viewer");
+    await settled();
+    const silent = links.look();
+    held.changes[0]!();
+    await Promise.resolve();
+    trouble.next = refused(503);
+    await Promise.all([changing, silent]);
+    expect(links.list.value?.[0]?.role).toBe("viewer");
   });
 
   it("AC12: one that is made is listed, and it is seen when somebody comes by it", async () => {

@@ -34,6 +34,8 @@ export class TreeLinks {
   #options: TreeLinksOptions;
   /** Counts the questions: only the newest answer is taken. */
   #asked = 0;
+  /** Changes, one after the other. */
+  #changes: Promise<void> = Promise.resolve();
 
   constructor(options: TreeLinksOptions) {
     this.#options = options;
@@ -85,10 +87,18 @@ export class TreeLinks {
     await this.look();
   }
 
-  /** Whoever came by a link, or comes, may do that from now on. */
-  async change(id: string, role: LinkRole): Promise<void> {
+  /** Whoever came by a link, or comes, may do that from now on; what was chosen last is sent last. */
+  change(id: string, role: LinkRole): Promise<void> {
+    this.#changes = this.#changes.then(() => this.#change(id, role));
+    return this.#changes;
+  }
+
+  async #change(id: string, role: LinkRole): Promise<void> {
     try {
-      await this.#options.api.changeLink(this.#options.tree, id, role);
+      const changed = await this.#options.api.changeLink(this.#options.tree, id, role);
+      // What was asked before may be answered with what was.
+      this.#asked += 1;
+      this.list.value = this.list.peek()?.map((link) => (link.id === id ? changed : link)) ?? null;
     } catch (error) {
       this.#options.failed(error);
     }

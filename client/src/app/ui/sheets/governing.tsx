@@ -1,79 +1,39 @@
-import { useCallback, useEffect, useState } from "preact/hooks";
-import {
-  type GuestHere,
-  KEPT_OUT_HOURS,
-  type KeptOut,
-  type LinkRole,
-  type Person,
-  ROLES,
-} from "../../../wire/generated";
+import { useEffect, useMemo, useState } from "preact/hooks";
+import { KEPT_OUT_HOURS, type LinkRole, type Person, ROLES } from "../../../wire/generated";
+import { belongingOf } from "../../library/belonging";
+import { LINK_ROLES } from "../../library/links/lasting";
 import { changeLink } from "../../library/links/link-api";
-import { explained } from "../../problems/explained";
+import { sentence } from "../../problems/plain-words";
 import type { Studio } from "../../studio";
+import { Governing } from "../../together/governing";
 import * as api from "../../together/governing-api";
 import { momentText } from "../../words/date-text";
 import { say } from "../../words/say";
+import { RoleSelect } from "./accounts/role-select";
 import { ConfirmRow } from "./confirm-row";
-import { LinkRoles } from "./share/link-roles";
 
-export interface GoverningNow {
-  /** Who is kept out. */
-  readonly removals: readonly KeptOut[];
-  /** To whom the tree was handed over. */
-  readonly heir: string | undefined;
-  /** Who of those here came by a link; null while nobody knows. */
-  readonly guests: readonly GuestHere[] | null;
-  readonly look: () => Promise<void>;
-  readonly letDo: (guest: GuestHere, role: LinkRole) => Promise<void>;
-  readonly letBack: (removal: KeptOut) => Promise<void>;
-  readonly takeBack: () => Promise<void>;
-}
-
-/** Who is kept out of the open tree and to whom it was handed over, for whoever may say so. */
-export function useGoverning(studio: Studio): GoverningNow {
-  const [removals, setRemovals] = useState<readonly KeptOut[]>([]);
-  const [heir, setHeir] = useState<string | undefined>();
-  const [guests, setGuests] = useState<readonly GuestHere[] | null>(null);
-  const { link, rights, together } = studio;
+/** Who comes to the open tree, asked for as long as the list of who is here is open. */
+export function useGoverning(studio: Studio): Governing {
+  const { link, rights, together, toasts } = studio;
   const session = link.session.value ?? "";
-  const look = useCallback(async () => {
-    if (!rights.mayGovern) {
-      return;
-    }
-    await told(studio, async () => {
-      const asked = [api.listRemovals(session), api.findOwner(session), api.listGuests(session)] as const;
-      const [removals, owner, guests] = await Promise.all(asked);
-      setRemovals(removals);
-      setHeir(owner.name);
-      setGuests(guests);
-    });
-  }, [studio, rights, session]);
-  // Whoever comes or goes may have been removed, or let back, by another owner.
-  useEffect(() => together.people.subscribe(() => void look()), [together, look]);
-  const letDo = async ({ tree, link }: GuestHere, role: LinkRole) => {
-    await told(studio, () => changeLink(tree, link.id, role));
-    await look();
-  };
-  const letBack = async ({ id }: KeptOut) => {
-    await told(studio, () => api.letBack(session, id));
-    await look();
-  };
-  const takeBack = async () => {
-    await told(studio, () => api.handOver(session, null));
-    await look();
-  };
-  return { removals, heir, guests, look, letDo, letBack, takeBack };
+  const governing = useMemo(() => {
+    const failed = (error: unknown) => toasts.show(sentence(error));
+    return new Governing({ session, api: { ...api, changeLink }, failed });
+  }, [toasts, session]);
+  const { mayGovern } = rights;
+  useEffect(() => (mayGovern ? governing.follow(together.people) : undefined), [governing, mayGovern, together]);
+  return governing;
 }
 
 /** Who was removed, to let them back; and to whom the tree was handed over. */
-export function Governing({ governing }: { readonly governing: GoverningNow }) {
-  const { removals, heir } = governing;
+export function KeptOutAndHeir({ governing }: { readonly governing: Governing }) {
+  const [removals, heir] = [governing.removals.value, governing.heir.value];
   return (
     <>
       {heir !== undefined && (
         <div class="actions" data-heir={heir}>
           <p class="quiet">{say("together.heir", { name: heir })}</p>
-          <button type="button" class="small" onClick={() => void governing.takeBack()}>
+          <button type="button" class="small" onClick={() => void governing.handOver(null)}>
             {say("together.take-back")}
           </button>
         </div>
@@ -113,7 +73,7 @@ interface PersonActsProps {
   readonly studio: Studio;
   readonly person: Person;
   readonly name: string;
-  readonly governing: GoverningNow;
+  readonly governing: Governing;
 }
 
 /**
@@ -122,26 +82,24 @@ interface PersonActsProps {
  */
 export function PersonActs({ studio, person: { person, role }, name, governing }: PersonActsProps) {
   const [asks, setAsks] = useState<"remove" | "hand-over" | null>(null);
-  const session = studio.link.session.value ?? "";
   if (ROLES.indexOf(role) >= ROLES.indexOf("owner")) {
     return null;
   }
+  const { toasts } = studio;
   const remove = async () => {
-    await told(studio, async () => {
-      const { until } = await api.removePerson(session, person);
-      const words =
-        until === undefined
-          ? say("together.removed.guest", { name })
-          : say("together.removed", { name, until: momentText(until) });
-      studio.toasts.show(words);
-    });
+    const removed = await governing.remove(person);
+    if (removed !== null) {
+      const { until } = removed;
+      const guest = until === undefined;
+      toasts.show(
+        guest ? say("together.removed.guest", { name }) : say("together.removed", { name, until: momentText(until) }),
+      );
+    }
   };
   const handOver = async () => {
-    await told(studio, async () => {
-      await api.handOver(session, person);
-      studio.toasts.show(say("together.handed-over", { name }));
-    });
-    await governing.look();
+    if (await governing.handOver(person)) {
+      toasts.show(say("together.handed-over", { name }));
+    }
   };
   if (asks !== null) {
     return (
@@ -153,12 +111,22 @@ export function PersonActs({ studio, person: { person, role }, name, governing }
       />
     );
   }
-  const guest = governing.guests?.find((guest) => guest.person === person);
+  const guests = governing.guests.value;
+  const guest = guests?.find((guest) => guest.person === person);
+  const isElsewhere = guests !== null && !guest;
   return (
     <>
-      {governing.guests !== null && !guest && <p class="quiet">{say("together.role.elsewhere")}</p>}
+      {isElsewhere && <p class="quiet">{say("together.role.elsewhere")}</p>}
       <div class="person-acts">
-        {guest && <LinkRoles link={{ ...guest.link, name }} onChange={(role) => governing.letDo(guest, role)} />}
+        {guest && (
+          <RoleSelect
+            label={say("accounts.role.of", { name })}
+            roles={LINK_ROLES}
+            chosen={guest.link.role as LinkRole}
+            onChoose={(role) => void governing.letDo(guest, role)}
+          />
+        )}
+        {isElsewhere && <ShareWithPeople studio={studio} />}
         {(["hand-over", "remove"] as const).map((act) => (
           <button
             key={act}
@@ -175,11 +143,26 @@ export function PersonActs({ studio, person: { person, role }, name, governing }
   );
 }
 
-/** Does something that may be refused, and says so. */
-async function told(studio: Studio, act: () => Promise<unknown>): Promise<void> {
-  try {
-    await act();
-  } catch (error) {
-    studio.toasts.show(await explained(error));
-  }
+/** The way to what people were given who log in; a tree that is not saved has to be before. */
+function ShareWithPeople({ studio }: { readonly studio: Studio }) {
+  const { layout, link, toasts } = studio;
+  const open = async () => {
+    try {
+      const of = await belongingOf(link.session.peek() ?? "");
+      if (of === null) {
+        layout.sheet.value = "share";
+        return;
+      }
+      const { id, name } = of.tree;
+      layout.given.value = { kind: "tree", id, name, from: "people" };
+      layout.sheet.value = "gifts";
+    } catch (error) {
+      toasts.show(sentence(error));
+    }
+  };
+  return (
+    <button type="button" class="small" onClick={() => void open()}>
+      {say("gifts.open")}
+    </button>
+  );
 }

@@ -1,10 +1,11 @@
 import type { Device, Person } from "../../../wire/generated";
 import { personColour } from "../../document/timeline/authors";
 import type { Studio } from "../../studio";
+import type { Governing } from "../../together/governing";
 import { companions, isReplaying, nameOf } from "../../together/people";
 import { descriptorOf, TOOL_NAMES } from "../../tools/tools";
 import { say } from "../../words/say";
-import { Governing, type GoverningNow, PersonActs, useGoverning } from "./governing";
+import { KeptOutAndHeir, PersonActs, useGoverning } from "./governing";
 
 /** Who has the tree open, where they are, and what they do; to follow them, or to bring them here. */
 export function PeopleSheet({ studio }: { studio: Studio }) {
@@ -37,7 +38,7 @@ export function PeopleSheet({ studio }: { studio: Studio }) {
         ))}
       </ul>
       {here !== null && here.more > 0 && <p class="quiet">{say("together.more", { count: here.more })}</p>}
-      {rights.mayGovern && <Governing governing={governing} />}
+      {rights.mayGovern && <KeptOutAndHeir governing={governing} />}
       <label class="field">
         <span>{say("together.name")}</span>
         <input
@@ -69,7 +70,7 @@ interface PersonRowProps {
   /** This page's own device. */
   readonly you: number;
   readonly close: () => void;
-  readonly governing: GoverningNow;
+  readonly governing: Governing;
 }
 
 function PersonRow({ studio, person, you, close, governing }: PersonRowProps) {

@@ -18,7 +18,9 @@ interface RoleSelectProps<Chosen extends Role> {
 /** One of the roles, by what it allows. */
 export function RoleSelect<Chosen extends Role>(props: RoleSelectProps<Chosen>) {
   const { label, isLabelled = false, roles, chosen, disabled = false, onChoose } = props;
-  const options = roles.map((role) => [role, say(`accounts.role.${role}`)] as const);
+  // What somebody has is shown also where nobody is given it any more.
+  const offered = roles.includes(chosen) ? roles : [...roles, chosen];
+  const options = offered.map((role) => [role, say(`accounts.role.${role}`)] as const);
   const pick = <Pick label={label} value={chosen} options={options} disabled={disabled} onPick={onChoose} />;
   return isLabelled ? (
     <div class="field">

@@ -6,8 +6,10 @@ interface BackBarProps {
   /** What the sheet is about. */
   readonly title: string;
   /** Where it was opened. */
-  readonly to?: "library" | "share";
+  readonly to?: "library" | "share" | "people";
 }
+
+const WORDS = { library: "library.to-library", share: "gifts.back", people: "gifts.back.people" } as const;
 
 /** The way back to the library, or to what else it was opened from, from a sheet about one thing of it. */
 export function BackBar({ studio, title, to = "library" }: BackBarProps) {
@@ -20,7 +22,7 @@ export function BackBar({ studio, title, to = "library" }: BackBarProps) {
           studio.layout.sheet.value = to;
         }}
       >
-        {say(to === "library" ? "library.to-library" : "gifts.back")}
+        {say(WORDS[to])}
       </button>
       <strong class="library-title">{title}</strong>
     </div>

@@ -1,9 +1,10 @@
 import { useState } from "preact/hooks";
 import type { LinkRole, TreeLink } from "../../../../wire/generated";
+import { LINK_ROLES } from "../../../library/links/lasting";
 import { momentText } from "../../../words/date-text";
-import { type Key, say } from "../../../words/say";
+import { say } from "../../../words/say";
+import { RoleSelect } from "../accounts/role-select";
 import { ConfirmRow } from "../confirm-row";
-import { LinkRoles } from "./link-roles";
 
 interface LinkRowProps {
   readonly link: TreeLink;
@@ -13,8 +14,8 @@ interface LinkRowProps {
 }
 
 /**
- * Who was invited, since when and until when; ways to let them do more or less, which holds at once, and to take it all
- * back, which is asked about once.
+ * Who was invited, since when and until when; what they may do, which holds at once when it is changed, and a way to take
+ * it all back, which is asked about once.
  */
 export function LinkRow({ link, onChange, onRevoke }: LinkRowProps) {
   const { name, role, since, until, used } = link;
@@ -22,7 +23,7 @@ export function LinkRow({ link, onChange, onRevoke }: LinkRowProps) {
   return (
     <li class="link-row" data-used={used}>
       <div>
-        <strong>{name}</strong> <span class="quiet">{say(`links.may.${role}` as Key)}</span>
+        <strong>{name}</strong>
         <br />
         <span class="quiet">
           {say(used ? "links.used" : "links.unused", { since: momentText(since), until: momentText(until) })}
@@ -37,7 +38,12 @@ export function LinkRow({ link, onChange, onRevoke }: LinkRowProps) {
         />
       ) : (
         <div class="link-acts">
-          <LinkRoles link={link} onChange={onChange} />
+          <RoleSelect
+            label={say("accounts.role.of", { name })}
+            roles={LINK_ROLES}
+            chosen={role as LinkRole}
+            onChoose={(next) => void onChange(next)}
+          />
           <button
             type="button"
             class="small"
