@@ -40,6 +40,19 @@ describe("plain words", () => {
     expect(plainly({ ...problem, field: "samples" })).toMatch(/^That is too much/);
   });
 
+  it("AC22, AC18, AC17: say what of a gift or of governing is not one's own to do", () => {
+    const problem = { code: "refused", reason: "forbidden", message: "x" } as const;
+    for (const spoken of ["en", "de"] as const) {
+      language.value = spoken;
+      const plain = plainly(problem);
+      const fields = ["role", "name", "member", "person", "session", "collection"];
+      const said = fields.map((field) => plainly({ ...problem, field }));
+      expect(new Set([plain, ...said]).size, spoken).toBe(fields.length + 1);
+    }
+    language.value = "en";
+    expect(plainly({ ...problem, field: "name" })).toMatch(/^Not with yourself/);
+  });
+
   it("say what is wrong with a file", () => {
     const problem = {
       code: "malformed",

@@ -365,6 +365,30 @@ export const PROBLEMS = {
     "Save the tree first: what is not saved cannot be handed over.",
     "Speichere den Baum zuerst: Was nicht gespeichert ist, lässt sich nicht übergeben.",
   ],
+  "problems.forbidden.role": [
+    "You give nobody more than you may yourself, and only owners of the server let others own something. Choose less.",
+    "Du gibst niemandem mehr, als du selbst darfst, und nur wer den Server besitzt, lässt andere etwas besitzen. Wähle weniger.",
+  ],
+  "problems.forbidden.name": [
+    "Not with yourself, with a group that you are in, or with somebody who owns it: only owners of the server change that.",
+    "Nicht mit dir selbst, mit einer Gruppe, in der du bist, oder mit jemandem, dem es gehört: Das ändern nur die, denen der Server gehört.",
+  ],
+  "problems.forbidden.member": [
+    "Only owners of the server take it back from somebody who owns it.",
+    "Nur wem der Server gehört, nimmt es jemandem zurück, dem es gehört.",
+  ],
+  "problems.forbidden.person": [
+    "That goes neither with yourself nor with owners of the tree.",
+    "Das geht weder mit dir selbst noch mit denen, denen der Baum gehört.",
+  ],
+  "problems.forbidden.session": [
+    "Only owners of the server hand this tree over, and whoever it was handed over to.",
+    "Diesen Baum übergibt nur, wem der Server gehört oder wem der Baum übergeben ist.",
+  ],
+  "problems.forbidden.collection": [
+    "You cannot put this into that collection: others would see it there, or you could do more with it. Owners of the server can.",
+    "Du kannst dies nicht in diese Sammlung legen: Andere sähen es dort, oder du dürftest mehr damit. Wem der Server gehört, kann es.",
+  ],
   "problems.too-many.tree": [
     "This tree has {most} links already; revoke one first.",
     "Dieser Baum hat schon {most} Links; widerrufe erst einen.",
