@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { ExportFormat } from "../../wire/generated";
-import { FIRST_CHOICE, isExportChoice, optionsOf } from "./export-choice";
+import { FIRST_CHOICE, framesOf, framesOffered, isExportChoice, optionsOf } from "./export-choice";
 
 const GLB: ExportFormat = {
   ending: "glb",
@@ -21,6 +21,16 @@ describe("a choice", () => {
       ["author", "Ada"],
     ]);
     expect([...optionsOf(FIRST_CHOICE, GLB)]).toEqual([]);
+  });
+
+  it("asks for one picture of a turntable, and for several of a loop, which would stand still else", () => {
+    const [turntable, loop] = ["png", "sway.png"].map((ending) => ({ ...GLB, ending, options: ["frames"] }));
+    const one = { ...FIRST_CHOICE, frames: "1" };
+    expect([framesOffered(turntable!).includes("1"), framesOffered(loop!).includes("1")]).toEqual([true, false]);
+    expect([...optionsOf(one, turntable!)]).toEqual([["frames", "1"]]);
+    expect([...optionsOf(one, loop!)]).toEqual([["frames", framesOf(one, loop!)]]);
+    expect(framesOffered(loop!)).toContain(framesOf(one, loop!));
+    expect(framesOf({ ...one, frames: "72" }, loop!)).toBe("72");
   });
 
   it("asks for light maps of so many texels where the format can have them", () => {

@@ -54,6 +54,18 @@ export function moves({ sway, on }: ExportChoice, { options }: ExportFormat): bo
   return sways || (options.includes("wind_weights") && on.includes("wind_weights"));
 }
 
+const FRAMES = ["1", "24", "36", "72"] as const;
+
+/** How many pictures a file may have: a turntable also one, a loop that moves several. */
+export function framesOffered({ ending }: Pick<ExportFormat, "ending">): readonly string[] {
+  return ending === "sway.png" ? FRAMES.filter((frames) => frames !== "1") : FRAMES;
+}
+
+/** How many are chosen, of those that are offered. */
+export function framesOf({ frames }: ExportChoice, format: Pick<ExportFormat, "ending">): string {
+  return framesOffered(format).includes(frames) ? frames : FIRST_CHOICE.frames;
+}
+
 /** Points of a cloud where nobody says more. */
 export const POINTS = "1000000";
 
@@ -69,7 +81,7 @@ export function optionsOf(
     ...choice.on.filter((name) => name !== still).map((name): [string, string] => [name, "true"]),
     ["lightmap", choice.lightmap ?? ""],
     ["sway", choice.sway ?? ""],
-    ["frames", choice.frames],
+    ["frames", framesOf(choice, format)],
     ["points", choice.points ?? POINTS],
     ...(choice.camera === "seen" && seen ? seen : []),
     // After that of the page's own view.

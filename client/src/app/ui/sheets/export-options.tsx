@@ -1,6 +1,6 @@
 import { useEffect, useState } from "preact/hooks";
 import { type ExportFormat, MAX_NAME_CHARACTERS } from "../../../wire/generated";
-import { type ExportChoice, moves, POINTS } from "../../library/export-choice";
+import { type ExportChoice, framesOf, framesOffered, moves, POINTS } from "../../library/export-choice";
 import { USUAL_SIZES } from "../../library/picture-size";
 import { ask } from "../../requests/request";
 import { type Key, say } from "../../words/say";
@@ -11,7 +11,6 @@ const LODS = ["0", "1", "2", "3", "set"] as const;
 const LIGHTMAPS = ["", "512", "1024", "2048", "4096"] as const;
 /** The most bones of a plant; some programs take 64, most 256. */
 const BONES = ["", "64", "256", "1024"] as const;
-const FRAMES = ["1", "24", "36", "72"] as const;
 const CLOUDS = ["100000", POINTS, "5000000", "20000000"] as const;
 const CAMERAS = ["", "seen"] as const;
 const SWITCHES = ["quantised", "compressed", "instanced", "hull", "by_limb", "wind_weights"] as const;
@@ -64,8 +63,8 @@ export function ExportOptions({ format, choice, choose, sees = false }: OptionsP
         <Segments
           legend={say("exports.frames")}
           name="frames"
-          values={FRAMES}
-          chosen={choice.frames}
+          values={framesOffered(format)}
+          chosen={framesOf(choice, format)}
           text={(frames) => (frames === "1" ? say("exports.frames.one") : frames)}
           onChoose={(frames) => choose({ frames })}
         />
