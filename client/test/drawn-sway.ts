@@ -125,6 +125,7 @@ async function tableOf(session: string): Promise<TreeTable> {
         refused: ignore,
         rows: () => look(),
         rekeyed: ignore,
+        renumbered: ignore,
         reload: ignore,
       },
     });

@@ -181,9 +181,10 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
       page.outline.clear();
       page.trail.leave();
     },
+    renumbered: () => page.together.renumbered(),
     lost: () => {
       page.bends.clear();
-      page.together.forget();
+      page.together.lost();
       page.branches.prediction.lost();
     },
     leaving: () => {

@@ -35,12 +35,16 @@ function setUp(options: { record?: ClientRecord; resume?: () => Resume | undefin
     random: () => options.random ?? 1,
     ...(options.record ? { record: options.record } : {}),
   });
-  const welcome = (now: number, acknowledged: number, extra: { resumed?: boolean; protocol?: number } = {}) =>
+  const welcome = (
+    now: number,
+    acknowledged: number,
+    extra: { resumed?: boolean; protocol?: number; epoch?: number } = {},
+  ) =>
     core.message(now, {
       type: "welcome",
       protocol: extra.protocol ?? PROTOCOL_VERSION,
       session: "s",
-      epoch: 7,
+      epoch: extra.epoch ?? 7,
       resumed: extra.resumed ?? false,
       acknowledged,
       parameters,
@@ -100,6 +104,25 @@ describe("handshake", () => {
     welcome(0, 0, { resumed: false });
     const done = core.effects().map((effect) => (effect.kind === "message" ? effect.message.type : effect.kind));
     expect(done).toEqual(["forget-rows", "parameters", "state", "programme", "obstacles", "widths"]);
+  });
+
+  it("RS2, PS3: people keep their numbers until the server has read the session anew", () => {
+    const { core, welcome } = setUp();
+    const again = (epoch: number) => {
+      core.closed(core.deadline ?? 0, 1006);
+      core.tick(core.deadline ?? 0);
+      core.opened(core.deadline ?? 0);
+      core.effects();
+      welcome(core.deadline ?? 0, 0, { epoch });
+      return kinds(core.effects()).filter((kind) => kind === "renumbered" || kind === "message")[0];
+    };
+    core.start(0);
+    core.opened(0);
+    welcome(0, 0);
+    expect(kinds(core.effects()), "nobody had a number").not.toContain("renumbered");
+    expect(again(7)).toBe("message");
+    expect(again(8), "before anybody is named").toBe("renumbered");
+    expect(again(8)).toBe("message");
   });
 
   it("keeps its rows when the resume was taken up", () => {

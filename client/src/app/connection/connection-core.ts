@@ -45,6 +45,7 @@ export type Effect =
   | { readonly kind: "compare"; readonly sum: Checksum }
   | { readonly kind: "reload" }
   | { readonly kind: "rekeyed" }
+  | { readonly kind: "renumbered" }
   | { readonly kind: "message"; readonly message: PageMessage }
   | { readonly kind: "cannot-open"; readonly sentence: string }
   | { readonly kind: "refused"; readonly problem: Problem; readonly command?: Command };
@@ -94,7 +95,7 @@ export class ConnectionCore {
   #deadline: number | null = null;
   #pinged: number | null = null;
   #nonce = 0;
-  #epoch = 0;
+  #epoch: number | null = null;
   #sequence: number | null = null;
   #resumable = true;
   /** How many frames could not be read, each soon after the one before; and when the last of them came. */
@@ -403,6 +404,9 @@ export class ConnectionCore {
     }
     this.#phase = "connected";
     this.#attempts = 0;
+    if (this.#epoch !== null && this.#epoch !== welcome.epoch) {
+      this.#effects.push({ kind: "renumbered" });
+    }
     this.#epoch = welcome.epoch;
     this.#sequence = null;
     this.#heard(now);

@@ -58,6 +58,7 @@ function setUp() {
       refused: nothing,
       rows: nothing,
       rekeyed: nothing,
+      renumbered: nothing,
       reload: () => {
         reloads += 1;
       },

@@ -46,6 +46,8 @@ export interface ConnectionEvents<Aside> {
   rows(): void;
   /** The client goes on under another key: a stroke in progress is lost. */
   rekeyed(): void;
+  /** The server has read the session anew (`RS2`), so that people have other numbers (`PS3`). */
+  renumbered(): void;
   /** The server speaks another version of the protocol: load the page again. */
   reload(): void;
 }
@@ -266,6 +268,9 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
           break;
         case "rekeyed":
           events.rekeyed();
+          break;
+        case "renumbered":
+          events.renumbered();
           break;
         case "message":
           events.message(effect.message);

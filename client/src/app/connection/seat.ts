@@ -38,6 +38,7 @@ export class Seat {
         aside: () => {},
         rows: () => {},
         rekeyed: () => {},
+        renumbered: () => {},
         // The socket of the replay is turned away as well, and speaks of it.
         cannotOpen: () => {},
         reload: () => {},

@@ -65,6 +65,7 @@ function setUp(
     aside: nothing,
     refused: nothing,
     rekeyed: nothing,
+    renumbered: nothing,
   };
   const link = new SessionLink({
     page: {

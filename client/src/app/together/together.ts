@@ -41,10 +41,20 @@ export class Together {
     }
   }
 
-  /** What was told may be true no longer. */
-  forget(): void {
+  /** Nobody tells any more who is here; what people are called who did something stays. */
+  lost(): void {
     this.people.value = null;
-    this.authors.value = [];
     this.followed.value = null;
+  }
+
+  /** People have other numbers from now on: what is known of them is of nobody. */
+  renumbered(): void {
+    this.authors.value = [];
+  }
+
+  /** Another session was opened. */
+  forget(): void {
+    this.lost();
+    this.renumbered();
   }
 }
