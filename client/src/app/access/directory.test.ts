@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { ListedGroup, ListedUser } from "../../wire/generated";
+import { StillBusy } from "../requests/listing";
 import { RequestFailed } from "../requests/request";
 import { Directory, type DirectoryOptions } from "./directory";
 
@@ -134,10 +135,22 @@ describe("who can log in", () => {
   });
 
   it("two presses add somebody once", async () => {
-    const { directory } = desk();
+    const { directory, failures } = desk();
     await directory.look();
     const added = { name: "Cy", role: "viewer", password: "correct horse" } as const;
     expect(await Promise.all([directory.addUser(added), directory.addUser(added)])).toEqual([true, false]);
     expect(directory.users.value?.map(({ name }) => name)).toEqual(["Ada", "Bo", "Cy"]);
+    expect(failures, "and the second says why it did nothing").toEqual([new StillBusy()]);
+  });
+
+  it("says where it is not known how it stands after what was done", async () => {
+    const { directory, failures, trouble } = desk();
+    await directory.look();
+    const removing = directory.removeUser("id-Ada");
+    await Promise.resolve();
+    trouble.next = refused(0);
+    expect([await removing, failures]).toEqual([true, [refused(0)]]);
+    await directory.look();
+    expect(directory.users.value?.map(({ name }) => name)).toEqual(["Bo"]);
   });
 });

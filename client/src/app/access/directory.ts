@@ -1,5 +1,6 @@
-import { signal } from "@preact/signals";
+import { computed, type ReadonlySignal } from "@preact/signals";
 import type { ChangeGroup, ChangeUser, ListedGroup, ListedUser, NewGroup, NewUser } from "../../wire/generated";
+import { gone, Listing } from "../requests/listing";
 import { RequestFailed } from "../requests/request";
 import type * as api from "./people-api";
 
@@ -22,39 +23,38 @@ export interface DirectoryOptions {
   readonly failed: (error: unknown) => void;
 }
 
+/** Who there is. */
+interface Known {
+  readonly users: readonly ListedUser[];
+  readonly groups: readonly ListedGroup[];
+}
+
 /** Who can log in, and the groups in which some of them may more. */
 export class Directory {
   /** By name; null until they are known. */
-  readonly users = signal<readonly ListedUser[] | null>(null);
-  readonly groups = signal<readonly ListedGroup[] | null>(null);
+  readonly users = computed(() => this.#listing.known.value?.users ?? null);
+  readonly groups = computed(() => this.#listing.known.value?.groups ?? null);
   /** Why they are not known; null where nothing is wrong. */
-  readonly failure = signal<unknown>(null);
+  readonly failure: ReadonlySignal<unknown>;
   /** Whether something is being done. */
-  readonly busy = signal(false);
-  #options: DirectoryOptions;
-  /** Counts the questions: only the newest answer is taken. */
-  #asked = 0;
+  readonly busy: ReadonlySignal<boolean>;
+  readonly #api: PeopleApi;
+  readonly #listing: Listing<Known>;
 
-  constructor(options: DirectoryOptions) {
-    this.#options = options;
+  constructor({ api, failed }: DirectoryOptions) {
+    this.#api = api;
+    const ask = async () => {
+      const [users, groups] = await Promise.all([api.listUsers(), api.listGroups()]);
+      return { users, groups };
+    };
+    this.#listing = new Listing({ ask, failed });
+    this.failure = this.#listing.failure;
+    this.busy = this.#listing.busy;
   }
 
   /** Asks who there is; where that fails, what was known stays. */
-  async look(): Promise<void> {
-    const turn = ++this.#asked;
-    this.failure.value = null;
-    try {
-      const { api } = this.#options;
-      const [users, groups] = await Promise.all([api.listUsers(), api.listGroups()]);
-      if (turn === this.#asked) {
-        this.users.value = users;
-        this.groups.value = groups;
-      }
-    } catch (error) {
-      if (turn === this.#asked && this.users.peek() === null) {
-        this.failure.value = error;
-      }
-    }
+  look(): Promise<void> {
+    return this.#listing.look();
   }
 
   addUser(user: NewUser): Promise<boolean> {
@@ -115,31 +115,10 @@ export class Directory {
   }
 
   /** Whether it was done; what went wrong is said, and how it stands now is asked in any case. */
-  async #do(act: (api: PeopleApi) => Promise<unknown>): Promise<boolean> {
-    if (this.busy.peek()) {
-      return false;
-    }
-    this.busy.value = true;
-    let isDone = true;
-    try {
-      await act(this.#options.api);
-    } catch (error) {
-      this.#options.failed(error);
-      isDone = false;
-    }
-    await this.look();
-    this.busy.value = false;
-    return isDone;
-  }
-}
-
-/** What somebody else has removed already is removed. */
-export async function gone(removal: Promise<unknown>): Promise<void> {
-  try {
-    await removal;
-  } catch (error) {
-    if (!(error instanceof RequestFailed && error.status === 404)) {
-      throw error;
-    }
+  #do(act: (api: PeopleApi) => Promise<unknown>): Promise<boolean> {
+    return this.#listing.do(async () => {
+      await act(this.#api);
+      return undefined;
+    });
   }
 }

@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
 import type { ListedToken, MadeToken, NewToken } from "../../wire/generated";
-import { gone } from "./directory";
+import { gone } from "../requests/listing";
 import type * as api from "./people-api";
 
 export interface ProgramsOptions {

@@ -38,6 +38,8 @@ export const GIFTS = {
     "Niemand kann sich hier als „{name}“ anmelden. Schreib den Namen so, wie sie sich damit anmelden; frag sie, wenn du ihn nicht weißt.",
   ],
   "gifts.nobody.group": ["There is no group called “{name}” here.", "Eine Gruppe „{name}“ gibt es hier nicht."],
+  "gifts.unnamed.user": ["Write the name of a person first.", "Schreib zuerst den Namen eines Menschen."],
+  "gifts.unnamed.group": ["Write the name of a group first.", "Schreib zuerst den Namen einer Gruppe."],
   "gifts.head": ["Shared with", "Geteilt mit"],
   "gifts.none": [
     "With nobody by name yet. Whoever may see the whole library sees it anyhow.",

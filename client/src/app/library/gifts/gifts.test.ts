@@ -1,8 +1,10 @@
 import { describe, expect, it } from "vitest";
 import type { TreeMember } from "../../../wire/generated";
+import { StillBusy } from "../../requests/listing";
 import { RequestFailed } from "../../requests/request";
 import { Gifts } from "./gifts";
 import { offeredNames } from "./offered-names";
+import { TypedName } from "./typed-name";
 
 const refused = (status: number) => new RequestFailed(status, { code: "refused", message: "no" });
 const USERS = ["Ann", "Bo"];
@@ -11,7 +13,7 @@ const USERS = ["Ann", "Bo"];
 function desk() {
   let members: TreeMember[] = [];
   const failures: unknown[] = [];
-  const trouble: { next: Error | null } = { next: null };
+  const trouble: { next: Error | null; silent: boolean } = { next: null, silent: false };
   const troubled = () => {
     const { next } = trouble;
     trouble.next = null;
@@ -25,6 +27,9 @@ function desk() {
     api: {
       listMembers: async () => {
         troubled();
+        if (trouble.silent) {
+          throw refused(0);
+        }
         return members;
       },
       addMember: async (_, { name, group = false, role }) => {
@@ -63,7 +68,8 @@ describe("what is given", () => {
     expect(failures).toEqual([]);
     trouble.next = refused(403);
     expect(await gifts.give({ name: "Bo", role: "viewer" })).toBe("failed");
-    expect([failures, gifts.busy.value]).toEqual([[refused(403)], false]);
+    expect(failures).toEqual([refused(403)]);
+    expect(await gifts.give({ name: "Bo", role: "viewer" }), "and nothing is in the way of more").toBe("given");
   });
 
   it("AC22: what another has taken back already is taken back", async () => {
@@ -89,11 +95,59 @@ describe("what is given", () => {
     expect([gifts.members.value, gifts.failure.value]).toEqual([[], null]);
   });
 
-  it("two presses give it once", async () => {
-    const { gifts, names } = desk();
+  it("two presses give it once, and the second says why it did nothing", async () => {
+    const { gifts, names, failures } = desk();
     const bo = { name: "Bo", role: "viewer" } as const;
     expect(await Promise.all([gifts.give(bo), gifts.give(bo)])).toEqual(["given", "failed"]);
     expect(names()).toEqual(["Bo: viewer"]);
+    expect(failures).toEqual([new StillBusy()]);
+  });
+
+  it("AC22: what was given or taken back is listed so where nobody says how it stands", async () => {
+    const { gifts, failures, trouble } = desk();
+    await gifts.look();
+    const listed = () => gifts.members.value?.map(({ name, role }) => `${name}: ${role}`);
+    trouble.silent = true;
+    await gifts.give({ name: "Ann", role: "viewer" });
+    await gifts.give({ name: "Bo", role: "viewer" });
+    await gifts.give({ name: "Ann", role: "editor" });
+    expect(listed()).toEqual(["Ann: editor", "Bo: viewer"]);
+    expect(await gifts.takeBack(gifts.members.value![0]!)).toBe(true);
+    expect(listed()).toEqual(["Bo: viewer"]);
+    expect(failures, "and it is said each time").toEqual(Array(4).fill(refused(0)));
+  });
+});
+
+describe("a name that is typed", () => {
+  it("goes once it was given, but not what was typed meanwhile", () => {
+    const typed = new TypedName();
+    typed.type("Bo ");
+    const bo = typed.called;
+    typed.answered(bo, "failed");
+    expect(typed.text.value).toBe("Bo ");
+    typed.answered(bo, "given");
+    expect(typed.text.value).toBe("");
+    typed.type("Ann");
+    typed.answered(bo, "given");
+    expect(typed.text.value).toBe("Ann");
+    typed.type("Bo");
+    typed.choose("group");
+    typed.answered(bo, "given");
+    expect(typed.called, "a group is not a person").toEqual({ kind: "group", name: "Bo" });
+  });
+
+  it("says of whom nobody has heard, until something else is typed", () => {
+    const typed = new TypedName();
+    typed.type("Bob");
+    const bob = typed.called;
+    typed.type("Bobb");
+    typed.answered(bob, "nobody");
+    expect([typed.nobody.value, typed.text.value]).toEqual([{ kind: "user", name: "Bob" }, "Bobb"]);
+    typed.type("Bo");
+    expect(typed.nobody.value).toBeNull();
+    typed.answered(typed.called, "nobody");
+    typed.choose("group");
+    expect(typed.nobody.value).toBeNull();
   });
 });
 

@@ -1,10 +1,10 @@
-import { signal } from "@preact/signals";
+import type { ReadonlySignal } from "@preact/signals";
 import type { NewMember, TreeMember } from "../../../wire/generated";
-import { gone } from "../../access/directory";
+import { gone, Listing } from "../../requests/listing";
 import { RequestFailed } from "../../requests/request";
 import type * as api from "./gift-api";
 
-/** What came of giving something: nobody may be called so. */
+/** What came of giving something: nobody may be called so; why else it failed has been said. */
 export type Giving = "given" | "nobody" | "failed";
 
 export interface GiftsOptions {
@@ -17,47 +17,43 @@ export interface GiftsOptions {
 /** To whom a tree or a collection is given. */
 export class Gifts {
   /** Groups first, by name; null until they are known. */
-  readonly members = signal<readonly TreeMember[] | null>(null);
+  readonly members: ReadonlySignal<readonly TreeMember[] | null>;
   /** Why they are not known; null where nothing is wrong. */
-  readonly failure = signal<unknown>(null);
-  /** Whether something is being done. */
-  readonly busy = signal(false);
-  #options: GiftsOptions;
-  /** Counts the questions: only the newest answer is taken. */
-  #asked = 0;
+  readonly failure: ReadonlySignal<unknown>;
+  readonly #options: GiftsOptions;
+  readonly #listing: Listing<readonly TreeMember[]>;
 
   constructor(options: GiftsOptions) {
+    const { api, gift, failed } = options;
     this.#options = options;
+    this.#listing = new Listing({ ask: () => api.listMembers(gift), failed });
+    this.members = this.#listing.known;
+    this.failure = this.#listing.failure;
   }
 
   /** Asks to whom it is given; where that fails, what was known stays. */
-  async look(): Promise<void> {
-    const turn = ++this.#asked;
-    this.failure.value = null;
-    try {
-      const members = await this.#options.api.listMembers(this.#options.gift);
-      if (turn === this.#asked) {
-        this.members.value = members;
-      }
-    } catch (error) {
-      if (turn === this.#asked && this.members.peek() === null) {
-        this.failure.value = error;
-      }
-    }
+  look(): Promise<void> {
+    return this.#listing.look();
   }
 
   /** Gives it to a user or a group, or with another role to who has it. */
   async give(member: NewMember): Promise<Giving> {
+    const { api, gift } = this.#options;
     let giving: Giving = "failed";
-    await this.#do(async ({ addMember }, gift) => {
+    await this.#listing.do(async () => {
       try {
-        await addMember(gift, member);
+        const given = await api.addMember(gift, member);
         giving = "given";
+        return (members) =>
+          members.some(({ id }) => id === given.id)
+            ? members.map((other) => (other.id === given.id ? given : other))
+            : [...members, given];
       } catch (error) {
         if (!isOfNobody(error)) {
           throw error;
         }
         giving = "nobody";
+        return undefined;
       }
     });
     return giving;
@@ -65,25 +61,11 @@ export class Gifts {
 
   /** Takes it back; true once they have it no longer. */
   takeBack({ id }: TreeMember): Promise<boolean> {
-    return this.#do(({ removeMember }, gift) => gone(removeMember(gift, id)));
-  }
-
-  /** Whether it was done; what went wrong is told, and how it stands now is asked in any case. */
-  async #do(act: (api: GiftsOptions["api"], gift: api.Gift) => Promise<void>): Promise<boolean> {
-    if (this.busy.peek()) {
-      return false;
-    }
-    this.busy.value = true;
-    let isDone = true;
-    try {
-      await act(this.#options.api, this.#options.gift);
-    } catch (error) {
-      this.#options.failed(error);
-      isDone = false;
-    }
-    await this.look();
-    this.busy.value = false;
-    return isDone;
+    const { api, gift } = this.#options;
+    return this.#listing.do(async () => {
+      await gone(api.removeMember(gift, id));
+      return (members) => members.filter((other) => other.id !== id);
+    });
   }
 }
 

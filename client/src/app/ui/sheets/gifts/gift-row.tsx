@@ -16,23 +16,33 @@ interface GiftRowProps {
   readonly studio: Studio;
   readonly gifts: Gifts;
   readonly member: TreeMember;
+  /** They have it no longer. */
+  readonly onTaken: () => void;
 }
 
 /** Who was given it: what they may do with it, and a way to take it back. */
-export function GiftRow({ studio, gifts, member }: GiftRowProps) {
+export function GiftRow({ studio, gifts, member, onTaken }: GiftRowProps) {
   const { name, group, role } = member;
   const isTheirs = rolesToGive(studio).includes(role as MemberRole);
-  const give = (as: MemberRole) => gifts.give({ name, group, role: as });
+  /** Whether they have it so; they may be gone by now. */
+  const give = async (as: MemberRole) => {
+    const giving = await gifts.give({ name, group, role: as });
+    if (giving === "nobody") {
+      studio.toasts.show(say(group ? "gifts.nobody.group" : "gifts.nobody.user", { name }));
+    }
+    return giving === "given";
+  };
   const show = (text: string) =>
     studio.toasts.show(text, { label: say("gifts.undo"), act: () => void give(role as MemberRole) });
   const allow = async (next: MemberRole) => {
-    if ((await give(next)) === "given") {
+    if (await give(next)) {
       show(mayText(member, next));
     }
   };
   const takeBack = async () => {
     if (await gifts.takeBack(member)) {
       show(say("gifts.taken", { name }));
+      onTaken();
     }
   };
   return (
@@ -46,14 +56,14 @@ export function GiftRow({ studio, gifts, member }: GiftRowProps) {
           label={say("accounts.role.of", { name })}
           roles={isTheirs ? rolesToGive(studio) : [role as MemberRole]}
           chosen={role as MemberRole}
-          disabled={gifts.busy.value || !isTheirs}
+          disabled={!isTheirs}
           onChoose={(next) => void allow(next)}
         />
         <button
           type="button"
           class="small"
           aria-label={say("gifts.take-back.which", { name })}
-          disabled={gifts.busy.value || !isTheirs}
+          disabled={!isTheirs}
           onClick={() => void takeBack()}
         >
           {say("gifts.take-back")}

@@ -1,4 +1,4 @@
-import { useEffect, useMemo, useState } from "preact/hooks";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { Directory } from "../../../access/directory";
 import * as peopleApi from "../../../access/people-api";
 import { askEntrance } from "../../../entry/account";
@@ -82,14 +82,23 @@ interface SharedWithProps {
 /** To whom it is given. */
 function SharedWith({ studio, gifts, within }: SharedWithProps) {
   const members = gifts.members.value ?? [];
+  const head = useRef<HTMLHeadingElement>(null);
+  /** A row that is gone leaves the focus to nobody. */
+  const taken = () => {
+    if (document.activeElement === document.body) {
+      head.current?.focus({ preventScroll: true });
+    }
+  };
   return (
-    <section class="stack" aria-label={say("gifts.head")}>
-      <h3 class="sheet-head">{say("gifts.head")}</h3>
+    <section class="stack" aria-labelledby="gifts-head">
+      <h3 class="sheet-head" id="gifts-head" ref={head} tabIndex={-1}>
+        {say("gifts.head")}
+      </h3>
       {within !== undefined && <p class="quiet">{say("gifts.within", { collection: within })}</p>}
       {members.length === 0 && <p class="quiet">{say("gifts.none")}</p>}
-      <ul class="links" aria-label={say("gifts.head")}>
+      <ul class="links" aria-labelledby="gifts-head">
         {members.map((member) => (
-          <GiftRow key={member.id} studio={studio} gifts={gifts} member={member} />
+          <GiftRow key={member.id} studio={studio} gifts={gifts} member={member} onTaken={taken} />
         ))}
       </ul>
     </section>
@@ -99,7 +108,9 @@ function SharedWith({ studio, gifts, within }: SharedWithProps) {
 /** Why it is not known, or not yet, to whom it is given. */
 function Unknown({ failure, onAgain }: { readonly failure: unknown; readonly onAgain: () => void }) {
   return failure === null ? (
-    <p class="quiet">{say("gifts.asking")}</p>
+    <p class="quiet" role="status">
+      {say("gifts.asking")}
+    </p>
   ) : (
     <div class="actions">
       <p role="alert">{sentence(failure)}</p>

@@ -1,16 +1,14 @@
-import { useState } from "preact/hooks";
+import { useMemo, useRef, useState } from "preact/hooks";
 import { MAX_NAME_CHARACTERS, type MemberRole } from "../../../../wire/generated";
 import type { Directory } from "../../../access/directory";
 import type { Gifts } from "../../../library/gifts/gifts";
 import { offeredNames } from "../../../library/gifts/offered-names";
+import { RECEIVERS, type Receiver, TypedName } from "../../../library/gifts/typed-name";
 import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
 import { Segments } from "../../controls/segments";
 import { RoleSelect } from "../accounts/role-select";
 import { mayText, rolesToGive } from "./gift-row";
-
-const KINDS = ["user", "group"] as const;
-type Kind = (typeof KINDS)[number];
 
 interface GiveFormProps {
   readonly studio: Studio;
@@ -21,26 +19,24 @@ interface GiveFormProps {
 
 /** To whom it is to be given: names are typed, and offered to who may know them. */
 export function GiveForm({ studio, gifts, directory }: GiveFormProps) {
-  const [kind, setKind] = useState<Kind>("user");
-  const [name, setName] = useState("");
+  const typed = useMemo(() => new TypedName(), [gifts]);
   const [role, setRole] = useState<MemberRole>("viewer");
-  /** The name that nobody has. */
-  const [unknown, setUnknown] = useState<string | null>(null);
-  const called = name.trim();
+  const field = useRef<HTMLInputElement>(null);
+  const { kind, name } = typed.called;
+  const nobody = typed.nobody.value;
   const known = (kind === "user" ? directory.users.value : directory.groups.value)?.map((one) => one.name);
-  const offered = offeredNames(known ?? [], name, kind, gifts.members.value ?? []);
-  const type = (text: string) => {
-    setName(text);
-    setUnknown(null);
-  };
+  const offered = offeredNames(known ?? [], typed.text.value, kind, gifts.members.value ?? []);
   const give = async () => {
-    const member = { name: called, group: kind === "group", role };
+    if (name === "") {
+      typed.answered(typed.called, "nobody");
+      field.current?.focus();
+      return;
+    }
+    const member = { name, group: kind === "group", role };
     const giving = await gifts.give(member);
+    typed.answered({ kind, name }, giving);
     if (giving === "given") {
-      type("");
       studio.toasts.show(mayText(member, role));
-    } else if (giving === "nobody") {
-      setUnknown(called);
     }
   };
   return (
@@ -54,35 +50,41 @@ export function GiveForm({ studio, gifts, directory }: GiveFormProps) {
       <Segments
         legend={say("gifts.kind")}
         name="gift-kind"
-        values={KINDS}
+        values={RECEIVERS}
         chosen={kind}
-        text={(one) => say(`gifts.kind.${one as Kind}`)}
-        onChoose={(one) => {
-          setKind(one as Kind);
-          setUnknown(null);
-        }}
+        text={(one) => say(`gifts.kind.${one as Receiver}`)}
+        onChoose={(one) => typed.choose(one as Receiver)}
       />
       <label class="field">
         <span>{say(`gifts.name.${kind}`)}</span>
         <input
+          ref={field}
           type="text"
           autocomplete="off"
           autocapitalize="words"
           spellcheck={false}
           enterkeyhint="done"
           maxLength={MAX_NAME_CHARACTERS}
-          value={name}
-          onInput={({ currentTarget }) => type(currentTarget.value)}
+          aria-invalid={nobody !== null}
+          aria-describedby={nobody === null ? undefined : "gift-nobody"}
+          value={typed.text.value}
+          onInput={({ currentTarget }) => typed.type(currentTarget.value)}
         />
       </label>
-      {unknown !== null && <p role="alert">{say(`gifts.nobody.${kind}`, { name: unknown })}</p>}
+      {nobody !== null && (
+        <p role="alert" id="gift-nobody">
+          {nobody.name === ""
+            ? say(`gifts.unnamed.${nobody.kind}`)
+            : say(`gifts.nobody.${nobody.kind}`, { name: nobody.name })}
+        </p>
+      )}
       {known?.length === 0 && (
         <p class="quiet">{say(kind === "user" ? "accounts.people.none" : "accounts.groups.none")}</p>
       )}
-      {offered.length > 0 && offered.join() !== called && (
+      {offered.length > 0 && offered.join() !== name && (
         <fieldset class="tags gift-names" aria-label={say("gifts.names")}>
           {offered.map((one) => (
-            <button key={one} type="button" class="small tag" onClick={() => type(one)}>
+            <button key={one} type="button" class="small tag" onClick={() => typed.type(one)}>
               {one}
             </button>
           ))}
@@ -91,7 +93,7 @@ export function GiveForm({ studio, gifts, directory }: GiveFormProps) {
       <RoleSelect label={say("links.role")} isLabelled roles={rolesToGive(studio)} chosen={role} onChoose={setRole} />
       <p class="quiet">{say(`gifts.role.${role}`)}</p>
       <div class="actions">
-        <button type="submit" class="primary" disabled={gifts.busy.value || called === ""}>
+        <button type="submit" class="primary">
           {say("gifts.give")}
         </button>
       </div>

@@ -16,6 +16,8 @@ export function Pick<Value extends string>({ label, value, options, disabled = f
       disabled={disabled}
       onChange={({ currentTarget }) => {
         const picked = options.find(([one]) => one === currentTarget.value);
+        // What is picked and not done is not shown either.
+        currentTarget.value = value;
         if (picked) {
           onPick(picked[0]);
         }
