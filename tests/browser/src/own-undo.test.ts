@@ -48,9 +48,14 @@ test.each<[string, Screen]>([
   expect(both).toBeGreaterThan(bos);
   expect(await undo(ann, "Undone: Stroke"), "hers goes").toBe(bos);
   expect(await undo(ann, THEIRS), "his stays").toBe(bos);
+  const redo = ann.page.getByRole("button", { name: "Redo", exact: true });
+  const isDim = async () => (await redo.getAttribute("aria-disabled")) === "true";
+  expect(await isDim(), "hers can come back").toBe(false);
   const said = await ann.watchFor(".toast", "Redone: Stroke");
   await ann.tap("Redo");
   await said();
+  await until("nothing else can come back", isDim);
+  await ann.showNow(`81-redone-${name}`);
   expect((await ann.untilQuiet()).metamers).toBe(both);
 });
 

@@ -116,13 +116,28 @@ describe("everyone's own undo", () => {
     ]);
   });
 
-  it("may be asked for redo where something was taken back", () => {
+  it("UD3: may be asked for redo where one took something back and did not bring it back", () => {
     const none = { canUndo: false, canRedo: false };
     expect(setUp(none).undo.may("undo")).toBe(false);
     expect(setUp({ ...none, line: [by(2)] }).undo.may("redo")).toBe(false);
-    const line = [by(1, "stroke", { away: true }), by(1, "taken_back")];
+    const line = [by(2), by(1, "stroke", { away: true }), by(1, "taken_back")];
     expect(setUp({ ...none, line }).undo.may("redo")).toBe(true);
-    expect(setUp({ ...none, line, done: 1 }).undo.may("redo")).toBe(false);
+    expect(setUp({ ...none, line, done: 2 }).undo.may("redo")).toBe(false);
+    const brought = [by(2), by(1), by(1, "taken_back"), by(1, "brought_back")];
+    expect(setUp({ ...none, line: brought }).undo.may("redo")).toBe(false);
+    const ofOthers = [by(1), by(2, "stroke", { away: true }), by(2, "taken_back")];
+    expect(setUp({ ...none, line: ofOthers }).undo.may("redo")).toBe(false);
+  });
+
+  it("UD4: goes back and forth on a line of one's own, and on one of several not through what lies ahead", () => {
+    const ahead = { canRedo: true, done: 1 };
+    expect(setUp({ ...ahead, line: [by(1), by(1)] }).undo.may("redo")).toBe(true);
+    const shared = setUp({ ...ahead, line: [by(1), by(2)] });
+    expect(shared.undo.may("redo")).toBe(false);
+    shared.undo.tapped(3);
+    expect(shared.said).toEqual([
+      "Nothing that you took back is left to redo. The timeline goes forward through what lies ahead.",
+    ]);
   });
 });
 

@@ -1,9 +1,11 @@
 import type { ReadonlySignal } from "@preact/signals";
 import type { Command, Deed, DocumentState, Problem, Timeline, TimelineOperation } from "../../../wire/generated";
 import type { Toasts } from "../../page/toasts";
+import { personHere } from "../../together/person-here";
 import type { Together } from "../../together/together";
 import { language, say } from "../../words/say";
 import { authorName, distinctParts } from "./authors";
+import { type OwnDeeds, ownDeeds } from "./own-deeds";
 
 const UNDOING: ReadonlySet<Command["kind"]> = new Set(["take_back", "bring_back"]);
 /** So many of those who did what was done last are named. */
@@ -42,19 +44,20 @@ export class OwnUndo {
     return you === null ? [] : operations.slice(0, done).filter(isOfOthers);
   }
 
-  /** Who is at this page; null while nobody has said. */
   get #you(): number | null {
-    const here = this.#page.together.people.peek();
-    const own = here?.people.find(({ devices }) => devices.some(({ device }) => device === here.you));
-    return own?.person ?? null;
+    return personHere(this.#page.together.people.peek());
   }
 
   /** Whether there may be something to undo, or redo; what of it is one's own the server knows, and says. */
   may(kind: "undo" | "redo"): boolean {
     const document = this.#page.document.value;
-    const { operations, done } = this.#page.time.timeline.value ?? { operations: [], done: 0 };
-    const isTakenBack = () => operations.slice(0, done).some((one) => one.kind === "taken_back");
-    return document !== null && (document[`can_${kind}`] || (kind === "redo" && isTakenBack()));
+    const { isAlone, forth } = this.#own;
+    return document !== null && (kind === "undo" || isAlone ? document[`can_${kind}`] : forth !== null);
+  }
+
+  get #own(): OwnDeeds {
+    const timeline = this.#page.time.timeline.value ?? { operations: [], done: 0 };
+    return ownDeeds(timeline, personHere(this.#page.together.people.value));
   }
 
   undo(): void {
@@ -72,7 +75,8 @@ export class OwnUndo {
       return;
     }
     if (!this.may(kind)) {
-      this.#page.toasts.show(say(`operations.${kind}.none`));
+      const liesAhead = kind === "redo" && this.#page.document.peek()?.can_redo === true;
+      this.#page.toasts.show(say(liesAhead ? "operations.redo.line" : `operations.${kind}.none`));
       return;
     }
     this.#taps++;

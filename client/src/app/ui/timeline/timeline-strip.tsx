@@ -1,8 +1,10 @@
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Timeline, TimelineOperation } from "../../../wire/generated";
 import { authorColour, authorName, distinctParts, partsOf } from "../../document/timeline/authors";
+import { ownDeeds } from "../../document/timeline/own-deeds";
 import { clusters, peopleOf } from "../../document/timeline/timeline-signs";
 import type { Studio } from "../../studio";
+import { personHere } from "../../together/person-here";
 import type { Together } from "../../together/together";
 import { say } from "../../words/say";
 import { DEPTH } from "./depth-part";
@@ -134,7 +136,7 @@ export function Track({ studio, timeline }: { studio: Studio; timeline: Timeline
           <span class="timeline-lived" style={{ width: `${100 * place}%` }} />
         </span>
         {width > 0 && <Signs studio={studio} timeline={timeline} width={width} />}
-        <Marks timeline={timeline} edges={scale.edges} step={step} />
+        <Marks studio={studio} timeline={timeline} edges={scale.edges} step={step} />
         <span class="timeline-head" style={{ left: `${100 * place}%` }} />
       </div>
       {width > 0 && studio.rights.mayChange.value && <Forks studio={studio} width={width} />}
@@ -187,16 +189,33 @@ function Signs({ studio, timeline, width }: { studio: Studio; timeline: Timeline
   );
 }
 
-/** Where undo would go, and where redo. */
-function Marks({ timeline, edges, step }: { timeline: Timeline; edges: readonly number[]; step: number }) {
+interface MarksProps {
+  readonly studio: Studio;
+  readonly timeline: Timeline;
+  readonly edges: readonly number[];
+  readonly step: number;
+}
+
+/** Where undo would go, and where redo; on a line of several people, what of one's own they would take back or bring back. */
+function Marks({ studio, timeline, edges, step }: MarksProps) {
   const { done, operations } = timeline;
+  const { isAlone, back, forth } = ownDeeds(timeline, personHere(studio.together.people.value));
   const current = operations[done - 1];
   const redone = current && step < current.last ? done : done + 1;
-  const [back, forth] = [done > 0 ? edges[done - 1] : undefined, edges[redone]];
+  const places = isAlone
+    ? { undo: done > 0 ? edges[done - 1] : undefined, redo: edges[redone] }
+    : {
+        undo: back === null ? undefined : middle(edges, back),
+        redo: forth === null ? undefined : middle(edges, forth),
+      };
   return (
     <>
-      {back !== undefined && <i class="timeline-mark" data-to="undo" style={{ left: `${100 * back}%` }} />}
-      {forth !== undefined && <i class="timeline-mark" data-to="redo" style={{ left: `${100 * forth}%` }} />}
+      {(["undo", "redo"] as const).map(
+        (to) =>
+          places[to] !== undefined && (
+            <i key={to} class="timeline-mark" data-to={to} style={{ left: `${100 * places[to]}%` }} />
+          ),
+      )}
     </>
   );
 }
