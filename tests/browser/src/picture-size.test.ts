@@ -32,15 +32,19 @@ test.each<[string, Screen]>([
   await choose("Only one");
   await until("one picture can be", async () => !(await download.isDisabled()));
   await choose("Other…");
-  for (const [side, pixels] of [
-    ["Pixels across", "320"],
-    ["Pixels down", "200"],
-  ] as const) {
+  const type = async (side: string, pixels: string) => {
     const field = card.getByLabel(`${side}: value`, { exact: true });
     await tablet.press(field);
     await field.fill(pixels);
     await field.blur();
-  }
+  };
+  // A side that is too large for the other one is cut, and the card says so.
+  await type("Pixels across", "99999");
+  await card.getByRole("status").filter({ hasText: "no more fits" }).waitFor();
+  await tablet.show(`picture-size-cut-${name}`);
+  await type("Pixels across", "320");
+  await card.getByText("no more fits", { exact: false }).waitFor({ state: "detached" });
+  await type("Pixels down", "200");
   expect(await misses(tablet, "the size of a picture", ".sheet", false)).toEqual([]);
   await tablet.show(`picture-size-${name}`);
   const file = await tablet.download(download);

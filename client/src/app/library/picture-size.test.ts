@@ -50,9 +50,14 @@ it("every size that is offered is one that the server makes", () => {
 
 it("a side that is typed stays within what a picture may have", () => {
   const size = { width: 1000, height: 8000 };
-  expect(withSide(size, "width", 1500.4)).toEqual({ width: 1500, height: 8000 });
-  expect(withSide(size, "width", 9000)).toEqual({ width: 2000, height: 8000 });
-  expect(withSide(size, "height", 3)).toEqual({ width: 1000, height: LEAST_SIDE });
+  const changed = (side: "width" | "height", pixels: number) => {
+    const { size: now, kept } = withSide(size, side, pixels);
+    return [sizeText(now), kept?.to, kept?.pixels];
+  };
+  expect(changed("width", 1500.4)).toEqual(["1500x8000", undefined, undefined]);
+  expect(changed("width", 2000), "just so much").toEqual(["2000x8000", undefined, undefined]);
+  expect(changed("width", 9000), "and says what it was cut to").toEqual(["2000x8000", "most", 2000]);
+  expect(changed("height", 3)).toEqual([`1000x${LEAST_SIDE}`, "least", LEAST_SIDE]);
 });
 
 it("EX6: counts the pixels of all pictures of a file", () => {

@@ -30,11 +30,21 @@ export function sizeText({ width, height }: PictureSize): string {
   return `${width}x${height}`;
 }
 
+/** A size with one side changed, and how it was kept to what a picture may have. */
+export interface ChangedSize {
+  readonly size: PictureSize;
+  /** What the side was made, since no more or no less is allowed beside the other; null where it is as was wanted. */
+  readonly kept: { readonly to: "most" | "least"; readonly pixels: number } | null;
+}
+
 /** A size with one side changed: whole, and no more than one picture may have beside the other. */
-export function withSide(size: PictureSize, side: "width" | "height", pixels: number): PictureSize {
+export function withSide(size: PictureSize, side: "width" | "height", pixels: number): ChangedSize {
   const other = side === "width" ? size.height : size.width;
   const most = Math.floor(MOST_PIXELS / other);
-  return { ...size, [side]: Math.min(most, Math.max(LEAST_SIDE, Math.round(pixels))) };
+  const wanted = Math.round(pixels);
+  const whole = Math.min(most, Math.max(LEAST_SIDE, wanted));
+  const kept = whole === wanted ? null : ({ to: whole < wanted ? "most" : "least", pixels: whole } as const);
+  return { size: { ...size, [side]: whole }, kept };
 }
 
 /** Pixels of all pictures of a file together; 0 where it has none. */

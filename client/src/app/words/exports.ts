@@ -26,6 +26,11 @@ export const EXPORTS = {
   "exports.size.own": ["Other…", "Andere…"],
   "exports.size.width": ["Pixels across", "Pixel quer"],
   "exports.size.height": ["Pixels down", "Pixel hoch"],
+  "exports.size.most": [
+    "Cut to {pixels}: beside the other side no more fits, for a picture has {all} million pixels at most.",
+    "Gekürzt auf {pixels}: Neben der anderen Seite passt nicht mehr, denn ein Bild hat höchstens {all} Millionen Pixel.",
+  ],
+  "exports.size.least": ["A side has {pixels} pixels at least.", "Eine Seite hat mindestens {pixels} Pixel."],
   "exports.size.too-much": [
     "Together that is {count} million pixels; the server makes {most} million for one file. Choose fewer pictures or fewer pixels.",
     "Zusammen sind das {count} Millionen Pixel; der Server macht {most} Millionen für eine Datei. Wähle weniger Bilder oder weniger Pixel.",

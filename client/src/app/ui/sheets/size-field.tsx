@@ -1,6 +1,6 @@
 import { useState } from "preact/hooks";
 import {
-  LEAST_SIDE,
+  type ChangedSize,
   MOST_PIXELS,
   PICTURE_SIZES,
   type PictureSize,
@@ -8,6 +8,7 @@ import {
   sizeText,
   withSide,
 } from "../../library/picture-size";
+import { numberText } from "../../words/number-text";
 import { say } from "../../words/say";
 import { Segments } from "../controls/segments";
 import { TypedNumber } from "../controls/typed-number";
@@ -26,7 +27,13 @@ export function SizeField({ usual, chosen, onChoose }: SizeFieldProps) {
   const [asksOwn, setAsksOwn] = useState(false);
   const isOwn = asksOwn || !offered.includes(chosen);
   const size = sizeIn(chosen) ?? usual ?? { width: 1000, height: 1000 };
-  const set = (side: "width" | "height") => (pixels: number) => onChoose(sizeText(withSide(size, side, pixels)));
+  /** What was typed and is not possible; null where it is as it was typed. */
+  const [kept, setKept] = useState<ChangedSize["kept"]>(null);
+  const set = (side: "width" | "height") => (pixels: number) => {
+    const changed = withSide(size, side, pixels);
+    setKept(changed.kept);
+    onChoose(sizeText(changed.size));
+  };
   return (
     <>
       <Segments
@@ -37,6 +44,7 @@ export function SizeField({ usual, chosen, onChoose }: SizeFieldProps) {
         text={(one) => textOf(one, usual)}
         onChoose={(one) => {
           setAsksOwn(one === "own");
+          setKept(null);
           onChoose(one === "own" ? sizeText(size) : one);
         }}
       />
@@ -48,8 +56,9 @@ export function SizeField({ usual, chosen, onChoose }: SizeFieldProps) {
               <TypedNumber
                 label={say(`exports.size.${side}`)}
                 unit=""
-                least={LEAST_SIDE}
-                most={MOST_PIXELS / LEAST_SIDE}
+                // What lies beyond the limits is cut, and said, here.
+                least={1}
+                most={MOST_PIXELS}
                 step={1}
                 staysOnEnter
                 value={size[side]}
@@ -58,6 +67,14 @@ export function SizeField({ usual, chosen, onChoose }: SizeFieldProps) {
             </div>
           ))}
         </div>
+      )}
+      {isOwn && kept !== null && (
+        <p class="quiet" role="status">
+          {say(`exports.size.${kept.to}`, {
+            pixels: numberText(kept.pixels, 1),
+            all: numberText(MOST_PIXELS / 1_000_000, 1),
+          })}
+        </p>
       )}
     </>
   );
