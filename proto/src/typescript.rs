@@ -38,6 +38,7 @@ pub fn declarations() -> String {
     constant("KEPT_OUT_HOURS", version::KEPT_OUT_HOURS.to_string());
     constant("COMMENT_MINUTES", version::COMMENT_MINUTES.to_string());
     constant("TURNTABLE_PICTURES", version::TURNTABLE_PICTURES.to_string());
+    constant("MOST_ORGANS", frame::MOST_ORGANS.to_string());
     constant("FARTHEST", place::FARTHEST.to_string());
     constant("DEEPEST", place::DEEPEST.to_string());
     constant("MAX_BEND_TOUCHES", version::MAX_BEND_TOUCHES.to_string());

@@ -1,7 +1,7 @@
 import { ByteReader } from "./bytes";
 import { openFrame } from "./envelope";
 import { FrameError } from "./frame-error";
-import { CHUNK_ROWS, FrameKind } from "./generated";
+import { CHUNK_ROWS, FrameKind, MOST_ORGANS } from "./generated";
 import { Field } from "./generated-models";
 import type { FieldNumber, NumberSource } from "./numbers";
 import { Unpacker } from "./unpacker";
@@ -48,8 +48,6 @@ export type Values =
   | { column: "organs"; values: OrganRows };
 
 const CATCH_UP = 1;
-/** Organs of one row at most. */
-const MOST_ORGANS = 15;
 /** The parent of a row that goes on where the row before it ends. */
 const NEXT = 2;
 

@@ -14,6 +14,7 @@ export const KEPT_DAYS = 30;
 export const KEPT_OUT_HOURS = 12;
 export const COMMENT_MINUTES = 15;
 export const TURNTABLE_PICTURES = 12;
+export const MOST_ORGANS = 15;
 export const FARTHEST = 1000;
 export const DEEPEST = -10;
 export const MAX_BEND_TOUCHES = 8;
