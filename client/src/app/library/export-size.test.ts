@@ -45,7 +45,7 @@ function formats(): ReadonlyMap<string, ExportFormat> {
       numbers(both!) as [number, number],
     ]),
   );
-  const rows = source.matchAll(/row\(\s*Format::(\w+),\s*\["([^"]+)"[^\]]*\],([^;]*?)\[([\d.e, ]+)\],?\s*\),/g);
+  const rows = source.matchAll(/row\(\s*Format::(\w+),\s*\["([^"]+)"[^\]]*\],([^;]*?)\[([\d.e, ]+)\],?\s*\)[,;]/g);
   return new Map(
     [...rows].map(([, format, ending, options, bytes]) => [
       ending!,
