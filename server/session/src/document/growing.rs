@@ -125,15 +125,16 @@ impl Document {
     /// A stroke grows on after somebody did something else meanwhile: what it grows from here on is an operation of
     /// its own, or undoing the other one would take it back as well (`CM5`).
     fn resume_stroke(&mut self, author: &Principal, stroke: Option<StrokeId>) {
-        let operations = &self.history.operations[..self.history.done];
-        let belongs = |kind| matches!(kind, Kind::Stroke | Kind::Growth | Kind::Lasso);
-        if operations.last().is_none_or(|last| belongs(last.kind)) {
-            if let Some((last, stroke)) = self.history.current_mut().zip(stroke) {
-                last.resume(author, stroke);
-            }
-            return;
+        if self.history.current().is_some_and(|last| !last.kind.grows()) {
+            self.record(Kind::Stroke, Cause::from(author));
+        } else if let Some((last, stroke)) = self.history.current_mut().zip(stroke) {
+            last.resume(author, stroke);
         }
-        self.record(Kind::Stroke, Cause::from(author));
+    }
+
+    /// Whether what somebody begins now becomes part of the operation in progress: somebody is drawing in it.
+    fn joins(&self) -> bool {
+        !self.strokes.is_empty() && self.history.current().is_some_and(|last| last.kind.grows())
     }
 
     /// Steps still to be run; a lasso and a stroke that settles count as one each, for nobody knows.
@@ -169,7 +170,7 @@ impl Document {
         bud: Option<u32>,
     ) -> Result<(), Problem> {
         let chosen = self.chosen(bud)?;
-        let joins = !self.strokes.is_empty();
+        let joins = self.joins();
         let overlaps =
             self.strokes.open.iter().rfind(|open| open.author == *cause.author).map(|open| open.id);
         let id = self.strokes.open(cause.author, stroke, chosen)?;
@@ -204,7 +205,7 @@ impl Document {
         self.require_room()?;
         let now = self.plant().step();
         let continues = self.history.continues(&[Kind::Growth, Kind::Prune], cause, now);
-        if self.strokes.is_empty() && !continues {
+        if !self.joins() && !continues {
             self.record(Kind::Growth, cause);
         }
         self.ask(cause, false);
@@ -231,7 +232,7 @@ impl Document {
                 .at("outline", "an outline around some room")
         })?;
         let continues = self.history.continues(&[Kind::Lasso], cause, self.plant().step());
-        if self.strokes.is_empty() && !continues {
+        if !self.joins() && !continues {
             self.record(Kind::Lasso, cause);
         }
         self.ask(cause, true);

@@ -85,6 +85,11 @@ impl Kind {
         holds || self.is_switch()
     }
 
+    /// Whether such an operation grows, and several people can do so in it at once.
+    pub fn grows(self) -> bool {
+        matches!(self, Self::Stroke | Self::Growth | Self::Lasso)
+    }
+
     /// Whether such an operation says of another one whether it is in force.
     pub fn is_switch(self) -> bool {
         matches!(self, Self::TakenBack | Self::BroughtBack)

@@ -9,11 +9,15 @@ mod comments;
 mod covering;
 mod cutting;
 mod deeds;
+#[expect(dead_code, reason = "the bench alone prints them, and learns")]
+#[path = "../../benches/delta_bytes.rs"]
+mod delta_bytes;
 mod designing;
 mod durability;
 mod faults;
 mod filling;
 mod finishing;
+mod five_people;
 mod flow;
 #[expect(dead_code, reason = "the bench alone prints all columns")]
 #[path = "../../benches/guidance/following.rs"]

@@ -491,6 +491,43 @@ fn ud4_what_one_sowed_and_grew_while_another_drew_is_the_sowers() {
 }
 
 #[test]
+fn ud4_what_is_begun_beside_a_stroke_is_no_part_of_what_was_done_meanwhile() {
+    let meanwhile: [(&str, fn(&mut Document)); 2] = [
+        ("a setting", |document| document.apply(&who("cy"), &patch(0.61)).expect("in range")),
+        ("an undo", |document| take_back(document, "cy").expect("cy has drawn")),
+    ];
+    let begins: [fn(u32) -> Action; 2] = [
+        |_| Action::Grow { steps: Steps::nearest(2), until: None, bud: None },
+        |stroke| Action::StrokeBegin { stroke, bud: None },
+    ];
+    for (what, happens) in meanwhile {
+        for begin in begins {
+            let mut document = tree();
+            draw(&mut document, "cy", 1, -9.0, 4.0);
+            let before = drawn(&document, |author| *author != who("cy"));
+            document
+                .apply(&who("bo"), &plain(Action::StrokeBegin { stroke: 7, bud: None }))
+                .expect("it begins");
+            happens(&mut document);
+            document.apply(&who("bo"), &plain(begin(8))).expect("it begins as well");
+            for stroke in document.open_strokes(&who("bo")) {
+                let samples = list(vec![sample(0.0, 5.0, 0.6), sample(9.0, 8.0, 0.6)]);
+                document
+                    .apply(&who("bo"), &plain(Action::StrokeMove { stroke, samples }))
+                    .expect("it is open");
+                document.apply(&who("bo"), &plain(Action::StrokeEnd { stroke })).expect("it is open");
+            }
+            let author =
+                document.history.operations.last().map(|last| (last.author.clone(), last.kind.grows()));
+            assert_eq!(author, Some((who("bo"), true)), "beside {what}");
+            while take_back(&mut document, "bo").is_ok() {}
+            let after = drawn(&document, |author| *author != who("cy"));
+            assert_eq!(after, before, "all of it goes, beside {what}");
+        }
+    }
+}
+
+#[test]
 fn ud5_a_field_shows_what_the_last_deed_in_force_says() {
     let mut document = tree();
     let set = |document: &mut Document, name: &str, patch: ParametersPatch| {
