@@ -42,18 +42,26 @@ const LEARNED: usize = 8;
 
 fn main() -> std::io::Result<()> {
     if !std::env::args().any(|argument| argument == "--learn") {
-        draw(None, MEASURED);
+        let (before, sent) = draw(None, MEASURED);
+        sent.report(&before);
         return Ok(());
     }
     let mut tally = Tally::default();
     for (number, species) in species::all().iter().take(LEARNED).enumerate() {
-        tally.add(&draw(Some(species), MEASURED + 1 + number as u32).tally);
+        tally.add(&draw(Some(species), MEASURED + 1 + number as u32).1.tally);
     }
     let priors = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../proto/priors.txt");
     std::fs::write(priors, tally.priors())
 }
 
-fn draw(species: Option<&Species>, seed: u32) -> Sent {
+/// Bytes for each new metamer, as they travel.
+pub(crate) fn bytes_a_metamer() -> f64 {
+    let (before, sent) = draw(None, MEASURED);
+    (sent.bytes - before.bytes) as f64 / (sent.appended_rows - before.appended_rows) as f64
+}
+
+/// What was sent before the first stroke, and with all of them.
+fn draw(species: Option<&Species>, seed: u32) -> (Sent, Sent) {
     let mut studio = Studio::open(seed);
     // What a picker sets, without the growth to its age.
     for action in species.map(script).iter().flatten().filter(|action| !matches!(action, Action::Grow { .. }))
@@ -72,8 +80,7 @@ fn draw(species: Option<&Species>, seed: u32) -> Sent {
         }
     }
     studio.pass(5_000);
-    studio.sent.report(&before);
-    studio.sent
+    (before, studio.sent)
 }
 
 /// Bytes, by what they are about.

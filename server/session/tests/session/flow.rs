@@ -408,3 +408,9 @@ fn fl5_who_checks_is_told_of_rows_that_are_whole() {
     let rows = &world.peer(client).mirror.rows;
     assert!(rows.iter().zip(&expected).all(|(seen, expected)| seen.shows(expected)));
 }
+
+#[test]
+fn fr9_a_drawing_hand_is_sent_fewer_than_12_bytes_for_each_new_metamer() {
+    let bytes = crate::delta_bytes::bytes_a_metamer();
+    assert!(bytes < 12.0, "{bytes}");
+}
