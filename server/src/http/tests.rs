@@ -250,7 +250,10 @@ async fn au1_what_a_request_names_is_asked_for_as_well() {
 #[tokio::test]
 async fn rg1_a_document_is_sent_in_parts() {
     let (server, _) = server().await;
-    let path = "/api/v1/trees/ash/versions/1/document";
+    let import = request(&Method::POST, "/api/v1/trees/ash/versions/import?format=csv");
+    let tree = include_str!("../../../tests/fuzz/seeds/rtwig.csv");
+    assert_eq!(status(&server, import, tree).await, StatusCode::CREATED);
+    let path = "/api/v1/trees/ash/versions/2/document";
     let ask = async |range: Option<&str>| {
         let asked = request(&Method::GET, path);
         let asked = range.into_iter().fold(asked, |asked, range| asked.header(header::RANGE, range));

@@ -199,3 +199,15 @@ fn a_hard_link_is_no_other_database() {
     let second = program::run(&["serve", "--host", "127.0.0.1", "--port", "0", "--database", name(&link)]);
     assert!(second.code == 1 && second.stderr.contains("another Espalier server"), "{}", second.stderr);
 }
+
+#[test]
+fn a_restore_that_was_cut_short_is_no_empty_library() {
+    let scratch = Scratch::new();
+    let (database, part) = (scratch.path("trees.db"), scratch.path("trees.db.part"));
+    fs::write(&part, "half of a copy").expect("it can be written");
+    let refused =
+        program::run(&["serve", "--host", "127.0.0.1", "--port", "0", "--database", name(&database)]);
+    assert!(refused.code == 1 && refused.stderr.contains("restore it again"), "{}", refused.stderr);
+    fs::remove_file(&part).expect("it can be removed");
+    drop(Server::start(&database));
+}

@@ -85,9 +85,8 @@ pub async fn backup(
     let mut connection = reading(database).await?;
     let temporary = beside(to, ".part");
     let copied = copy(&mut connection, database, &temporary, &mut progress).await;
-    let moved = copied.and_then(|bytes| {
-        fs::rename(&temporary, to).map(|()| bytes).map_err(|error| cannot_write(to, &error))
-    });
+    let moved = copied
+        .and_then(|bytes| put(&temporary, to).map(|()| bytes).map_err(|error| cannot_write(to, &error)));
     if moved.is_err() {
         // Half a copy is of no use; that it may stay is said by the error before.
         let _ = fs::remove_file(&temporary);
@@ -117,7 +116,7 @@ pub async fn restore(
         return Err(in_use(identity::FOREIGN.into()).into());
     }
     place.lock_name().map_err(in_use)?;
-    let temporary = beside(database, ".part");
+    let temporary = part_of(database);
     if let Err(error) = copy(&mut connection, copy_of_it, &temporary, &mut progress).await {
         let _ = fs::remove_file(&temporary);
         return Err(error);
@@ -130,7 +129,7 @@ pub async fn restore(
             _ => {}
         }
     }
-    fs::rename(&temporary, database).map_err(|error| cannot_write(database, &error))?;
+    put(&temporary, database).map_err(|error| cannot_write(database, &error))?;
     drop(place);
     Ok(is_there.then_some(kept))
 }
@@ -271,6 +270,22 @@ async fn copy(
     let file = fs::File::open(to).map_err(|error| cannot_write(to, &error))?;
     file.sync_all().map_err(|error| cannot_write(to, &error))?;
     Ok(size(to))
+}
+
+/// Where a copy is written that is to take the place of a database.
+pub(super) fn part_of(database: &Path) -> PathBuf {
+    beside(database, ".part")
+}
+
+/// Gives a file another name, and has the folder keep that also where the power fails.
+fn put(file: &Path, name: &Path) -> io::Result<()> {
+    fs::rename(file, name)?;
+    let folder = name.parent().filter(|folder| !folder.as_os_str().is_empty());
+    // Not every system opens folders; what it keeps of them is its own affair then.
+    if let Ok(folder) = fs::File::open(folder.unwrap_or(Path::new("."))) {
+        folder.sync_all()?;
+    }
+    Ok(())
 }
 
 fn beside(path: &Path, ending: &str) -> PathBuf {

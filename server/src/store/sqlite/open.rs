@@ -17,8 +17,8 @@ use sqlx::{
 };
 
 use super::{
-    super::FULL_DISK, finding, identity, in_words, parts::Keeping, place::Place, reserve::Reserve, shrinking,
-    writer::Writer,
+    super::FULL_DISK, care::part_of, finding, identity, in_words, parts::Keeping, place::Place,
+    reserve::Reserve, shrinking, writer::Writer,
 };
 
 /// The schema: one file of `migrations/` for each change, in order.
@@ -58,6 +58,10 @@ const MAX_IDLE_LOG: u64 = 16 * 1024 * 1024;
 
 /// Larger files are read through while the server already serves, for that takes seconds.
 const MAX_CHECKED_BYTES: u64 = 256 * 1024 * 1024;
+
+/// Where a copy lies beside no database.
+const CUT_SHORT: &str =
+    "it was to be restored, and that was cut short: restore it again, or delete the file that ends in .part";
 
 const READERS: u32 = 4;
 const BUSY_TIMEOUT: Duration = Duration::from_secs(5);
@@ -143,6 +147,9 @@ impl SqliteStore {
             Err(error) => return Err(error.to_string()),
         };
         let mut place = Place::lock(path)?;
+        if size == 0 && part_of(path).exists() {
+            return Err(CUT_SHORT.into());
+        }
         if size > 0 {
             identity::check(path).await?;
         }
