@@ -15,6 +15,8 @@ use espalier_settings::ParametersPatch;
 
 /// Steps of birth that a file may name.
 const MAX_STEP: u32 = 100_000;
+/// Columns of a table, and features that a graph may declare: no program writes so many.
+const MAX_COLUMNS: usize = 1000;
 /// Tips of shed twigs that a file may have, all together.
 const MAX_SHED: u32 = 1_000_000_000;
 
@@ -179,6 +181,12 @@ fn out_of_range(place: Option<Place>, what: impl Into<String>, allowed: impl Int
 fn too_many(place: Option<Place>, options: &WoodOptions) -> Fault {
     let (what, allowed) = ("it has too many nodes".into(), Some(format!("up to {} nodes", options.nodes)));
     Fault { kind: FaultKind::TooMany, place, what, allowed }
+}
+
+fn too_many_columns(line: u64) -> Fault {
+    let allowed = Some(format!("up to {MAX_COLUMNS} columns"));
+    let what = "it has too many columns".into();
+    Fault { kind: FaultKind::TooMany, place: Some(Place::Line(line)), what, allowed }
 }
 
 /// A number as text, which must be finite.

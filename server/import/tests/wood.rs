@@ -551,3 +551,61 @@ fn files_cut_short_anywhere_are_wood_or_faults() {
         }
     }
 }
+
+#[test]
+fn lm14_tables_have_up_to_a_thousand_columns() {
+    let beside = |count: usize| (0..count).map(|at| format!(",c{at}")).collect::<String>();
+    let qsm = |count| ALONG.replacen('\n', &(beside(count) + "\n"), 1);
+    let row = |text: &str, count: usize| text.replacen(",0.02,0\n", &format!(",0.02,0{}\n", beside(count)), 1);
+    let wide = row(&qsm(991), 991);
+    assert_eq!(wood(WoodFormat::Qsm, &wide).nodes.len(), wood(WoodFormat::Qsm, ALONG).nodes.len());
+    let wider = row(&qsm(992), 992);
+    // A head in quotes over two lines is no narrower.
+    let quoted = wider.replacen(",c0,", ",\"c\n0\",", 1);
+    let names: String = (0..992).map(|at| format!("F{at}\tREAL\n")).collect();
+    let features = |more: &str| OPENALEA.replacen("TopDia\tREAL\n", &format!("TopDia\tREAL\n{names}{more}"), 1);
+    let head = OPENALEA.replacen("\tTopDia\n", &format!("\tTopDia{}\n", "\tc".repeat(994)), 1);
+    let cells = OPENALEA.replacen("400\t8", &format!("400\t8{}", "\t".repeat(994)), 1);
+    for (format, text, line) in [
+        (WoodFormat::Qsm, &wider, 1),
+        (WoodFormat::Qsm, &quoted, 1),
+        (WoodFormat::Mtg, &features("A\tREAL\nB\tREAL\nC\tREAL\nD\tREAL\nE\tREAL\n"), 1020),
+        (WoodFormat::Mtg, &head, 26),
+        (WoodFormat::Mtg, &cells, 30),
+    ] {
+        let found = fault(format, text);
+        assert_eq!((found.kind, found.place.as_ref()), (FaultKind::TooMany, Some(&Place::Line(line))), "{found}");
+        assert!(found.to_string().contains("up to 1000 columns"), "{found}");
+    }
+    let most = features("A\tREAL\nB\tREAL\nC\tREAL\nD\tREAL\n");
+    let millimetres = WoodOptions { units: Units::of(0.001), ..options() };
+    let read = |text: &str| read_wood(WoodFormat::Mtg, text.as_bytes(), &millimetres).expect("a graph");
+    assert_eq!(read(&most), read(OPENALEA));
+}
+
+#[test]
+fn lm14_runs_pass_what_is_there_so_often_and_no_more() {
+    let head = OPENALEA.split("ENTITY").next().expect("a head").to_owned() + "TOPO\tXX\tYY\tZZ\tTopDia\n";
+    let text = |times: usize| {
+        let runs = "/P1/U1/E1<<E5000\n".repeat(times);
+        format!("{head}/P1/U1/E1\t0\t0\t0\t1\n{runs}/P1/U1/E1<E2\t0\t0\t0.1\t1\n")
+    };
+    planted(&wood(WoodFormat::Mtg, &text(10)));
+    let found = fault(WoodFormat::Mtg, &text(30));
+    assert_eq!((found.kind, found.place.as_ref()), (FaultKind::TooMany, Some(&Place::Cell(45, 1))), "{found}");
+}
+
+#[test]
+fn branches_begin_at_the_nearest_node_of_a_long_cylinder() {
+    let head = RTWIG.lines().next().expect("a head");
+    let trunk = "\"1\",1,0,20,30,5,20,30,6,0.05,1,1,0";
+    for at in 0..=20 {
+        let height = 5.0 + f64::from(at) * 0.05 + 0.01;
+        let branch = format!("\"2\",2,1,20.01,30,{height},20.31,30,{height},0.02,0.3,2,1");
+        let found = wood(WoodFormat::Qsm, &format!("{head}\n{trunk}\n{branch}\n"));
+        let bearer = found.axes[1].bearer.expect("wood bears the branch");
+        let end = found.nodes[bearer as usize].end;
+        let nearest = ((height - 5.0) * 10.0).round().clamp(1.0, 10.0) as f32;
+        assert!((end.y - nearest).abs() < 1e-3, "{height}: {end} is not {nearest}");
+    }
+}

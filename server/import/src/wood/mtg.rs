@@ -2,14 +2,15 @@
 
 mod graph;
 
-use std::borrow::Cow;
+use std::{borrow::Cow, collections::BTreeSet};
 
 use glam::DVec3;
 
 use self::graph::{Component, Graph, Relation};
 use super::{
-    About, Fault, MAX_SHED, Place, Units, WoodOptions, excerpt, internode, malformed, number, out_of_range,
+    About, Fault, MAX_COLUMNS, MAX_SHED, Place, Units, WoodOptions, excerpt, internode, malformed, number, out_of_range,
     pieces::{Piece, y_up},
+    too_many_columns,
 };
 
 /// The class of components that are one internode each, however long.
@@ -24,14 +25,17 @@ struct Lines<'a> {
 }
 
 impl<'a> Iterator for Lines<'a> {
-    type Item = (u64, Vec<&'a str>);
+    type Item = Result<(u64, Vec<&'a str>), Fault>;
 
     /// The next line that is not empty.
     fn next(&mut self) -> Option<Self::Item> {
-        self.lines.by_ref().find_map(|(line, number)| {
+        self.lines.by_ref().filter(|(line, _)| !line.starts_with('#')).find_map(|(line, number)| {
             let cells = line.split('\t').map(|cell| cell.split('#').next().unwrap_or_default().trim());
-            let cells: Vec<_> = cells.collect();
-            (!line.starts_with('#') && cells.iter().any(|cell| !cell.is_empty())).then_some((number, cells))
+            let cells: Vec<_> = cells.take(MAX_COLUMNS + 1).collect();
+            if cells.len() > MAX_COLUMNS {
+                return Some(Err(too_many_columns(number)));
+            }
+            cells.iter().any(|cell| !cell.is_empty()).then_some(Ok((number, cells)))
         })
     }
 }
@@ -67,8 +71,9 @@ pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<(Vec<Piece>, A
     let mut lines = Lines { lines: text.lines().zip(1..) };
     let mut section = String::new();
     let mut graph = Graph::new(options);
-    let mut names: Vec<&str> = Vec::new();
-    for (line, cells) in lines.by_ref() {
+    let mut names: BTreeSet<&str> = BTreeSet::new();
+    for cells in lines.by_ref() {
+        let (line, cells) = cells?;
         let word: String = cells[0].chars().filter(|c| !c.is_whitespace()).collect();
         if let Some(name) = word.strip_suffix(':').filter(|name| name.chars().all(|c| c.is_ascii_uppercase()))
         {
@@ -88,7 +93,12 @@ pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<(Vec<Piece>, A
             ("CODE" | "DESCRIPTION", _) => {}
             ("CLASSES", ["SYMBOL", ..]) | ("FEATURES", ["NAME", ..]) => {}
             ("CLASSES", [symbol, scale, ..]) => graph.declare(symbol, scale, line)?,
-            ("FEATURES", [name, ..]) => names.push(name),
+            ("FEATURES", [name, ..]) => {
+                names.insert(name);
+                if names.len() > MAX_COLUMNS {
+                    return Err(too_many_columns(line));
+                }
+            }
             _ => {
                 return Err(malformed(
                     Some(Place::Line(line)),
@@ -100,7 +110,7 @@ pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<(Vec<Piece>, A
     if section != "MTG" {
         return Err(malformed(None, "it is no MTG: it has no section MTG"));
     }
-    let Some((line, head)) = lines.next() else { return Err(malformed(None, "the section MTG is empty")) };
+    let Some((line, head)) = lines.next().transpose()? else { return Err(malformed(None, "the section MTG is empty")) };
     if !matches!(head[0], "TOPO" | "ENTITY-CODE") {
         return Err(malformed(Some(Place::Cell(line, 1)), "the first column must be TOPO or ENTITY-CODE"));
     }
@@ -110,7 +120,8 @@ pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<(Vec<Piece>, A
     let mut about = About::default();
     // The least cells of a line, and the last line with its cells.
     let (mut fewest, mut last) = (head.len(), None);
-    for (line, cells) in lines {
+    for cells in lines {
+        let (line, cells) = cells?;
         if let Some((_, count)) = last.replace((line, cells.len())) {
             fewest = fewest.min(count);
         }

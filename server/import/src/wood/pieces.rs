@@ -205,8 +205,18 @@ impl Joinery<'_> {
     fn nearest(&self, piece: &Piece, Joined { base, first, last, .. }: Joined) -> u32 {
         let Some(start) = piece.start.map(|start| self.internodes(start)) else { return last };
         let away = |&node: &u32| self.nodes[node as usize].0.end.as_dvec3().distance_squared(start);
-        let nodes = std::iter::once(base)
-            .chain(first..last + 1)
+        // Those of a piece stand in a row: only the two between which it begins can be the nearest.
+        let place = |node: u32| self.nodes[node as usize].0.end.as_dvec3();
+        let (mut least, mut most) = (first, last.max(first));
+        let along = place(last) - place(first.min(last));
+        while least < most {
+            let middle = least.midpoint(most);
+            if (place(middle) - start).dot(along) < 0.0 { least = middle + 1 } else { most = middle }
+        }
+        let nodes = [base]
+            .into_iter()
+            .chain(least.saturating_sub(1).max(first)..least + 1)
+            .filter(|&node| node <= last)
             .filter(|&node| node == last || self.nodes[node as usize].0.parent.is_some());
         nodes.min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(last)
     }

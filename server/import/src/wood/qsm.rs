@@ -1,14 +1,14 @@
 //! Quantitative structure models: a line for each cylinder, with the columns of one of the programs that make them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use csv::{ErrorKind, ReaderBuilder, StringRecord};
 use glam::DVec3;
 
 use super::{
-    Fault, Place, Units, WoodOptions, excerpt, malformed, number, out_of_range,
+    Fault, MAX_COLUMNS, Place, Units, WoodOptions, excerpt, malformed, number, out_of_range,
     pieces::{Piece, y_up},
-    too_many,
+    too_many, too_many_columns,
 };
 
 /// How a program names its columns.
@@ -106,6 +106,10 @@ pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<Vec<Piece>, Fa
     let count = |mark: u8| head.iter().filter(|&&byte| byte == mark).count();
     let delimiter =
         [b',', b';', b'\t'].into_iter().max_by_key(|&mark| (count(mark), mark == b',')).unwrap_or(b',');
+    // Before cells are made of them; those that quotes hold together count as well.
+    if count(delimiter) >= MAX_COLUMNS {
+        return Err(too_many_columns(1));
+    }
     let mut reader = ReaderBuilder::new().delimiter(delimiter).from_reader(bytes);
     let table = Table::of(reader.headers().map_err(|error| unreadable(&error))?)?;
     let mut rows = Vec::new();
@@ -175,6 +179,9 @@ struct Row {
 
 impl Table {
     fn of(head: &StringRecord) -> Result<Self, Fault> {
+        if head.len() > MAX_COLUMNS {
+            return Err(too_many_columns(1));
+        }
         let mut tables = DIALECTS.iter().filter_map(|dialect| Self::by(dialect, head));
         let table = tables.next().ok_or_else(|| {
             if head.iter().all(|name| name.trim().is_empty()) {
@@ -186,8 +193,9 @@ impl Table {
             malformed(Some(Place::Line(1)), what)
         })?;
         // Which of two columns is meant nobody can say.
+        let mut before = BTreeSet::new();
         for (at, name) in head.iter().enumerate() {
-            let is_second = head.iter().take(at).any(|other| other.trim() == name.trim());
+            let is_second = !before.insert(name.trim());
             if is_second && table.dialect.reads(name.trim()) {
                 let what = format!("there are two columns `{}`", excerpt(name.trim()));
                 return Err(malformed(Some(Place::Cell(1, at as u64 + 1)), what));

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use super::bad_code;
 use crate::wood::{Fault, Place, WoodOptions, excerpt, malformed, out_of_range, too_many};
 
+/// How often, for each node that a file may have, runs may pass what is there already.
+const PASSES: usize = 8;
 /// Scales below that of the whole.
 const MAX_SCALE: u32 = 64;
 
@@ -55,6 +57,8 @@ pub(super) struct Graph {
     known: BTreeMap<(u32, Option<Relation>, u16, u32), u32>,
     /// The last component of the code in each column.
     last: Vec<u32>,
+    /// How many components runs have passed that were there already.
+    passed: usize,
     options: WoodOptions,
 }
 
@@ -66,6 +70,7 @@ impl Graph {
             names: Vec::new(),
             known: BTreeMap::new(),
             last: Vec::new(),
+            passed: 0,
             options: *options,
         }
     }
@@ -157,14 +162,20 @@ impl Graph {
                 })? + 1;
         }
         let mut at = at;
-        // Bounded by the limit, whatever number was written.
+        // Bounded by the limits, whatever number was written, and however often.
         for index in index..=step.index {
             let key = (at.unwrap_or(u32::MAX), step.relation, class, index);
+            let place = Place::Cell(line, column as u64 + 1);
             let found = self.known.get(&key).copied().filter(|_| !is_relative);
             at = Some(match found {
-                Some(found) => found,
+                Some(found) => {
+                    self.passed += usize::from(step.is_run);
+                    if self.passed / PASSES > self.options.nodes {
+                        return Err(too_many(Some(place), &self.options));
+                    }
+                    found
+                }
                 None => {
-                    let place = Place::Cell(line, column as u64 + 1);
                     let component = self.component(at, step.relation, scale).ok_or_else(|| {
                         let what =
                             format!("`{}` cannot stand here: its scale does not fit", excerpt(step.class));
