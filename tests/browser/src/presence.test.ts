@@ -186,10 +186,13 @@ test("PS3: who comes into another network is the same device, while the connecti
   expect(notes).toEqual([]);
 });
 
-test("PS3: who is cut off is not in the list, and comes back as the same person", async () => {
+test("PS3: who is cut off is not in the list, comes back as the same person, and follows whom they followed", async () => {
   const { ann, bo, link, noted } = await two();
   const number = () => row(ann, "Bo").getAttribute("data-person");
   const before = await number();
+  await bo.press(bo.page.locator(".people-chip"));
+  await bo.press(row(bo, "Ann").getByRole("button", { name: "Follow" }));
+  await row(ann, "Bo").getByText("Follows Ann").waitFor();
   link.cut();
   await untilStates(ann, "Bo", "he is not there", "");
   await bo.until("his page knows it", ({ connection }) => connection !== "connected");
@@ -198,6 +201,7 @@ test("PS3: who is cut off is not in the list, and comes back as the same person"
   await untilConnected(bo.page);
   await untilStates(ann, "Bo", "he is back", "here");
   expect(await number()).toBe(before);
+  await row(ann, "Bo").getByText("Follows Ann").waitFor();
   // And once more by loading the page anew.
   await bo.page.reload();
   await untilConnected(bo.page);

@@ -60,6 +60,11 @@ export class Room implements Listener {
     const stopConnecting = link.present.subscribe((present) => {
       if (present) {
         this.#words.again();
+        // The server follows for a connection, and this is another one.
+        const device = together.followed.peek();
+        if (device !== null) {
+          link.tell({ type: "follow", device });
+        }
         this.#speak();
       }
     });

@@ -17,10 +17,18 @@ const names = (together: Together) => [1, 2].map((number) => authorName(number, 
 describe("who did what on the line of time", () => {
   it("PS3: is known by name also while the link is lost", () => {
     const together = met();
-    together.followed.value = 11;
     together.lost();
     expect(names(together)).toEqual(["Ann", "Bo"]);
-    expect([together.people.value, together.followed.value]).toEqual([null, null]);
+    expect(together.people.value).toBeNull();
+  });
+
+  it("PS4: whose camera a page follows stays as long as numbers do", () => {
+    const together = met();
+    together.followed.value = 11;
+    together.lost();
+    expect(together.followed.value).toBe(11);
+    together.renumbered();
+    expect(together.followed.value).toBeNull();
   });
 
   it("RS2, PS3: is nobody whom the page met, once people have other numbers or another session is open", () => {

@@ -41,15 +41,15 @@ export class Together {
     }
   }
 
-  /** Nobody tells any more who is here; what people are called who did something stays. */
+  /** Nobody tells any more who is here; what people are called who did something stays, and whom this page follows. */
   lost(): void {
     this.people.value = null;
-    this.followed.value = null;
   }
 
-  /** People have other numbers from now on: what is known of them is of nobody. */
+  /** People and devices have other numbers from now on: what is known of them is of nobody. */
   renumbered(): void {
     this.authors.value = [];
+    this.followed.value = null;
   }
 
   /** Another session was opened. */
