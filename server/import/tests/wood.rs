@@ -556,14 +556,16 @@ fn files_cut_short_anywhere_are_wood_or_faults() {
 fn lm14_tables_have_up_to_a_thousand_columns() {
     let beside = |count: usize| (0..count).map(|at| format!(",c{at}")).collect::<String>();
     let qsm = |count| ALONG.replacen('\n', &(beside(count) + "\n"), 1);
-    let row = |text: &str, count: usize| text.replacen(",0.02,0\n", &format!(",0.02,0{}\n", beside(count)), 1);
+    let row =
+        |text: &str, count: usize| text.replacen(",0.02,0\n", &format!(",0.02,0{}\n", beside(count)), 1);
     let wide = row(&qsm(991), 991);
     assert_eq!(wood(WoodFormat::Qsm, &wide).nodes.len(), wood(WoodFormat::Qsm, ALONG).nodes.len());
     let wider = row(&qsm(992), 992);
     // A head in quotes over two lines is no narrower.
     let quoted = wider.replacen(",c0,", ",\"c\n0\",", 1);
     let names: String = (0..992).map(|at| format!("F{at}\tREAL\n")).collect();
-    let features = |more: &str| OPENALEA.replacen("TopDia\tREAL\n", &format!("TopDia\tREAL\n{names}{more}"), 1);
+    let features =
+        |more: &str| OPENALEA.replacen("TopDia\tREAL\n", &format!("TopDia\tREAL\n{names}{more}"), 1);
     let head = OPENALEA.replacen("\tTopDia\n", &format!("\tTopDia{}\n", "\tc".repeat(994)), 1);
     let cells = OPENALEA.replacen("400\t8", &format!("400\t8{}", "\t".repeat(994)), 1);
     for (format, text, line) in [
@@ -574,7 +576,11 @@ fn lm14_tables_have_up_to_a_thousand_columns() {
         (WoodFormat::Mtg, &cells, 30),
     ] {
         let found = fault(format, text);
-        assert_eq!((found.kind, found.place.as_ref()), (FaultKind::TooMany, Some(&Place::Line(line))), "{found}");
+        assert_eq!(
+            (found.kind, found.place.as_ref()),
+            (FaultKind::TooMany, Some(&Place::Line(line))),
+            "{found}"
+        );
         assert!(found.to_string().contains("up to 1000 columns"), "{found}");
     }
     let most = features("A\tREAL\nB\tREAL\nC\tREAL\nD\tREAL\n");
@@ -592,7 +598,11 @@ fn lm14_runs_pass_what_is_there_so_often_and_no_more() {
     };
     planted(&wood(WoodFormat::Mtg, &text(10)));
     let found = fault(WoodFormat::Mtg, &text(30));
-    assert_eq!((found.kind, found.place.as_ref()), (FaultKind::TooMany, Some(&Place::Cell(45, 1))), "{found}");
+    assert_eq!(
+        (found.kind, found.place.as_ref()),
+        (FaultKind::TooMany, Some(&Place::Cell(45, 1))),
+        "{found}"
+    );
 }
 
 #[test]

@@ -29,7 +29,7 @@ use crate::{
         },
     },
     document::Stored,
-    export_options::NotOfFormat,
+    export_options::{ExportOptions, NotOfFormat},
     formats::DOCUMENT,
     import,
     output::{OutputError, Target},
@@ -177,9 +177,9 @@ async fn versions(Versions { tree, from }: &Versions) -> Result<(), LibraryError
 }
 
 async fn get(Get { of, file }: &Get) -> Result<(), LibraryError> {
-    let document = document_of(of).await?;
+    let mut stored = Stored::read(&document_of(of).await?)?;
     let target = Target { path: file.clone(), row: &DOCUMENT };
-    Ok(target.write(|out| Ok(out.write_all(&document)?))?)
+    Ok(target.write(|out| stored.write(target.row.format, &ExportOptions::default(), out))?)
 }
 
 /// The program makes the file itself, whoever has the document: it is a hundredth of what is made of it.

@@ -8,7 +8,8 @@ use glam::DVec3;
 
 use self::graph::{Component, Graph, Relation};
 use super::{
-    About, Fault, MAX_COLUMNS, MAX_SHED, Place, Units, WoodOptions, excerpt, internode, malformed, number, out_of_range,
+    About, Fault, MAX_COLUMNS, MAX_SHED, Place, Units, WoodOptions, excerpt, internode, malformed, number,
+    out_of_range,
     pieces::{Piece, y_up},
     too_many_columns,
 };
@@ -110,7 +111,9 @@ pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<(Vec<Piece>, A
     if section != "MTG" {
         return Err(malformed(None, "it is no MTG: it has no section MTG"));
     }
-    let Some((line, head)) = lines.next().transpose()? else { return Err(malformed(None, "the section MTG is empty")) };
+    let Some((line, head)) = lines.next().transpose()? else {
+        return Err(malformed(None, "the section MTG is empty"));
+    };
     if !matches!(head[0], "TOPO" | "ENTITY-CODE") {
         return Err(malformed(Some(Place::Cell(line, 1)), "the first column must be TOPO or ENTITY-CODE"));
     }
