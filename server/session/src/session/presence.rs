@@ -161,8 +161,11 @@ impl Session {
         let principal = connected.principal.clone();
         self.room.people_changed = true;
         self.send(client, &ServerMessage::Role { role });
+        // Who gets it back before it is known which strokes are open goes on with them, and with all that they begin.
         if access == Access::Look {
             self.upkeep.overdue.insert(principal);
+        } else {
+            self.upkeep.overdue.remove(&principal);
         }
     }
 

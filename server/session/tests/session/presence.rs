@@ -418,3 +418,19 @@ fn au3_what_somebody_may_do_changes_while_they_are_here() {
     assert_eq!(world.peer(ben).refused().len(), 1);
     assert_eq!(people(world.peer(ann)).1[1].role, Role::Owner);
 }
+
+#[test]
+fn au3_who_gets_their_right_back_draws_on() {
+    let mut world = World::new();
+    let ben = enter(&mut world, "Ben", "ben-tablet");
+    world.command(ben, 1, grow(3));
+    world.settle();
+    // The document is away with what they do, so that nobody knows yet which of their strokes are open.
+    world.command(ben, 2, json!({ "kind": "stroke_begin", "stroke": 2 }));
+    world.handle(Input::Granted(ClientId(ben), Role::Viewer));
+    world.handle(Input::Granted(ClientId(ben), Role::Editor));
+    world.settle();
+    world.command(ben, 3, json!({ "kind": "stroke_begin", "stroke": 3 }));
+    world.settle();
+    assert_eq!(world.document().open_strokes(&person("ben-tablet")).len(), 2, "nothing of theirs was ended");
+}
