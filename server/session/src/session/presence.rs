@@ -295,7 +295,7 @@ impl Session {
         let mut people: BTreeMap<u32, Person> = BTreeMap::new();
         for client in self.clients.values() {
             let Some(ConnectedClient { presence, .. }) = &client.connected else { continue };
-            if shown.is_none_or(|last| presence.device <= last) {
+            if is_shown(presence, shown) {
                 let given = client.entrant.name.as_deref();
                 let name = self.room.register.name_of(presence.person).or(given).map(str::to_owned);
                 let role = client.entrant.role;
@@ -333,26 +333,30 @@ impl Session {
         if !self.present().any(|present| present.listens) {
             return None;
         }
-        let news = self.present().filter_map(|present| present.due(self.is_followed(present.device)));
-        let late = self.present().any(|present| self.lacks(present)).then_some(0);
+        let shown = self.shown();
+        let told = self.present().filter(|present| is_shown(present, shown));
+        let news = told.filter_map(|present| present.due(self.is_followed(present.device)));
+        let late = self.present().any(|present| self.lacks(present, shown)).then_some(0);
         news.chain(late).min().map(|due| due.max(self.room.tick_due))
     }
 
     fn tick(&mut self) {
         self.room.tick_due = self.now + TICK_MS;
         self.room.tick = self.room.tick.wrapping_add(1);
-        let (tick, now) = (self.room.tick, self.now);
+        let (tick, now, shown) = (self.room.tick, self.now, self.shown());
         let followed: Vec<u32> = self.present().filter_map(|present| present.follows).collect();
-        for connected in self.clients.values_mut().filter_map(|client| client.connected.as_mut()) {
-            let is_followed = followed.contains(&connected.presence.device);
-            connected.presence.stamp(tick, now, is_followed);
+        let connected = self.clients.values_mut().filter_map(|client| client.connected.as_mut());
+        // What is new of others stays so until they are shown.
+        for presence in connected.map(|it| &mut it.presence).filter(|presence| is_shown(presence, shown)) {
+            let is_followed = followed.contains(&presence.device);
+            presence.stamp(tick, now, is_followed);
         }
-        let (mut frames, shown) = (FramesOfTick::default(), self.shown());
+        let mut frames = FramesOfTick::default();
         let mut sent = Vec::new();
         for (&client, state) in &self.clients {
             let Some(ConnectedClient { presence, .. }) = &state.connected else { continue };
-            if self.lacks(presence) {
-                let told = self.present().filter(|present| shown.is_none_or(|last| present.device <= last));
+            if self.lacks(presence, shown) {
+                let told = self.present().filter(|present| is_shown(present, shown));
                 sent.push((client, frames.after(presence.seen, (self.epoch, tick), told)));
             }
         }
@@ -364,10 +368,11 @@ impl Session {
         }
     }
 
-    /// Whether a device is told of others, can take a frame, and has not been told all of the others.
-    fn lacks(&self, device: &Presence) -> bool {
+    /// Whether a device is told of others, can take a frame, and has not been told all of the others that are shown.
+    fn lacks(&self, device: &Presence, shown: Option<u32>) -> bool {
         let can_take = device.listens && device.in_flight.is_none();
-        let mut others = self.present().filter(|other| other.device != device.device);
+        let others = self.present().filter(|other| is_shown(other, shown));
+        let mut others = others.filter(|other| other.device != device.device);
         can_take && others.any(|other| other.newest() > device.seen)
     }
 
@@ -387,6 +392,11 @@ impl Session {
             self.clients.iter().filter(|(_, client)| client.connected.as_ref().is_some_and(listens));
         listeners.map(|(&client, _)| client).collect()
     }
+}
+
+/// Whether a device is shown to the others, where this is the last one that is ([`Session::shown`]).
+fn is_shown(device: &Presence, last: Option<u32>) -> bool {
+    last.is_none_or(|last| device.device <= last)
 }
 
 /// When a device will have been silent for too long. A slow link is no absence.

@@ -1,8 +1,8 @@
 //! `PS`: who is here and what they do, under virtual time.
 
 use espalier_proto::{
-    DeviceNews, Person, PointerPlace, PresenceFrame, Reason, ServerMessage, Whereabouts, access::Role,
-    version::MAX_SHOWN_DEVICES,
+    DeviceNews, Person, PointerNews, PointerPlace, PresenceFrame, Reason, ServerMessage, Whereabouts,
+    access::Role, version::MAX_SHOWN_DEVICES,
 };
 use espalier_session::{ClientId, Entrant, Input};
 use serde_json::{Value, json};
@@ -255,6 +255,26 @@ fn ps3_sixty_four_devices_are_shown_and_the_others_counted() {
     let devices = |frame: &PresenceFrame| frame.devices.iter().map(|it| it.device).collect::<Vec<_>>();
     let told: Vec<u32> = world.peer(ids[1]).presence.iter().flat_map(|(_, frame)| devices(frame)).collect();
     assert_eq!(told, [1]);
+    // Those who are not shown move, and nobody is sent anything.
+    let frames = |world: &World| ids.iter().map(|id| world.peer(*id).presence.len()).sum::<usize>();
+    let before = frames(&world);
+    for step in 2..20 {
+        here(&mut world, ids[69], step as f32);
+        here(&mut world, ids[64], step as f32);
+        world.pass(60);
+    }
+    assert_eq!(frames(&world), before);
+    // There is a place for one of them: where it points is told, though it does not move.
+    world.leave(ids[3]);
+    world.pass(200);
+    let pointer = told_of(&world, ids[1], 65).expect("it is shown now").place;
+    assert_eq!(pointer, PointerPlace::Space([19 * 32, 32, 0]));
+    assert!(told_of(&world, ids[1], 70).is_none());
+}
+
+/// Where a client has been told that a device points.
+fn told_of(world: &World, id: u64, device: u32) -> Option<PointerNews> {
+    told(world.peer(id), device).pointer
 }
 
 #[test]
