@@ -1,6 +1,6 @@
 //! Authors: principals that have sent commands, known across connections (`CM1`, `CM5`).
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, sync::Arc};
 
 use crate::{io::ClientId, principal::Principal};
 
@@ -23,6 +23,8 @@ pub(crate) struct Author {
     pub(crate) last_entry: u64,
     /// When its open strokes end, if it does not return before.
     pub(crate) strokes_end_at: Option<u64>,
+    /// As whom what it does is counted ([`Entrant::counted_as`](crate::Entrant)), if it has come.
+    pub(crate) counted_as: Option<Arc<str>>,
 }
 
 /// All authors.

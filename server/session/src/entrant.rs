@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use espalier_proto::{access::Role, permission::Action};
 
-use crate::rights::Access;
+use crate::{principal::Principal, rights::Access};
 
 /// Somebody at a connection.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,17 +18,30 @@ pub struct Entrant {
     pub name: Option<Arc<str>>,
     /// What they may do.
     pub role: Role,
+    /// Whether it may be one or another who comes as this person, as with whoever sits at the machine itself.
+    pub is_anybody: bool,
 }
 
 impl Entrant {
     /// Somebody without a name.
     pub fn new(person: impl Into<Arc<str>>, role: Role) -> Self {
         let person = person.into();
-        Self { identity: Arc::clone(&person), person, name: None, role }
+        Self { identity: Arc::clone(&person), person, name: None, role, is_anybody: false }
+    }
+
+    /// As whom what they do with a client key is counted, where people take turns and have shares: all devices and tabs
+    /// of a person together; where nobody knows who it is, each key for itself.
+    pub(crate) fn counted_as(&self, key: &Principal) -> Arc<str> {
+        if self.is_anybody { counted_by_key(key) } else { Arc::clone(&self.identity) }
     }
 
     /// What they may do in a session.
     pub fn access(&self) -> Access {
         if self.role >= Action::EditSession.least() { Access::Edit } else { Access::Look }
     }
+}
+
+/// As whom it is counted what was done with a client key of which nobody knows whose it is.
+pub(crate) fn counted_by_key(key: &Principal) -> Arc<str> {
+    format!("key {}", key.name()).into()
 }

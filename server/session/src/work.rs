@@ -62,6 +62,8 @@ pub(crate) struct Order {
     pub(crate) number: u64,
     /// For whom it is done.
     pub(crate) author: Principal,
+    /// As whom that is counted where people take turns.
+    pub(crate) person: Arc<str>,
     /// The author's number; 0 where the session acts for it.
     pub(crate) id: u32,
     /// What to do, and the gesture it is part of.
@@ -157,6 +159,8 @@ pub struct Work {
     triangles: u64,
     /// Whose command was taken on last, and its number.
     doing: Option<(Principal, u32)>,
+    /// As whom that is counted where people take turns.
+    doing_for: Option<Arc<str>>,
     /// Whether the tree grows by it alone, without a hand.
     doing_alone: bool,
     /// The document is read when this entry is done: all that was acknowledged before the session was opened is in it.
@@ -207,6 +211,7 @@ impl Work {
             hold: None,
             triangles: 0,
             doing: None,
+            doing_for: None,
             doing_alone: true,
             reads_from: applied,
             owed: None,
@@ -320,9 +325,9 @@ impl Work {
     }
 
     /// For whom the next slice is, if it is for one person.
-    pub fn whose(&self) -> Option<&Principal> {
-        let doing = self.doing.as_ref().filter(|_| self.busy).map(|(author, _)| author);
-        doing.or_else(|| self.orders.front().map(|order| &order.author))
+    pub fn whose(&self) -> Option<&Arc<str>> {
+        let doing = self.doing_for.as_ref().filter(|_| self.busy);
+        doing.or_else(|| self.orders.front().map(|order| &order.person))
     }
 
     fn simulate(&mut self, is_over: impl Fn() -> bool, has_room: HasRoom<'_>) {
@@ -392,6 +397,7 @@ impl Work {
         self.document.stop_at(self.stops.end_of(order.number));
         note_last(&mut self.last_commands, &order.author, LastCommand { id: order.id, entry: order.number });
         self.doing = Some((order.author.clone(), order.id));
+        self.doing_for = Some(Arc::clone(&order.person));
         self.doing_alone = grows_alone(&order.command.action);
         let begun = self.document.begin(&order.author, &order.command);
         if room::changes_triangles(&order.command.action) {

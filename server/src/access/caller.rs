@@ -297,6 +297,7 @@ impl Caller {
             identity: self.identity().into(),
             name: named.map(Into::into),
             role: self.grant.role,
+            is_anybody: self.pass.is_none(),
         }
     }
 

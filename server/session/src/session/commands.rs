@@ -1,11 +1,12 @@
 //! Commands: their numbers, their one order, their way to the disk (`CM`).
 
-use std::collections::VecDeque;
+use std::{collections::VecDeque, sync::Arc};
 
 use espalier_proto::{Action, Command, Problem, Reason, ServerMessage, bounded::List, command::MAX_OWN_KEYS};
 
 use super::Session;
 use crate::{
+    entrant::counted_by_key,
     form::{self, read_command},
     io::{ActId, ClientId},
     principal::Principal,
@@ -168,6 +169,12 @@ impl Session {
         Ok((command, text))
     }
 
+    /// As whom it is counted what is done with a client key.
+    fn counted_as(&self, principal: &Principal) -> Arc<str> {
+        let known = self.authors.get(principal).and_then(|author| author.counted_as.as_ref());
+        known.map_or_else(|| counted_by_key(principal), Arc::clone)
+    }
+
     /// The other keys under which whoever has this one did something (`UD8`).
     fn other_keys(&self, principal: &Principal) -> List<String, 0, MAX_OWN_KEYS> {
         let has_done = |key: &&Principal| self.authors.get(key).is_some_and(|author| author.last_entry > 0);
@@ -200,7 +207,8 @@ impl Session {
             self.room.names_changed |= author.last_entry == 0;
             author.last_entry = number;
         }
-        self.queue.push(Order { number, author: principal.clone(), id, command, bytes, act });
+        let person = self.counted_as(principal);
+        self.queue.push(Order { number, author: principal.clone(), person, id, command, bytes, act });
         self.upkeep.last_command_at = self.now;
         self.upkeep.state_changed |= self.queue.least_steps() > 0;
         number

@@ -56,7 +56,9 @@ impl Session {
     pub(super) fn enter_room(&mut self, client: ClientId, principal: &Principal) -> Presence {
         let here: Here = self.present().map(|presence| (presence.device, presence.person)).unzip();
         let entrant = self.clients.get(&client).map(|client| client.entrant.clone());
-        let Entrant { identity, name, .. } = entrant.unwrap_or_else(|| Entrant::new("", Role::Viewer));
+        let entrant = entrant.unwrap_or_else(|| Entrant::new("", Role::Viewer));
+        self.authors.enter(principal).counted_as = Some(entrant.counted_as(principal));
+        let Entrant { identity, name, .. } = entrant;
         let (device, person) = self.room.register.enter(principal, &identity, &here);
         if let Some(given) = name {
             self.room.register.give_name(person, given);

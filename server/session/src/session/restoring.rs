@@ -8,6 +8,7 @@ use super::Session;
 use crate::{
     author::{LastCommand, note_last},
     document::Document,
+    entrant::counted_by_key,
     form::read_command,
     io::JournalEntry,
     principal::Principal,
@@ -131,7 +132,8 @@ fn read(
         last = number;
         let command = read_command(&text).map_err(|problem| RestoreError::Entry { number, problem })?;
         stops.note(number, &command.action);
-        orders.push_back(Order { number, author: principal, id, command, bytes: text.len(), act: None });
+        let (person, bytes) = (counted_by_key(&principal), text.len());
+        orders.push_back(Order { number, author: principal, person, id, command, bytes, act: None });
     }
     Ok((orders, stops))
 }
