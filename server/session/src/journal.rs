@@ -1,8 +1,11 @@
 //! The journal as the session sees it: one batch on the way, the next one gathering (`CM2`).
 
-use std::collections::{BTreeMap, VecDeque};
+use std::{
+    collections::{BTreeMap, VecDeque},
+    sync::Arc,
+};
 
-use crate::{io::JournalEntry, principal::Principal};
+use crate::{io::JournalEntry, principal::Principal, shares::Shares};
 
 /// Numbers entries and knows which are durable.
 #[derive(Debug)]
@@ -14,9 +17,22 @@ pub(crate) struct Journal {
     /// The last number known to be durable.
     durable: u64,
     gathering: Vec<JournalEntry>,
-    /// Author and id of every entry that is not durable yet, in order, with the length of its text.
-    waiting: VecDeque<(Principal, u32, usize)>,
+    /// Entries that are not durable yet, in order.
+    waiting: VecDeque<Waiting>,
     waiting_bytes: usize,
+    /// How many of those are whose.
+    shares: Shares,
+}
+
+/// An entry on its way.
+#[derive(Debug)]
+struct Waiting {
+    author: Principal,
+    id: u32,
+    /// As whom it is counted.
+    person: Arc<str>,
+    /// The length of its text.
+    bytes: usize,
 }
 
 impl Journal {
@@ -29,6 +45,7 @@ impl Journal {
             gathering: Vec::new(),
             waiting: VecDeque::new(),
             waiting_bytes: 0,
+            shares: Shares::default(),
         }
     }
 
@@ -47,16 +64,22 @@ impl Journal {
         (self.waiting.len(), self.waiting_bytes)
     }
 
-    /// Whether this command is on its way to the disk.
-    pub(crate) fn is_waiting(&self, author: &Principal, id: u32) -> bool {
-        self.waiting.iter().any(|(of, waiting, _)| of == author && *waiting == id)
+    /// How many of those are somebody's.
+    pub(crate) fn waiting_of(&self, person: &str) -> usize {
+        self.shares.of(person)
     }
 
-    /// Gives the next number to a command.
-    pub(crate) fn append(&mut self, author: &Principal, id: u32, command: String) -> u64 {
+    /// Whether this command is on its way to the disk.
+    pub(crate) fn is_waiting(&self, author: &Principal, id: u32) -> bool {
+        self.waiting.iter().any(|waiting| waiting.author == *author && waiting.id == id)
+    }
+
+    /// Gives the next number to a command, which is counted as somebody's.
+    pub(crate) fn append(&mut self, author: &Principal, person: Arc<str>, id: u32, command: String) -> u64 {
         self.last += 1;
-        self.waiting.push_back((author.clone(), id, command.len()));
+        self.shares.add(&person);
         self.waiting_bytes += command.len();
+        self.waiting.push_back(Waiting { author: author.clone(), id, person, bytes: command.len() });
         self.gathering.push(JournalEntry { number: self.last, principal: author.clone(), id, command });
         self.last
     }
@@ -74,9 +97,10 @@ impl Journal {
     pub(crate) fn made_durable(&mut self, through: u64) -> BTreeMap<Principal, u32> {
         let mut acknowledged = BTreeMap::new();
         while self.durable < through.min(self.handed) {
-            let Some((author, id, bytes)) = self.waiting.pop_front() else { break };
+            let Some(Waiting { author, id, person, bytes }) = self.waiting.pop_front() else { break };
             self.durable += 1;
             self.waiting_bytes -= bytes;
+            self.shares.take(&person);
             if id > 0 {
                 acknowledged.insert(author, id);
             }

@@ -25,6 +25,7 @@ mod room;
 mod schedule;
 mod schematic;
 mod session;
+mod shares;
 mod snapshot;
 mod species_script;
 mod stops;

@@ -11,11 +11,14 @@ use crate::{
     io::{ActId, ClientId},
     principal::Principal,
     rights::Access,
+    shares::Shares,
     work::{Order, SLICE_STEPS},
 };
 
 /// The most commands that wait for the document or for the disk.
 const MAX_WAITING: usize = 4096;
+/// The most of those that are one person's, so that nobody keeps all others out.
+const MAX_WAITING_OF_ONE: usize = 1024;
 /// The most bytes of journal text that wait for the document or for the disk.
 const MAX_WAITING_BYTES: usize = 8 * 1024 * 1024;
 
@@ -30,9 +33,11 @@ pub(super) struct Queue {
     away: Weight,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Debug, Default)]
 struct Weight {
     orders: usize,
+    /// How many of them are whose.
+    shares: Shares,
     bytes: usize,
     steps: u32,
 }
@@ -40,6 +45,7 @@ struct Weight {
 impl Weight {
     fn add(&mut self, order: &Order) {
         self.orders += 1;
+        self.shares.add(&order.person);
         self.bytes += order.bytes;
         self.steps = self.steps.saturating_add(least_steps(&order.command.action));
     }
@@ -80,6 +86,11 @@ impl Queue {
 
     pub(super) fn waiting(&self) -> (usize, usize) {
         (self.weight.orders + self.away.orders, self.weight.bytes + self.away.bytes)
+    }
+
+    /// How many of those commands are somebody's.
+    fn waiting_of(&self, person: &str) -> usize {
+        self.weight.shares.of(person) + self.away.shares.of(person)
     }
 }
 
@@ -166,6 +177,12 @@ impl Session {
             let allowed = format!("up to {MAX_WAITING} commands in {MAX_WAITING_BYTES} bytes that wait");
             return Err(Problem::new(Reason::Behind, message).at("kind", allowed));
         }
+        let person = self.counted_as(principal);
+        if self.queue.waiting_of(&person).max(self.journal.waiting_of(&person)) >= room * MAX_WAITING_OF_ONE {
+            let message = "too many of your commands wait to be done: try again when the tree has caught up";
+            let allowed = format!("up to {MAX_WAITING_OF_ONE} commands of one person that wait");
+            return Err(Problem::new(Reason::Behind, message).at("kind", allowed));
+        }
         Ok((command, text))
     }
 
@@ -202,12 +219,12 @@ impl Session {
         act: Option<ActId>,
     ) -> u64 {
         let bytes = text.len();
-        let number = self.journal.append(principal, id, text);
+        let person = self.counted_as(principal);
+        let number = self.journal.append(principal, Arc::clone(&person), id, text);
         if let Some(author) = self.authors.get_mut(principal) {
             self.room.names_changed |= author.last_entry == 0;
             author.last_entry = number;
         }
-        let person = self.counted_as(principal);
         self.queue.push(Order { number, author: principal.clone(), person, id, command, bytes, act });
         self.upkeep.last_command_at = self.now;
         self.upkeep.state_changed |= self.queue.least_steps() > 0;

@@ -1,8 +1,10 @@
 //! `LM`: what has the right form to become part of a document.
 
-use espalier_proto::{ClientMessage, ProblemCode, version::CloseCode};
-use espalier_session::read_command;
-use serde_json::json;
+use std::collections::BTreeMap;
+
+use espalier_proto::{ClientMessage, Problem, ProblemCode, Reason, access::Role, version::CloseCode};
+use espalier_session::{Entrant, read_command};
+use serde_json::{Value, json};
 
 use crate::{obstacles::tetrahedron, world::World};
 
@@ -83,7 +85,7 @@ fn unreadable_fields_are_named() {
 
 #[test]
 fn lm13_programmes_have_bounds() {
-    let programme = |stages: serde_json::Value, age: u32| {
+    let programme = |stages: Value, age: u32| {
         let programme = json!({ "parameters": {}, "stages": stages, "age": age });
         json!({ "kind": "set_programme", "programme": programme }).to_string()
     };
@@ -294,33 +296,38 @@ fn lm1_a_large_message_closes() {
 }
 
 #[test]
-fn commands_waiting_for_the_tree_are_bounded() {
+fn lm23_commands_waiting_for_the_tree_are_bounded() {
     let mut world = World::new();
     world.work_ms = u64::MAX / 2;
     check_bounded(&mut world);
 }
 
 #[test]
-fn commands_waiting_for_the_disk_are_bounded() {
+fn lm23_commands_waiting_for_the_disk_are_bounded() {
     let mut world = World::new();
     world.write_ms = u64::MAX / 2;
     check_bounded(&mut world);
 }
 
 fn check_bounded(world: &mut World) {
-    let client = world.join("birch-01");
-    for id in 1..=5000 {
-        world.command(client, id, json!({ "kind": "redo" }));
-        if id % 200 == 0 {
+    let people: Vec<u64> = (0..5).map(|person| world.join(&format!("person-{person}"))).collect();
+    for id in 1..=1000 {
+        for person in &people {
+            world.command(*person, id, json!({ "kind": "redo" }));
+        }
+        if id % 40 == 0 {
             world.pass(20);
         }
     }
-    let refused = world.peer(client).refused();
-    let too_many = refused.iter().filter(|(_, problem)| problem.code == ProblemCode::TooMany).count();
-    assert!((850..=910).contains(&too_many), "{too_many} were refused");
+    let refused = people.iter().flat_map(|person| world.peer(*person).refused());
+    let behind = |problem: &Problem| problem.reason == Reason::Behind;
+    let behind: Vec<_> = refused.map(|(_, problem)| problem).filter(behind).collect();
+    assert!((850..=910).contains(&behind.len()), "{} were refused", behind.len());
+    let all = Some("up to 4096 commands in 8388608 bytes that wait");
+    assert!(behind.iter().all(|problem| problem.allowed.as_deref() == all));
     // What all of them wait for can be stopped.
-    world.command(client, 5001, json!({ "kind": "stop" }));
-    assert!(world.peer(client).refused().iter().all(|(id, _)| *id != 5001));
+    world.command(people[0], 1001, json!({ "kind": "stop" }));
+    assert!(world.peer(people[0]).refused().iter().all(|(id, _)| *id != 1001));
 }
 
 #[test]
@@ -368,4 +375,44 @@ fn lm9_rows_and_light_have_their_ranges() {
     for (exposure, allowed) in [("0", Ok(())), ("1", Ok(())), ("1.01", Err((OUT, Some("exposure"))))] {
         check(&format!(r#"{{"kind":"prune_dim","exposure":{exposure}}}"#), allowed);
     }
+}
+
+#[test]
+fn lm23_nobody_keeps_others_out_of_a_session() {
+    let mut world = World::new();
+    let mut enter = |person: &str, key: &str, is_anybody: bool| {
+        let id = world.connect_as(Entrant { is_anybody, ..Entrant::new(person, Role::Editor) });
+        world.hello(id, key, None);
+        id
+    };
+    let (tablet, phone) = (enter("Bo", "bo-tablet", false), enter("Bo", "bo-phone", false));
+    let ann = enter("Ann", "ann-tablet", false);
+    let (here, there) = (enter("machine", "page-one", true), enter("machine", "page-two", true));
+    // Of no stroke, so that it costs nothing.
+    let end = || json!({ "kind": "stroke_end", "stroke": 1 });
+    let mut sent = BTreeMap::<u64, u32>::new();
+    // Nothing of it becomes durable, for no time passes.
+    let mut send = |world: &mut World, id: u64, count: u32, command: Value| {
+        let next = sent.entry(id).or_default();
+        for _ in 0..count {
+            *next += 1;
+            world.command(id, *next, command.clone());
+        }
+        let refused = world.peer(id).refused().into_iter().map(|(_, problem)| problem);
+        let refused = refused.filter(|problem| problem.reason == Reason::Behind);
+        refused.filter_map(|problem| problem.allowed).collect::<Vec<_>>()
+    };
+    assert_eq!(send(&mut world, tablet, 1000, end()), [""; 0]);
+    assert_eq!(send(&mut world, phone, 24, end()), [""; 0]);
+    let of_one = "up to 1024 commands of one person that wait".to_owned();
+    assert_eq!(send(&mut world, phone, 1, end()), [of_one.clone()]);
+    assert_eq!(send(&mut world, tablet, 1, end()), [of_one.clone()]);
+    assert_eq!(send(&mut world, tablet, 1, json!({ "kind": "stop" })), [of_one.clone()], "it is not refused");
+    assert_eq!(send(&mut world, ann, 1, end()), [""; 0]);
+    assert_eq!(send(&mut world, here, 1024, end()), [""; 0]);
+    assert_eq!(send(&mut world, here, 1, end()), [of_one]);
+    assert_eq!(send(&mut world, there, 1000, end()), [""; 0], "each key for itself");
+    // What is done and durable makes room.
+    world.settle();
+    assert_eq!(send(&mut world, phone, 1, end()).len(), 1, "no further one");
 }
