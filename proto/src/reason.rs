@@ -209,6 +209,8 @@ reasons! {
         NewerProgram,
         /// What is stored of a session is damaged.
         SessionDamaged,
+        /// The server did not outlive opening a session, twice; an owner lets it be tried again.
+        SessionWaits,
         /// What is stored of a saved tree is damaged.
         TreeDamaged,
     }

@@ -210,7 +210,11 @@ pub(super) async fn resume(
     State(shared): State<Shared>,
     Path(session): Path<String>,
 ) -> Result<StatusCode, Failure> {
-    if open(&shared, &session).await?.go_on().await? {
+    let goes_on = match shared.sessions.open(&session).await {
+        Err(OpenError::Waits) => shared.sessions.open_anew(&session).await?.is_some(),
+        opened => opened?.ok_or_else(Failure::no_session)?.go_on().await?,
+    };
+    if goes_on {
         return Ok(StatusCode::NO_CONTENT);
     }
     let problem = Problem::new(Reason::NothingWaits, "Nothing in this session waits to go on.");

@@ -3,7 +3,10 @@
 use std::{
     collections::BTreeMap,
     net::IpAddr,
-    sync::{Arc, Mutex, MutexGuard, PoisonError, Weak},
+    sync::{
+        Arc, Mutex, MutexGuard, PoisonError, Weak,
+        atomic::{AtomicBool, Ordering},
+    },
     time::Duration,
 };
 
@@ -44,6 +47,8 @@ struct Slot {
     session: OnceCell<SessionHandle>,
     /// How far it is loaded.
     progress: Progress,
+    /// Whether tries of before do not count.
+    is_anew: AtomicBool,
 }
 
 /// A session in memory.
@@ -83,6 +88,12 @@ impl Sessions {
     /// The session of this name, loaded if need be; nothing if there is none.
     pub async fn open(&self, name: &str) -> Result<Option<SessionHandle>, OpenError> {
         self.opening(name).opened().await
+    }
+
+    /// The same of one that the server did not outlive ([`OpenError::Waits`]), which is tried as if it had never been.
+    pub async fn open_anew(&self, name: &str) -> Result<Option<SessionHandle>, OpenError> {
+        self.slot(name).is_anew.store(true, Ordering::Relaxed);
+        self.open(name).await
     }
 
     /// The same, with how far it is.
@@ -253,6 +264,12 @@ impl Sessions {
     async fn load(&self, name: &str, slot: &Arc<Slot>) -> Result<SessionHandle, Unloaded> {
         let services = &self.0.services;
         let lease = services.store.acquire(name).await?;
+        if slot.is_anew.swap(false, Ordering::Relaxed)
+            && let Err(error) = services.store.forget_tries(&lease).await
+        {
+            services.store.release(lease).await;
+            return Err(error.into());
+        }
         let restored = restoring::restored(services, name, &lease, &slot.progress).await;
         let opened =
             match restored.map_err(Unloaded::Error).and_then(|opened| opened.ok_or(Unloaded::Unknown)) {

@@ -11,7 +11,8 @@ use crate::{
     store::{Damage, Lease, Store, StoreError, StoredSession},
 };
 
-/// After so many tries that came to no end what the journal holds waits (`OP5`).
+/// After so many tries that came to no end what the journal holds waits, or where it holds nothing the whole session
+/// (`OP5`).
 const MOST_TRIES: u32 = 2;
 
 /// The share of a snapshot in the time that it takes to load a session, where entries follow: nobody knows before how
@@ -36,6 +37,11 @@ pub enum OpenError {
     /// Restoring it panicked.
     #[error("The session cannot be restored: {0}.")]
     Panicked(#[from] Panicked),
+    /// The server did not outlive it, though its journal holds nothing that could wait.
+    #[error(
+        "The server failed twice while it opened this session; it is kept, and an owner lets it be tried again."
+    )]
+    Waits,
     /// There is no memory for it.
     #[error("The server has no memory left to open this now; it is tried again.")]
     Memory(#[from] Full),
@@ -68,6 +74,7 @@ impl OpenError {
             Self::Store(_) => Reason::NotOpened,
             Self::Damaged(_) | Self::Restore(_) | Self::Panicked(_) => Reason::SessionDamaged,
             Self::Later(_) => Reason::NewerProgram,
+            Self::Waits => Reason::SessionWaits,
             Self::Memory(_) => Reason::MemoryFull,
             Self::Ended => Reason::SessionEnded,
             Self::Stopping => Reason::Stopping,
@@ -162,12 +169,8 @@ pub(super) async fn restored_by(
     older.await.map(Some).map_err(|_| error)
 }
 
-/// Counts that the session is tried to be opened, if there is anything that the server might not outlive; how often it
-/// was.
+/// Counts that the session is tried to be opened; how often it was.
 async fn tries(services: &Services, name: &str, lease: &Lease, stored: &StoredSession) -> u32 {
-    if stored.entries.is_empty() {
-        return 0;
-    }
     // Durable before it is begun. On a full disk a session opens all the same.
     let tries = services.store.count_try(lease).await.unwrap_or_else(|error| {
         tracing::warn!(%error, session = name, "that the session is opened is not counted");
@@ -179,7 +182,7 @@ async fn tries(services: &Services, name: &str, lease: &Lease, stored: &StoredSe
             session = name,
             entries,
             tries = tries - 1,
-            "opening this session was tried and never came to an end; what its journal holds rests until an owner lets it go on"
+            "opening this session was tried and never came to an end; what its journal holds, or where that is nothing the session, rests until an owner lets it go on"
         );
     }
     tries
@@ -214,6 +217,9 @@ async fn restore(
     let tries = tries(services, name, lease, &stored).await;
     tracing::info!(session = name, entries = stored.entries.len(), last, "loading");
     let waits = tries > MOST_TRIES;
+    if waits && stored.entries.is_empty() {
+        return Err(OpenError::Waits);
+    }
     let StoredSession { seed, snapshot, entries, damage, notices, written_by, .. } = stored;
     let follow = entries.len();
     let begun = services.pool.run(Class::Whole, name.into(), {
@@ -221,7 +227,7 @@ async fn restore(
         let tail = if waits { Tail::Waits } else { Tail::Follows };
         move |_| begin(name, epoch, snapshot.as_deref(), seed, entries, tail)
     });
-    let restoring = begun.await?.map_err(|error| match error {
+    let begun = begun.await?.map_err(|error| match error {
         // Its row is sealed, so this is what was written.
         RestoreError::Entry { number, problem } => {
             tracing::error!(session = name, number, %problem, "an entry of the journal cannot be read");
@@ -229,12 +235,15 @@ async fn restore(
             OpenError::Later(format!("its entry {number} is of version {program}"))
         }
         error => error.into(),
-    })?;
-    let followed = followed(services, name, restoring, follow, &room, progress).await;
-    if matches!(followed, Err(OpenError::Stopping))
+    });
+    let followed = match begun {
+        Ok(restoring) => followed(services, name, restoring, follow, &room, progress).await,
+        Err(error) => Err(error),
+    };
+    if followed.as_ref().is_err_and(|error| !matches!(error, OpenError::Panicked(_)))
         && let Err(error) = services.store.forget_tries(lease).await
     {
-        tracing::warn!(%error, session = name, "that a server stopped counts as if it had not outlived the session");
+        tracing::warn!(%error, session = name, "what the server outlived counts as if it had not");
     }
     let mut session = followed?;
     if !damage.is_empty() || !fresh.is_empty() {

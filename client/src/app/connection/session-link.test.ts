@@ -414,6 +414,19 @@ describe("what is in the way", () => {
     expect(lastSession.peek(), "it is not come back to").toBeNull();
   });
 
+  it("OP5: a session that the server did not outlive waits for an owner", async () => {
+    for (const [reason, waits] of [
+      ["session-waits", true],
+      ["session-damaged", false],
+    ] as const) {
+      const { link, hindrance, newest } = setUp("/s/oak");
+      await link.start();
+      newest().end(CloseCode.CannotOpen, `${reason}: The server failed twice.`);
+      await vi.waitFor(() => expect(link.refusal.peek()).not.toBe(""));
+      expect([hindrance.peek(), link.waits.peek()]).toEqual(["cannot-open", waits]);
+    }
+  });
+
   it("HS1: another version, answered by loading the page once", async () => {
     const store = storage();
     const [before, after] = [setUp("/s/oak", { store }), setUp("/s/oak", { store })];

@@ -81,6 +81,8 @@ export class SessionLink implements PageEvents {
   readonly session = signal<string | null>(null);
   /** Why the server cannot open the session, if it cannot. */
   readonly refusal = signal("");
+  /** Whether that is because the server did not outlive it, so that an owner may have it tried again (`OP5`). */
+  readonly waits = signal(false);
   readonly phase = signal<Phase>("idle");
   readonly attempts = signal(0);
   /** How often of late what the server sent could not be read. */
@@ -348,6 +350,7 @@ export class SessionLink implements PageEvents {
         cannotOpen: async (text) => {
           const turned = turnedAway(text);
           if (!askToEnter(turned.problem, page.location)) {
+            this.waits.value = turned.problem.reason === "session-waits";
             this.refusal.value = await explained(turned);
           }
         },

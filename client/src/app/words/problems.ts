@@ -253,6 +253,10 @@ export const REFUSALS = {
     "Diesen Baum hat ein neueres Espalier gemacht; um ihn zu öffnen, muss der Server aktualisiert werden.",
   ],
   "problems.session-damaged": ["The record of this tree is damaged.", "Die Aufzeichnung dieses Baums ist beschädigt."],
+  "problems.session-waits": [
+    "The server failed twice while it opened this tree. The tree is kept; an owner can let it be tried again.",
+    "Der Server ist zweimal daran gescheitert, diesen Baum zu öffnen. Der Baum ist behalten; ein Eigentümer kann es noch einmal versuchen lassen.",
+  ],
   "problems.tree-damaged": ["The saved tree is damaged.", "Der gespeicherte Baum ist beschädigt."],
   "problems.branch-gone": [
     "That branch is gone: someone has just cut it, or the tree has shed it.",

@@ -2,6 +2,7 @@ import { useEffect, useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
 import { descriptorOf } from "../../tools/tools";
 import { say } from "../../words/say";
+import { GoOn } from "./paused-chip";
 
 /** What keeps the workspace from being used, and the way on. */
 export function HindranceCard({ studio }: { studio: Studio }) {
@@ -15,6 +16,9 @@ export function HindranceCard({ studio }: { studio: Studio }) {
       <p>{hindrance === "cannot-open" ? studio.link.refusal.value : say(`notices.${hindrance}.text`)}</p>
       {(hindrance === "unknown-session" || hindrance === "cannot-open" || hindrance === "only-look") && (
         <WayToTrees studio={studio} />
+      )}
+      {hindrance === "cannot-open" && studio.link.waits.value && studio.rights.mayResume && (
+        <GoOn studio={studio} look="" then={() => location.reload()} />
       )}
       {(hindrance === "version" || hindrance === "no-picture") && (
         <button type="button" class="primary" onClick={() => location.reload()}>

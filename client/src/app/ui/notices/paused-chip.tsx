@@ -33,7 +33,8 @@ export function PausedChip({ studio }: { studio: Studio }) {
   );
 }
 
-function GoOn({ studio }: { studio: Studio }) {
+/** Has that tried again which the server did not outlive. */
+export function GoOn({ studio, look = "chip-stop", then }: { studio: Studio; look?: string; then?: () => void }) {
   const [asking, setAsking] = useState(false);
   const act = async () => {
     const session = studio.link.session.value;
@@ -43,6 +44,7 @@ function GoOn({ studio }: { studio: Studio }) {
     setAsking(true);
     try {
       await goOn(session);
+      then?.();
     } catch (error) {
       studio.toasts.show(await explained(error));
     } finally {
@@ -50,7 +52,7 @@ function GoOn({ studio }: { studio: Studio }) {
     }
   };
   return (
-    <button type="button" class="chip-stop" disabled={asking} onClick={() => void act()}>
+    <button type="button" class={look} disabled={asking} onClick={() => void act()}>
       {say("chips.paused.go-on")}
     </button>
   );

@@ -62,6 +62,49 @@ async fn op5_a_session_that_opens_is_not_counted() {
 }
 
 #[tokio::test]
+async fn op5_a_session_whose_snapshot_the_server_does_not_outlive_waits_as_a_whole() {
+    let house = House::new().await;
+    let lease = house.store.acquire("oak").await.unwrap();
+    // The journal holds nothing.
+    let dies: restoring::Begin = |_, _, _, _, _, _| panic!("on purpose, for a test");
+    let (services, progress) = (&house.sessions.0.services, Progress::default());
+    for _ in 0..2 {
+        let opened = restoring::restored_by(dies, services, "oak", &lease, &progress).await;
+        assert!(matches!(opened, Err(OpenError::Panicked(_))));
+    }
+    house.store.release(lease).await;
+    // It is not even tried, however often somebody comes and whichever server that is.
+    for _ in 0..2 {
+        let waits = house.sessions.open("oak").await.unwrap_err();
+        assert!(matches!(waits, OpenError::Waits) && waits.is_final(), "{waits}");
+    }
+    let house = house.restarted().await;
+    let lease = house.store.acquire("oak").await.unwrap();
+    let (services, progress) = (&house.sessions.0.services, Progress::default());
+    let untried = restoring::restored_by(dies, services, "oak", &lease, &progress).await;
+    assert!(matches!(untried, Err(OpenError::Waits)));
+    house.store.release(lease).await;
+    // An owner has it tried, and it opens: it counts anew from then on.
+    assert!(house.sessions.open_anew("oak").await.unwrap().is_some());
+    let mut visitor = house.visit().await;
+    assert_eq!(visitor.welcome().await.1, 0);
+    let house = house.restarted().await;
+    assert_eq!(house.store.count_try(&house.store.acquire("oak").await.unwrap()).await.unwrap(), 1);
+}
+
+#[tokio::test]
+async fn op5_what_cannot_be_restored_is_damaged_however_often_it_is_tried() {
+    let house = House::new().await;
+    let lease = house.store.acquire("oak").await.unwrap();
+    let damaged: restoring::Begin = |_, _, _, _, _, _| Err(RestoreError::Gap { expected: 1, found: 2 });
+    for tried in 1..5 {
+        let (services, progress) = (&house.sessions.0.services, Progress::default());
+        let opened = restoring::restored_by(damaged, services, "oak", &lease, &progress).await;
+        assert!(matches!(opened, Err(OpenError::Restore(_))), "{tried}");
+    }
+}
+
+#[tokio::test]
 async fn a_server_that_stops_waits_for_no_journal() {
     let house = House::new().await;
     let lease = with_growth(&house).await;
