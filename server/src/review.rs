@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// Bytes of pictures in one file; the threads that follow are without theirs.
-const MOST_PICTURES: usize = 40 * 1024 * 1024;
+pub const MOST_PICTURES: usize = 40 * 1024 * 1024;
 /// Threads read at once.
 const PAGE: u32 = 100;
 

@@ -28,6 +28,7 @@ use super::{
     audit::Made,
     failure::{Body, Failure, Path, Query},
     guard::Named,
+    held,
     limit::Limit,
     mentions::{self, Called},
     sessions, trees,
@@ -35,12 +36,15 @@ use super::{
 use crate::{
     access::{Action, Caller, Rate, SecretHash},
     live::{StoredPin, pins_of},
+    memory::{self, Claim, Use},
     store::{self, CommentChange, Comments, Library, StoreError, StoredThread},
     time::{now, written},
 };
 
 /// Threads in one answer.
 const MAX_THREADS: u32 = 200;
+/// Memory is taken for what people say of a tree from so many bytes on.
+const COUNTED_FROM: u64 = 1 << 20;
 /// For so long a comment may be changed by whoever wrote it.
 const CHANGED_WITHIN: Duration = Duration::from_mins(COMMENT_MINUTES as u64);
 /// Comments that somebody writes in a minute.
@@ -100,12 +104,25 @@ pub(super) async fn list(
     Path(tree): Path<String>,
     Query(page): Query<Page>,
     caller: Caller,
-) -> Result<Json<Vec<Thread>>, Failure> {
+) -> Result<Response, Failure> {
     trees::stored(&shared, &tree).await?;
+    let bytes = shared.store.comment_bytes(&tree).await?;
+    let claim = room(&shared, memory::comments(bytes.said)).await?;
     let seen = seen(&shared, &tree, &caller).await?;
     let threads = shared.store.threads(&tree, page.limit.get(), page.before).await?;
-    let threads: Result<_, _> = threads.into_iter().map(|thread| told(thread, &caller, &seen)).collect();
-    Ok(Json(threads?))
+    let threads: Result<Vec<Thread>, _> =
+        threads.into_iter().map(|thread| told(thread, &caller, &seen)).collect();
+    // Texts and numbers always have a JSON form.
+    let json = serde_json::to_vec(&threads?).unwrap_or_default();
+    Ok(([(header::CONTENT_TYPE, "application/json")], held::body(json, claim)).into_response())
+}
+
+/// Memory for what people say of a tree, where that is much.
+pub(super) async fn room(shared: &Shared, bytes: u64) -> Result<Option<Claim>, Failure> {
+    if bytes < COUNTED_FROM {
+        return Ok(None);
+    }
+    Ok(Some(shared.memory.take_soon(Use::Export, bytes).await?))
 }
 
 pub(super) async fn find(
@@ -187,7 +204,7 @@ pub(super) async fn edit(
     }
     let said = Said { text: text.into(), ..Said::from_json(&found.said)? };
     let edited = CommentChange::Edited { said: said.to_json(), at: now() };
-    if !shared.store.change_comment(&tree, thread, comment, edited).await? {
+    if !shared.store.change_comment(&tree, thread, comment, edited).await.map_err(full)? {
         return Err(no_comment());
     }
     tell(&shared, &tree, None, thread).await?;
@@ -365,9 +382,9 @@ fn count(shared: &Shared, caller: &Caller) -> Result<(), Failure> {
 fn full(error: StoreError) -> Failure {
     match error {
         StoreError::Full => {
-            let sentence = "The tree has as many comments, or pictures of them, as it may.";
-            let problem = Problem::new(Reason::TooMany, sentence);
-            problem.at("tree", "1,000 threads of 200 comments each, and 64 MiB of pictures").into()
+            let sentence = "The tree has as many comments, or as much in them, as it may.";
+            let allowed = "1,000 threads of 200 comments each, 64 MiB of pictures, 64 MiB of words and lines";
+            Problem::new(Reason::TooMany, sentence).at("tree", allowed).into()
         }
         error => error.into(),
     }

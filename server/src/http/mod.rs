@@ -16,6 +16,7 @@ mod grammars;
 mod groups;
 mod guard;
 mod guests;
+mod held;
 mod imports;
 mod jobs;
 mod keys;

@@ -13,9 +13,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{
-    Shared,
+    Shared, comments,
     failure::{Failure, Path, Query},
-    file_name, sessions, trees,
+    file_name, held, sessions, trees,
 };
 use crate::{
     memory::{self, Need, Use},
@@ -42,13 +42,16 @@ pub(super) async fn page(
 ) -> Result<Response, Failure> {
     let stored = trees::stored(&shared, &tree).await?;
     let states = states(&shared, &stored).await?;
+    let bytes = shared.store.comment_bytes(&tree).await?;
+    let pictures = bytes.pictures.min(review::MOST_PICTURES as u64);
+    let claim = comments::room(&shared, memory::review(bytes.said, pictures)).await?;
     let html = review::summary(&*shared.store, &stored, &states, &now(), language).await?;
     let headers = [
         (header::CONTENT_TYPE, "text/html; charset=utf-8".to_owned()),
         (header::CONTENT_SECURITY_POLICY, CONTENT_SECURITY_POLICY.to_owned()),
         (header::CONTENT_DISPOSITION, file_name::inline(&format!("{} review", stored.name), "html")),
     ];
-    Ok((headers, html).into_response())
+    Ok((headers, held::body(html, claim)).into_response())
 }
 
 /// Where the pins are: in the session of the tree if it is in memory, else in what was saved last.

@@ -55,6 +55,16 @@ pub fn picture(bytes: usize, pixels: usize) -> u64 {
     PICTURE + drawn + (pixels as u64).saturating_mul(PIXEL)
 }
 
+/// What people say of a tree, so many bytes: as it is stored, as it is read, and as it is written.
+pub fn comments(said: u64) -> u64 {
+    said.saturating_mul(3)
+}
+
+/// The same as a page with so many bytes of pictures as text, which may have twice the room that it needs.
+pub fn review(said: u64, pictures: u64) -> u64 {
+    comments(said) + pictures.saturating_mul(3)
+}
+
 /// A file of so many bytes that is read.
 pub fn upload(bytes: u64) -> u64 {
     bytes.saturating_mul(MODEL_BYTE)

@@ -8,12 +8,12 @@ use espalier_session::{JournalEntry, Named, Principal};
 #[cfg(test)]
 use super::MemoryStore;
 use super::{
-    Answer, AnswerKey, Answering, Answers, Audit, Authors, Collection, CollectionChange, CommentChange,
-    Comments, Commits, Damage, Event, Finding, Gift, Gifts, Given, Group, GroupChange, Groups, Heir, Lease,
-    Library, Locks, MostAnswers, NewComment, NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass,
-    PassKind, Passes, Picture, Receiver, Removal, Room, SessionLine, SessionQuery, SessionTree, SqliteStore,
-    Standing, Standings, Store, StoreError, StoredSession, StoredThread, StoredTree, StoredVersion, Terms,
-    TreeChange, TreeDocument, TreeQuery, User, UserChange, Users, Visits,
+    Answer, AnswerKey, Answering, Answers, Audit, Authors, Collection, CollectionChange, CommentBytes,
+    CommentChange, Comments, Commits, Damage, Event, Finding, Gift, Gifts, Given, Group, GroupChange, Groups,
+    Heir, Lease, Library, Locks, MostAnswers, NewComment, NewSession, NewSnapshot, NewTree, NewVersion,
+    Noted, Pass, PassKind, Passes, Picture, Receiver, Removal, Room, SessionLine, SessionQuery, SessionTree,
+    SqliteStore, Standing, Standings, Store, StoreError, StoredSession, StoredThread, StoredTree,
+    StoredVersion, Terms, TreeChange, TreeDocument, TreeQuery, User, UserChange, Users, Visits,
 };
 use crate::access::SecretHash;
 
@@ -299,6 +299,10 @@ impl Comments for AnyStore {
 
     async fn thread(&self, tree: &str, thread: u32) -> Result<Option<StoredThread>, StoreError> {
         delegate!(self.thread(tree, thread))
+    }
+
+    async fn comment_bytes(&self, tree: &str) -> Result<CommentBytes, StoreError> {
+        delegate!(self.comment_bytes(tree))
     }
 
     async fn pins(&self, tree: &str) -> Result<Vec<(u32, String)>, StoreError> {

@@ -8,6 +8,8 @@ pub const MOST_THREADS: u32 = 1_000;
 pub const MOST_COMMENTS: u32 = 200;
 /// Bytes of pictures that the comments of a tree may have.
 pub const MOST_PICTURES: u64 = 64 * 1024 * 1024;
+/// Bytes of all else that they say, as JSON: words, and lines that were drawn.
+pub const MOST_SAID: u64 = 64 * 1024 * 1024;
 
 /// Keeps threads of comments. Where there is no such tree it is [`StoreError::NotFound`], where there is no room for
 /// another [`StoreError::Full`]. A thread without comments is not there.
@@ -24,7 +26,7 @@ pub trait Comments {
         comment: NewComment,
     ) -> Result<Option<u32>, StoreError>;
 
-    /// Gives a comment other words, or deletes it; whether it was there.
+    /// Gives a comment other words, if there is room for more of them, or deletes it; whether it was there.
     async fn change_comment(
         &self,
         tree: &str,
@@ -51,6 +53,9 @@ pub trait Comments {
 
     /// One thread.
     async fn thread(&self, tree: &str, thread: u32) -> Result<Option<StoredThread>, StoreError>;
+
+    /// How much the comments of a tree hold.
+    async fn comment_bytes(&self, tree: &str) -> Result<CommentBytes, StoreError>;
 
     /// The pins of all threads of a tree that have one, by their numbers.
     async fn pins(&self, tree: &str) -> Result<Vec<(u32, String)>, StoreError>;
@@ -89,6 +94,33 @@ pub struct NewComment {
     pub said: String,
     /// What they saw.
     pub picture: Option<Picture>,
+}
+
+/// What comments hold, in bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CommentBytes {
+    /// What they say, as JSON.
+    pub said: u64,
+    /// Their pictures.
+    pub pictures: u64,
+}
+
+impl CommentBytes {
+    /// Fails where there is no room for so much more.
+    pub(super) fn require_room(self, more: Self) -> Result<(), StoreError> {
+        let is_full = |held: u64, more: u64, most: u64| more > 0 && held.saturating_add(more) > most;
+        if is_full(self.said, more.said, MOST_SAID) || is_full(self.pictures, more.pictures, MOST_PICTURES) {
+            return Err(StoreError::Full);
+        }
+        Ok(())
+    }
+}
+
+impl NewComment {
+    pub(super) fn bytes(&self) -> CommentBytes {
+        let pictures = self.picture.as_ref().map_or(0, |picture| picture.bytes.len() as u64);
+        CommentBytes { said: self.said.len() as u64, pictures }
+    }
 }
 
 /// What becomes of a comment.

@@ -37,7 +37,7 @@ pub use self::{
     audit::{Audit, DONE, EXPORT, Event, MOST_EVENTS, Noted},
     authors::Authors,
     comments::{
-        CommentChange, Comments, MOST_COMMENTS, MOST_PICTURES, MOST_THREADS, NewComment, StoredComment,
+        CommentBytes, CommentChange, Comments, MOST_COMMENTS, MOST_THREADS, NewComment, StoredComment,
         StoredThread,
     },
     finding::{Collection, CollectionChange, Finding, Sort, TreePlace, TreeQuery},

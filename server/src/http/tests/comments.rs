@@ -4,6 +4,10 @@ use base64::{Engine, prelude::BASE64_STANDARD};
 use serde_json::{Value, json};
 
 use super::*;
+use crate::{
+    memory::{Need, Use},
+    store::{self, Comments},
+};
 
 const THREADS: &str = "/api/v1/trees/ash/threads";
 
@@ -125,14 +129,14 @@ async fn ct5_one_changes_and_deletes_what_one_wrote_and_owners_delete_all() {
     let (status, thread) = asked(&server, &ann, &Method::PATCH, &own, &other).await;
     assert_eq!((status, &thread["comments"][0]["text"]), (200, &json!("ONE")));
     assert!(thread["comments"][0]["edited_at"].is_string());
-    let old = crate::store::NewComment {
+    let old = store::NewComment {
         person: Caller::local().person(),
         author: "Ann".into(),
         written_at: "2026-01-01T00:00:00.000Z".into(),
         said: json!({ "text": "old" }).to_string(),
         picture: None,
     };
-    crate::store::Comments::add_comment(&*store, "ash", 1, old).await.unwrap();
+    store.add_comment("ash", 1, old).await.unwrap();
     let body = Body::from(json!({ "text": "new" }).to_string());
     let late = request(&Method::PATCH, &format!("{THREADS}/1/comments/2"));
     let late = late.header(header::CONTENT_TYPE, "application/json").body(body).unwrap();
@@ -162,4 +166,36 @@ async fn ct6_the_summary_is_one_page_that_runs_nothing() {
     let html = String::from_utf8(bytes.to_vec()).unwrap();
     assert!(html.contains("&lt;script&gt;alert(1)") && !html.contains("<script"), "{html}");
     assert!(html.contains("data:image/png;base64,") && html.contains("Kommentare zu"), "{html}");
+}
+
+#[tokio::test]
+async fn lm19_much_that_is_said_is_shown_where_there_is_memory_for_it() {
+    let shared = shared().await;
+    let server = router(shared.clone());
+    let ann = token(&shared.store, Role::Commenter, None).await;
+    let text = |letters: usize| json!({ "text": "x".repeat(letters) }).to_string();
+    let said =
+        |letters| store::NewComment { author: "Ann".into(), said: text(letters), ..Default::default() };
+    shared.store.add_thread("ash", None, said(2 << 20)).await.unwrap();
+    shared.store.add_thread("yew", None, said(1000)).await.unwrap();
+    let left = shared.memory.look().left();
+    let all = shared.memory.take(Use::Job, Need::Other, left).unwrap();
+    let review = "/api/v1/trees/ash/review.html";
+    for path in [THREADS, review] {
+        let (status, problem) = asked(&server, &ann, &Method::GET, path, &Value::Null).await;
+        assert_eq!((status, &problem["reason"]), (503, &json!("memory-full")), "{path}");
+    }
+    let little = asked(&server, &ann, &Method::GET, "/api/v1/trees/yew/threads", &Value::Null).await;
+    assert_eq!(little.0, 200);
+    drop(all);
+    for path in [THREADS, review] {
+        let request = request_of(&ann, &Method::GET, path).body(Body::empty()).unwrap();
+        let answer = server.clone().oneshot(request).await.unwrap();
+        assert_eq!(answer.status(), StatusCode::OK, "{path}");
+        assert!(shared.memory.look().taken_for(Use::Export) >= 4 << 20, "until it is sent: {path}");
+        let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+        assert!(bytes.len() > 2 << 20);
+        drop(bytes);
+        assert_eq!(shared.memory.look().taken_for(Use::Export), 0, "{path}");
+    }
 }

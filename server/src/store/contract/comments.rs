@@ -2,8 +2,8 @@
 
 use super::{
     super::{
-        CommentChange, Comments, Deletion, Library, MOST_COMMENTS, Missing, NewComment, Picture, StoreError,
-        TreeChange,
+        CommentBytes, CommentChange, Comments, Deletion, Library, MOST_COMMENTS, Missing, NewComment,
+        Picture, StoreError, TreeChange,
     },
     library::tree,
 };
@@ -112,6 +112,22 @@ pub(super) async fn comments_are_bounded(store: &(impl Comments + Library)) {
     assert!(matches!(store.add_thread("ash", None, large(5 << 20)).await, Err(StoreError::Full)));
     store.change_comment("ash", 2, 1, CommentChange::Deleted).await.unwrap();
     store.add_thread("ash", None, large(5 << 20)).await.unwrap();
+    let wordy = |bytes: usize| comment("Ann", &"\u{e4}".repeat(bytes / 2));
+    let before = store.comment_bytes("ash").await.unwrap();
+    assert_eq!(before.pictures, 5 << 20);
+    store.add_thread("ash", None, wordy(60 << 20)).await.unwrap();
+    assert_eq!(
+        store.comment_bytes("ash").await.unwrap().said,
+        before.said + (60 << 20),
+        "bytes, not letters"
+    );
+    assert!(matches!(store.add_thread("ash", None, wordy(5 << 20)).await, Err(StoreError::Full)));
+    assert!(matches!(store.add_comment("ash", 4, wordy(5 << 20)).await, Err(StoreError::Full)));
+    let edited = |bytes: usize| CommentChange::Edited { said: wordy(bytes).said, at: AT.into() };
+    assert!(matches!(store.change_comment("ash", 4, 1, edited(65 << 20)).await, Err(StoreError::Full)));
+    assert!(store.change_comment("ash", 4, 1, edited(58 << 20)).await.unwrap());
+    assert_eq!(store.add_comment("ash", 4, wordy(5 << 20)).await.unwrap(), Some(2));
+    assert_eq!(store.comment_bytes("elm").await.unwrap(), CommentBytes::default());
 }
 
 pub(super) async fn comments_go_with_their_tree(store: &(impl Comments + Library)) {

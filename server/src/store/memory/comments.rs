@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{
     super::{
-        CommentChange, Comments, MOST_COMMENTS, MOST_PICTURES, MOST_THREADS, Missing, NewComment, Picture,
+        CommentBytes, CommentChange, Comments, MOST_COMMENTS, MOST_THREADS, Missing, NewComment, Picture,
         StoreError, StoredComment, StoredThread,
     },
     Kept, MemoryStore,
@@ -27,9 +27,11 @@ impl Thread {
         (!comments.is_empty()).then_some(StoredThread { number, pin, resolved, comments })
     }
 
-    fn pictures(&self) -> u64 {
-        let pictures = self.comments.iter().flatten().filter_map(|(_, picture)| picture.as_ref());
-        pictures.map(|picture| picture.bytes.len() as u64).sum()
+    fn add_to(&self, held: &mut CommentBytes) {
+        for (comment, picture) in self.comments.iter().flatten() {
+            held.said += comment.said.len() as u64;
+            held.pictures += picture.as_ref().map_or(0, |picture| picture.bytes.len() as u64);
+        }
     }
 
     pub(super) fn forget_reader(&mut self, person: &str) {
@@ -60,7 +62,7 @@ impl Thread {
 }
 
 impl Kept {
-    /// The threads of a tree that is there, if they have room for a picture.
+    /// The threads of a tree that is there, if they have room for another comment.
     fn threads_for(
         &mut self,
         tree: &str,
@@ -69,10 +71,15 @@ impl Kept {
         if !self.trees.contains_key(tree) {
             return Err(StoreError::NotFound(Missing::Tree));
         }
-        let threads = self.threads.entry(tree.to_owned()).or_default();
-        let added = new.picture.as_ref().map_or(0, |picture| picture.bytes.len() as u64);
-        let held: u64 = threads.values().map(Thread::pictures).sum();
-        if added > 0 && held + added > MOST_PICTURES { Err(StoreError::Full) } else { Ok(threads) }
+        self.held_by(tree).require_room(new.bytes())?;
+        Ok(self.threads.entry(tree.to_owned()).or_default())
+    }
+
+    fn held_by(&self, tree: &str) -> CommentBytes {
+        let mut held = CommentBytes::default();
+        let threads = self.threads.get(tree).into_iter().flatten();
+        threads.for_each(|(_, thread)| thread.add_to(&mut held));
+        held
     }
 
     fn there(&mut self, tree: &str, thread: u32) -> Option<&mut Thread> {
@@ -123,12 +130,15 @@ impl Comments for MemoryStore {
         change: CommentChange,
     ) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
+        let held = kept.held_by(tree);
         let found = kept.there(tree, thread).and_then(|found| {
             found.comments.get_mut((comment as usize).checked_sub(1)?).filter(|one| one.is_some())
         });
         let Some(found) = found else { return Ok(false) };
         match (change, found) {
             (CommentChange::Edited { said, at }, Some((one, _))) => {
+                let more = said.len().saturating_sub(one.said.len()) as u64;
+                held.require_room(CommentBytes { said: more, pictures: 0 })?;
                 (one.said, one.edited_at) = (said, Some(at));
             }
             (CommentChange::Deleted, found) => *found = None,
@@ -161,6 +171,10 @@ impl Comments for MemoryStore {
 
     async fn thread(&self, tree: &str, thread: u32) -> Result<Option<StoredThread>, StoreError> {
         Ok(self.kept().there(tree, thread).and_then(|found| found.stored(thread)))
+    }
+
+    async fn comment_bytes(&self, tree: &str) -> Result<CommentBytes, StoreError> {
+        Ok(self.kept().held_by(tree))
     }
 
     async fn pins(&self, tree: &str) -> Result<Vec<(u32, String)>, StoreError> {

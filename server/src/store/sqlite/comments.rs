@@ -4,7 +4,7 @@ use sqlx::{SqlitePool, sqlite::SqliteConnection};
 
 use super::{
     super::{
-        CommentChange, Comments, MOST_COMMENTS, MOST_PICTURES, MOST_THREADS, Missing, NewComment, Picture,
+        CommentBytes, CommentChange, Comments, MOST_COMMENTS, MOST_THREADS, Missing, NewComment, Picture,
         StoreError, StoredComment, StoredThread,
     },
     SqliteStore,
@@ -108,6 +108,17 @@ impl Comments for SqliteStore {
         }
     }
 
+    async fn comment_bytes(&self, tree: &str) -> Result<CommentBytes, StoreError> {
+        let id: Option<i64> = sqlx::query_scalar("SELECT id FROM trees WHERE key = ?")
+            .bind(tree)
+            .fetch_optional(&self.readers)
+            .await?;
+        match id {
+            Some(id) => held_by(&self.readers, id).await,
+            None => Ok(CommentBytes::default()),
+        }
+    }
+
     async fn pins(&self, tree: &str) -> Result<Vec<(u32, String)>, StoreError> {
         let pins = sqlx::query_as(
             "SELECT threads.number, pin FROM threads JOIN trees ON trees.id = threads.tree
@@ -194,7 +205,7 @@ impl CommentWrite {
         match self {
             Self::Begin { tree, pin, first } => {
                 let tree = tree_id(connection, tree).await?;
-                require_room(connection, tree, first).await?;
+                held_by(&mut *connection, tree).await?.require_room(first.bytes())?;
                 let number: u32 =
                     sqlx::query_scalar("SELECT coalesce(max(number), 0) + 1 FROM threads WHERE tree = ?")
                         .bind(tree)
@@ -210,7 +221,7 @@ impl CommentWrite {
             }
             Self::Add { tree, thread, comment } => {
                 let tree = tree_id(connection, tree).await?;
-                require_room(connection, tree, comment).await?;
+                held_by(&mut *connection, tree).await?.require_room(comment.bytes())?;
                 let found: Option<(i64, u32)> = sqlx::query_as(
                     "SELECT threads.id, max(comments.number) FROM threads JOIN comments ON thread = threads.id
                      WHERE tree = ? AND threads.number = ? GROUP BY threads.id HAVING count(said) > 0",
@@ -228,7 +239,10 @@ impl CommentWrite {
             }
             Self::Change { tree, thread, comment, change } => {
                 let (said, at) = match change {
-                    CommentChange::Edited { said, at } => (Some(said), Some(at)),
+                    CommentChange::Edited { said, at } => {
+                        require_room_for(connection, (tree, *thread, *comment), said).await?;
+                        (Some(said), Some(at))
+                    }
                     CommentChange::Deleted => (None, None),
                 };
                 let changed = sqlx::query(
@@ -271,22 +285,41 @@ async fn tree_id(connection: &mut SqliteConnection, key: &str) -> Result<i64, St
     found.fetch_optional(connection).await?.ok_or(StoreError::NotFound(Missing::Tree))
 }
 
-/// Whether the pictures of a tree's comments leave room for that of another.
-async fn require_room(
-    connection: &mut SqliteConnection,
+/// What the comments of a tree hold. Nothing of it is read but how long it is.
+async fn held_by<'a>(
+    connection: impl sqlx::SqliteExecutor<'a>,
     tree: i64,
-    new: &NewComment,
-) -> Result<(), StoreError> {
-    let Some(picture) = &new.picture else { return Ok(()) };
-    let held: i64 = sqlx::query_scalar(
-        "SELECT coalesce(sum(length(picture)), 0) FROM comments JOIN threads ON threads.id = comments.thread
-         WHERE tree = ?",
+) -> Result<CommentBytes, StoreError> {
+    let (said, pictures): (i64, i64) = sqlx::query_as(
+        "SELECT coalesce(sum(octet_length(said)), 0), coalesce(sum(octet_length(picture)), 0)
+         FROM comments JOIN threads ON threads.id = comments.thread WHERE tree = ?",
     )
     .bind(tree)
     .fetch_one(connection)
     .await?;
-    let needed = u64::try_from(held).unwrap_or(u64::MAX).saturating_add(picture.bytes.len() as u64);
-    if needed > MOST_PICTURES { Err(StoreError::Full) } else { Ok(()) }
+    let bytes = |sum: i64| u64::try_from(sum).unwrap_or(u64::MAX);
+    Ok(CommentBytes { said: bytes(said), pictures: bytes(pictures) })
+}
+
+/// Fails where there is no room for a comment to say this.
+async fn require_room_for(
+    connection: &mut SqliteConnection,
+    (tree, thread, comment): (&str, u32, u32),
+    said: &str,
+) -> Result<(), StoreError> {
+    let found: Option<(i64, i64)> = sqlx::query_as(
+        "SELECT threads.tree, octet_length(said) FROM comments JOIN threads ON threads.id = comments.thread
+         JOIN trees ON trees.id = threads.tree
+         WHERE key = ? AND threads.number = ? AND comments.number = ? AND said IS NOT NULL",
+    )
+    .bind(tree)
+    .bind(thread)
+    .bind(comment)
+    .fetch_optional(&mut *connection)
+    .await?;
+    let Some((tree, before)) = found else { return Ok(()) };
+    let more = (said.len() as u64).saturating_sub(u64::try_from(before).unwrap_or(0));
+    held_by(connection, tree).await?.require_room(CommentBytes { said: more, pictures: 0 })
 }
 
 async fn insert(
