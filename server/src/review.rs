@@ -79,11 +79,16 @@ impl Language {
 
 /// Where the pins of a tree are in a document.
 pub fn states(document: &Document, threads: &[(u32, String)]) -> BTreeMap<u32, Pin> {
-    let found = threads.iter().filter_map(|(thread, json)| {
+    let pins = threads.iter().filter_map(|(thread, json)| {
         let StoredPin { at, anchor } = StoredPin::from_json(*thread, json).ok()?;
-        let found = document.whereabouts(&anchor, at.place.get(), Search::Everywhere);
+        Some((*thread, anchor, at.place.get()))
+    });
+    let pins: Vec<_> = pins.collect();
+    let all =
+        document.whereabouts(pins.iter().map(|(_, anchor, place)| (anchor, *place)), Search::Everywhere);
+    let found = pins.iter().zip(all).map(|(&(thread, ..), found)| {
         let (state, row, step, line) = (found.state, found.row, found.step, found.line);
-        Some((*thread, Pin { thread: *thread, state, row, step, line }))
+        (thread, Pin { thread, state, row, step, line })
     });
     found.collect()
 }

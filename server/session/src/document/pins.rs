@@ -4,6 +4,8 @@
 //! the seed. On lines that share that step it is the same one. Where it is dead, or on none of the lines, those below
 //! it say where it was.
 
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
 use espalier_plant::{AxisId, MetamerId, hash::StableHash};
 use espalier_proto::comment::PinState;
 use glam::Vec3;
@@ -57,13 +59,23 @@ impl Whereabouts {
     }
 }
 
-/// Whether a metamer that is on no line known here is looked for among all others, which takes a pass over them.
+/// Whether metamers that are on no line known here are looked for among all others, which takes a pass over those.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Search {
-    /// It is.
+    /// They are.
     Everywhere,
-    /// It is not.
+    /// They are not.
     KnownPlaces,
+}
+
+/// What is known of a place without looking at all of the tree.
+#[derive(Clone, Copy, Debug)]
+enum Known {
+    Whereabouts(Whereabouts),
+    /// This is it, and it is dead, or was moved.
+    Dead(MetamerId),
+    /// It is on none of the lines.
+    Lost,
 }
 
 impl Document {
@@ -82,8 +94,51 @@ impl Document {
         Some(Anchor { line: self.futures.present, knot: self.knot(id), below })
     }
 
-    /// What became of a place that lay there when it was noted.
-    pub fn whereabouts(&self, anchor: &Anchor, place: Vec3, search: Search) -> Whereabouts {
+    /// What became of places that lay there when they were noted, in their order.
+    pub fn whereabouts<'a>(
+        &self,
+        pins: impl IntoIterator<Item = (&'a Anchor, Vec3)>,
+        search: Search,
+    ) -> Vec<Whereabouts> {
+        self.whereabouts_in_passes(pins, search).0
+    }
+
+    /// The same, and in how many passes over the tree: one at most for all that was moved, and one for all that is
+    /// looked for everywhere.
+    pub(super) fn whereabouts_in_passes<'a>(
+        &self,
+        pins: impl IntoIterator<Item = (&'a Anchor, Vec3)>,
+        search: Search,
+    ) -> (Vec<Whereabouts>, u32) {
+        let known: Vec<_> =
+            pins.into_iter().map(|(anchor, place)| (anchor, place, self.known(anchor))).collect();
+        let dead = known.iter().filter_map(|(.., known)| match known {
+            Known::Dead(id) => Some(*id),
+            Known::Whereabouts(_) | Known::Lost => None,
+        });
+        let grafts = self.grafts_of(dead);
+        let lost = known.iter().filter(|(.., known)| matches!(known, Known::Lost));
+        let ways: BTreeSet<u64> = match search {
+            Search::Everywhere => lost.map(|(anchor, ..)| anchor.knot.way).collect(),
+            Search::KnownPlaces => BTreeSet::new(),
+        };
+        let passes = u32::from(!grafts.is_empty()) + u32::from(!ways.is_empty());
+        let (moved, like) = (self.moved_by(grafts), self.like(&ways));
+        let found = known.into_iter().map(|(anchor, place, known)| match known {
+            Known::Whereabouts(whereabouts) => whereabouts,
+            Known::Dead(id) => match moved.get(&id.raw()) {
+                Some(moved) => Whereabouts::at(PinState::Standing, Some(*moved)),
+                None => Whereabouts::at(PinState::Detached, self.living_from(id)),
+            },
+            Known::Lost => match like.get(&anchor.knot.way).filter(|id| self.is_near(**id, place)) {
+                Some(id) => Whereabouts::at(PinState::Regrown, Some(*id)),
+                None => self.elsewhere(anchor),
+            },
+        });
+        (found.collect(), passes)
+    }
+
+    fn known(&self, anchor: &Anchor) -> Known {
         let plant = self.plant();
         let shared = self.futures.shared_with(anchor.line);
         let knot = anchor.knot;
@@ -91,22 +146,20 @@ impl Document {
         let is_of_line = shared.is_none_or(|step| knot.born <= step);
         if is_of_line && (plant.step() + 1..=plant.last_step()).contains(&knot.born) {
             let not_yet = Whereabouts::at(PinState::NotYet, self.living_below(anchor, shared));
-            return Whereabouts { step: Some(knot.born), ..not_yet };
+            return Known::Whereabouts(Whereabouts { step: Some(knot.born), ..not_yet });
         }
-        if let Some(id) = self.found(knot, shared) {
-            if plant.is_alive(id) {
-                return Whereabouts::at(PinState::Standing, Some(id));
+        match self.found(knot, shared) {
+            Some(id) if plant.is_alive(id) => {
+                Known::Whereabouts(Whereabouts::at(PinState::Standing, Some(id)))
             }
-            if let Some(moved) = self.moved_to(id) {
-                return Whereabouts::at(PinState::Standing, Some(moved));
-            }
-            return Whereabouts::at(PinState::Detached, self.living_from(id));
+            Some(id) => Known::Dead(id),
+            None => Known::Lost,
         }
-        if search == Search::Everywhere
-            && let Some(id) = self.like(knot.way).filter(|id| self.is_near(*id, place))
-        {
-            return Whereabouts::at(PinState::Regrown, Some(id));
-        }
+    }
+
+    /// What is said of a place that is on none of the lines, and nothing like it anywhere.
+    fn elsewhere(&self, anchor: &Anchor) -> Whereabouts {
+        let (shared, knot) = (self.futures.shared_with(anchor.line), anchor.knot);
         let below = self.living_below(anchor, shared);
         match shared {
             Some(step) if knot.born > step => Whereabouts {
@@ -173,11 +226,14 @@ impl Document {
         hash.finish()
     }
 
-    /// A living metamer to which the same way leads.
-    fn like(&self, way: u64) -> Option<MetamerId> {
+    /// Living metamers to which the same ways lead, by these: the last one of each.
+    fn like(&self, wanted: &BTreeSet<u64>) -> HashMap<u64, MetamerId> {
+        let mut found = HashMap::new();
+        if wanted.is_empty() {
+            return found;
+        }
         let plant = self.plant();
         let mut ways: Vec<u64> = Vec::with_capacity(plant.metamer_count());
-        let mut found = None;
         for row in 0..plant.metamer_count() {
             let id = MetamerId::new(row);
             let own = match plant.metamers().parent(id) {
@@ -185,8 +241,8 @@ impl Document {
                 None => self.start(id),
             };
             ways.push(own);
-            if own == way && plant.is_alive(id) {
-                found = Some(id);
+            if wanted.contains(&own) && plant.is_alive(id) {
+                found.insert(own, id);
             }
         }
         found
@@ -196,23 +252,50 @@ impl Document {
         self.plant().metamers().end(id).distance(place) <= REGROWN_WITHIN
     }
 
-    /// Where a dead metamer was moved to, if that is what became of it: a graft that moves wood copies it row by row and
-    /// cuts it where it was.
-    fn moved_to(&self, id: MetamerId) -> Option<MetamerId> {
+    /// The grafts by which any of these dead metamers may have been moved, by their first steps.
+    fn grafts_of(&self, dead: impl Iterator<Item = MetamerId>) -> BTreeMap<u32, Graft> {
         let plant = self.plant();
-        let all = plant.columns(0..plant.metamer_count());
-        let death = *all.death.get(id.index())?;
-        let is_it = |one: &&Operation| one.kind == Kind::Graft && (one.first + 1..=one.last).contains(&death);
-        let graft = self.history.operations[..self.history.done].iter().find(is_it)?;
-        let steps = graft.first + 1..=graft.last;
-        let gone: Vec<usize> = (0..all.death.len()).filter(|row| steps.contains(&all.death[*row])).collect();
-        let came: Vec<MetamerId> = (0..plant.metamer_count())
-            .map(MetamerId::new)
-            .filter(|id| steps.contains(&plant.birth(*id)))
-            .collect();
-        let place = gone.iter().position(|row| *row == id.index()).filter(|_| gone.len() == came.len())?;
-        came.get(place).copied().filter(|id| plant.is_alive(*id))
+        let deaths = plant.columns(0..plant.metamer_count()).death;
+        let deaths: BTreeSet<u32> = dead.filter_map(|id| deaths.get(id.index()).copied()).collect();
+        let done = self.history.operations[..self.history.done].iter();
+        let grafts = done.filter(|one: &&Operation| one.kind == Kind::Graft && one.first < one.last);
+        let grafts = grafts.filter(|one| deaths.range(one.first + 1..=one.last).next().is_some());
+        grafts.map(|one| (one.first, Graft { last: one.last, gone: Vec::new(), came: Vec::new() })).collect()
     }
+
+    /// Where living metamers come from that any of these grafts has moved, by where they were: a graft that moves wood
+    /// copies it row by row and cuts it where it was.
+    fn moved_by(&self, mut grafts: BTreeMap<u32, Graft>) -> HashMap<u32, MetamerId> {
+        let plant = self.plant();
+        if !grafts.is_empty() {
+            let deaths = plant.columns(0..plant.metamer_count()).death;
+            for id in (0..plant.metamer_count()).map(MetamerId::new) {
+                if let Some(graft) = deaths.get(id.index()).and_then(|death| graft_at(&mut grafts, *death)) {
+                    graft.gone.push(id);
+                }
+                if let Some(graft) = graft_at(&mut grafts, plant.birth(id)) {
+                    graft.came.push(id);
+                }
+            }
+        }
+        let whole = grafts.into_values().filter(|graft| graft.gone.len() == graft.came.len());
+        let pairs = whole.flat_map(|graft| graft.gone.into_iter().zip(graft.came));
+        pairs.filter(|(_, came)| plant.is_alive(*came)).map(|(gone, came)| (gone.raw(), came)).collect()
+    }
+}
+
+/// A graft, and what it cut and grew, in the order of rows.
+#[derive(Debug)]
+struct Graft {
+    last: u32,
+    gone: Vec<MetamerId>,
+    came: Vec<MetamerId>,
+}
+
+/// The graft that was done in a step.
+fn graft_at(grafts: &mut BTreeMap<u32, Graft>, step: u32) -> Option<&mut Graft> {
+    let (_, graft) = grafts.range_mut(..step).next_back()?;
+    (step <= graft.last).then_some(graft)
 }
 
 fn on(way: u64, turn: u64) -> u64 {

@@ -78,8 +78,9 @@ impl Session {
         let is_resting = self.figures.pending_steps == 0;
         let search = if is_resting { Search::Everywhere } else { Search::KnownPlaces };
         let mut changed = Vec::new();
-        for (&thread, (anchor, place)) in &self.pins.anchors {
-            let found = work.document.whereabouts(anchor, *place, search);
+        let anchors = self.pins.anchors.values().map(|(anchor, place)| (anchor, *place));
+        let all = work.document.whereabouts(anchors, search);
+        for (&thread, found) in self.pins.anchors.keys().zip(all) {
             let (state, row, step, line) = (found.state, found.row, found.step, found.line);
             let pin = Pin { thread, state, row, step, line };
             if self.pins.told.insert(thread, pin) != Some(pin) {

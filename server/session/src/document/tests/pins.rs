@@ -10,7 +10,11 @@ use super::{
 
 /// Where a place is that lay at the end of its metamer when it was noted.
 fn whereabouts(document: &Document, anchor: &Anchor, place: Vec3) -> Whereabouts {
-    document.whereabouts(anchor, place, Search::Everywhere)
+    found_by(document, anchor, place, Search::Everywhere)
+}
+
+fn found_by(document: &Document, anchor: &Anchor, place: Vec3, search: Search) -> Whereabouts {
+    document.whereabouts([(anchor, place)], search)[0]
 }
 
 fn state(document: &Document, pin: &(Anchor, Vec3)) -> (PinState, Option<u32>) {
@@ -108,7 +112,7 @@ fn ct2_like_wood_that_grew_on_another_line_is_regrown() {
     assert!(document.plant().metamers().end(row).distance(pin.1) <= 3.0);
     let far = whereabouts(&document, &pin.0, pin.1 + Vec3::X * 50.0);
     assert_eq!(far.state, PinState::Elsewhere, "not where something else is");
-    let quick = document.whereabouts(&pin.0, pin.1, Search::KnownPlaces);
+    let quick = found_by(&document, &pin.0, pin.1, Search::KnownPlaces);
     assert_eq!(quick.state, PinState::Elsewhere, "not without looking");
 }
 
@@ -133,6 +137,39 @@ fn ct3_a_pin_goes_where_its_branch_is_moved_and_a_copy_has_none() {
     assert_eq!(row, Some((before + place) as u32), "it went along");
     apply(&mut document, &plain(Action::Undo {}));
     assert_eq!(state(&document, &pin), (PinState::Standing, Some(middle.raw())));
+}
+
+#[test]
+fn ct3_pins_take_two_passes_over_the_tree_however_many_they_are() {
+    let mut document = tree();
+    let (first, _) = on_a_branch(&document);
+    let above = document.plant().above(first);
+    let onto = laterals(&document).into_iter().find(|row| !above.contains(row) && *row != first);
+    let onto = onto.expect("there is another branch").raw();
+    let moved: Vec<_> = above.iter().map(|row| pin(&document, *row)).collect();
+    let rotation = UnitRotation::nearest(Quat::IDENTITY);
+    apply(&mut document, &plain(Action::Graft { row: first.raw(), onto, rotation, keep: false }));
+    let mut other = tree();
+    let lost: Vec<_> = laterals(&other).iter().map(|row| pin(&other, *row)).collect();
+    let all = |pins: &[(Anchor, Vec3)], document: &Document, search| {
+        document.whereabouts_in_passes(pins.iter().map(|(anchor, place)| (anchor, *place)), search)
+    };
+    assert!(moved.len() > 2 && lost.len() > 2, "{} {}", moved.len(), lost.len());
+    let (found, passes) = all(&moved, &document, Search::Everywhere);
+    assert_eq!(passes, 1);
+    assert!(found.iter().all(|found| found.state == PinState::Standing), "{found:?}");
+    // The same growth once more, on another line.
+    apply(&mut other, &plain(Action::Undo {}));
+    grow(&mut other, 1, None);
+    grow(&mut other, 8, Some(1));
+    let (found, passes) = all(&lost, &other, Search::Everywhere);
+    assert_eq!(passes, 1);
+    assert!(found.iter().any(|found| found.state == PinState::Regrown), "{found:?}");
+    let alone: Vec<_> = lost.iter().map(|pin| whereabouts(&other, &pin.0, pin.1)).collect();
+    assert_eq!(found, alone, "each as if it were alone");
+    assert_eq!(all(&lost, &other, Search::KnownPlaces).1, 0);
+    let standing: Vec<_> = laterals(&other).iter().map(|row| pin(&other, *row)).collect();
+    assert_eq!(all(&standing, &other, Search::Everywhere).1, 0, "where each is known there is none");
 }
 
 #[test]
@@ -179,7 +216,7 @@ proptest! {
             let plant = document.plant();
             let line = document.timeline().line;
             for (of, row, born, anchor, place) in &pins {
-                let found = document.whereabouts(anchor, *place, Search::KnownPlaces);
+                let found = found_by(&document, anchor, *place, Search::KnownPlaces);
                 if let Some(told) = found.row {
                     prop_assert!(plant.is_alive(MetamerId::new(told as usize)), "what is told lives");
                 }
