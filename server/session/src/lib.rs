@@ -31,6 +31,7 @@ mod species_script;
 mod stops;
 mod stroke_pieces;
 mod to_proto;
+mod urgency;
 mod window;
 mod work;
 
@@ -53,4 +54,5 @@ pub use session::{Restoring, Session, Tail};
 pub use snapshot::RestoreError;
 pub use species_script::{script, wire_species};
 pub use to_proto::{delta, style_options};
-pub use work::{Urgency, Work};
+pub use urgency::Urgency;
+pub use work::Work;

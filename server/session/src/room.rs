@@ -2,7 +2,7 @@
 
 use espalier_proto::{Action, Shape};
 
-use crate::work::Urgency;
+use crate::urgency::Urgency;
 
 /// Says whether a document may come to hold so many rows, for work of this kind. Whoever says yes keeps room for them.
 pub type HasRoom<'a> = &'a mut dyn FnMut(u64, Urgency) -> bool;

@@ -7,8 +7,7 @@ use std::{
 
 use espalier_mesh::{Detail, RingTable, Style};
 use espalier_proto::{
-    Action, BendFrame, Command, Deed, Hint, Pause, PlacedObstacle, Position, Problem, RowMotion,
-    ServerMessage,
+    BendFrame, Command, Deed, Hint, Pause, PlacedObstacle, Position, Problem, RowMotion, ServerMessage,
 };
 
 use crate::{
@@ -22,6 +21,7 @@ use crate::{
     snapshot,
     stops::Stops,
     to_proto::{self, Held},
+    urgency::{LONG_ROWS, Urgency, grows_alone, is_in_one_piece},
 };
 
 /// After so many steps a slice ends, so that long growth is seen while it goes on; stopping counts on it (`ST1`).
@@ -38,22 +38,6 @@ pub(crate) const PAUSE_MS: u64 = 3000;
 
 /// Growth that has so much left, in metamers times steps, is long: it takes some tenths of a second at least.
 const LONG_GROWTH: u64 = 1_000_000;
-
-/// What a slice of work is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Urgency {
-    /// Somebody's hand is on the tree, or somebody waits to see it.
-    Drawing,
-    /// The tree grows alone.
-    Growing,
-    /// The tree is read or kept as a whole.
-    Keeping,
-}
-
-/// Whether trees grow alone by a command, for as long as it says.
-fn grows_alone(action: &Action) -> bool {
-    matches!(action, Action::Grow { .. } | Action::Lasso { .. } | Action::Derive { .. })
-}
 
 /// A command in its place in the order.
 #[derive(Debug)]
@@ -163,6 +147,8 @@ pub struct Work {
     doing_for: Option<Arc<str>>,
     /// Whether the tree grows by it alone, without a hand.
     doing_alone: bool,
+    /// Whether it does so in one piece.
+    doing_in_one_piece: bool,
     /// The document is read when this entry is done: all that was acknowledged before the session was opened is in it.
     reads_from: u64,
     /// Who waits for the outcome of that command, if it came from outside and is still open.
@@ -213,6 +199,7 @@ impl Work {
             doing: None,
             doing_for: None,
             doing_alone: true,
+            doing_in_one_piece: false,
             reads_from: applied,
             owed: None,
             complete: None,
@@ -308,8 +295,41 @@ impl Work {
         self.document.held_rows(self.triangles)
     }
 
-    /// What the next slice is for.
+    /// What the next slice is for. What is long in one piece takes its turn among what grows, though somebody waits for
+    /// it: it would keep all who draw from the workers.
     pub fn urgency(&self) -> Urgency {
+        match self.need() {
+            Urgency::Drawing if self.is_long() => Urgency::Growing,
+            need => need,
+        }
+    }
+
+    /// Whether the next slice does something in one piece that takes long.
+    fn is_long(&self) -> bool {
+        let next = self.orders.front().filter(|_| !self.busy);
+        let is_in_one_piece = self.busy && self.doing_in_one_piece
+            || next.is_some_and(|order| is_in_one_piece(&order.command.action))
+            || self.shows_all();
+        is_in_one_piece && self.has_many_rows()
+    }
+
+    fn has_many_rows(&self) -> bool {
+        self.document.plant().metamer_count() > LONG_ROWS
+    }
+
+    /// Whether somebody who comes is to be shown the tree, and that is not made yet. Whoever has only fallen behind is
+    /// sent what has changed since.
+    fn shows_all(&self) -> bool {
+        let is_made = self.complete.as_ref().is_some_and(|(sequence, _)| *sequence == self.sequence);
+        self.catch_ups.iter().any(|catch_up| match catch_up.held {
+            Held::Nothing => !is_made,
+            Held::Chunks(_) => true,
+            Held::AsOf { .. } => false,
+        })
+    }
+
+    /// For what the next slice needs memory.
+    fn need(&self) -> Urgency {
         let next = match (self.busy, self.orders.front()) {
             (true, _) => Some(self.doing_alone),
             (false, Some(order)) => Some(grows_alone(&order.command.action)),
@@ -372,9 +392,14 @@ impl Work {
                 return;
             }
             let Some(order) = self.orders.front() else { return };
+            // What is long takes a turn of its own.
+            let is_first = commands == 0 && steps == 0;
+            if !is_first && is_in_one_piece(&order.command.action) && self.has_many_rows() {
+                return;
+            }
             let held = self.held_rows();
             let taken_on = room::after_taking_on(&order.command.action, held);
-            if taken_on > held && !has_room(taken_on, self.urgency()) {
+            if taken_on > held && !has_room(taken_on, self.need()) {
                 self.hold = Some(Pause::Memory);
                 return;
             }
@@ -388,7 +413,7 @@ impl Work {
     fn may_step(&self, has_room: HasRoom<'_>) -> bool {
         let is_stopped = self.stops.end_of(self.applied).is_some();
         let grows = self.document.pending_steps() > 0 && !is_stopped;
-        !grows || has_room(room::after_step(self.held_rows()), self.urgency())
+        !grows || has_room(room::after_step(self.held_rows()), self.need())
     }
 
     fn begin(&mut self, order: Order) {
@@ -399,6 +424,7 @@ impl Work {
         self.doing = Some((order.author.clone(), order.id));
         self.doing_for = Some(Arc::clone(&order.person));
         self.doing_alone = grows_alone(&order.command.action);
+        self.doing_in_one_piece = is_in_one_piece(&order.command.action);
         let begun = self.document.begin(&order.author, &order.command);
         if room::changes_triangles(&order.command.action) {
             self.triangles = self.document.held_triangles() as u64;

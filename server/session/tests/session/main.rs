@@ -48,4 +48,5 @@ mod schema;
 mod shapes;
 mod shaping;
 mod stopping;
+mod turns;
 mod world;

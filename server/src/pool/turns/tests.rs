@@ -123,6 +123,24 @@ fn who_offers_ten_times_the_work_gets_no_more_of_it() {
 }
 
 #[test]
+fn who_plays_giants_in_time_keeps_nobody_from_drawing() {
+    // A journey each 100 ms over a million rows, by as many as there are workers and more.
+    let player = |class| move |person| Sender { class, person, takes: ms(150.0), every: Some(ms(100.0)) };
+    let p99 = |class| {
+        let senders: Vec<_> = (0..3).map(player(class)).chain((10..30).map(drawer)).collect();
+        let had = run(2, &senders, 30 * SECOND);
+        let delays = had[3..].iter().flat_map(|had| had.delays.clone()).collect();
+        let played: Duration = had[..3].iter().map(|had| had.worked).sum();
+        (Had { delays, ..Had::default() }.at(0.99), played)
+    };
+    // So it is done: what is long in one piece is not of the class of those who draw.
+    let (waited, played) = p99(Class::Growing);
+    assert!(waited < ms(10.0), "{waited:?}");
+    assert!(played > 25 * SECOND, "one worker of two plays: {played:?}");
+    assert!(p99(Class::Drawing).0 > ms(100.0), "in their class it kept them waiting");
+}
+
+#[test]
 fn no_class_starves() {
     let senders = [
         Sender { class: Class::Drawing, person: 0, takes: ms(2.0), every: None },

@@ -1,0 +1,40 @@
+//! What slices of work are for.
+
+use espalier_proto::Action;
+
+/// In a tree of more rows than this, dead ones included, what is done in one piece is long, whoever waits for it: no
+/// slice can be interrupted, and those who draw do not wait for it.
+pub(crate) const LONG_ROWS: usize = 20_000;
+
+/// What a slice of work is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Urgency {
+    /// Somebody's hand is on the tree, or somebody waits to see it.
+    Drawing,
+    /// The tree grows alone.
+    Growing,
+    /// The tree is read or kept as a whole.
+    Keeping,
+}
+
+/// Whether trees grow alone by a command, for as long as it says.
+pub(crate) fn grows_alone(action: &Action) -> bool {
+    matches!(action, Action::Grow { .. } | Action::Lasso { .. } | Action::Derive { .. })
+}
+
+/// Whether an action takes the whole tree from one state to another in one piece: journeys in time, and grammars.
+pub(crate) fn is_in_one_piece(action: &Action) -> bool {
+    matches!(
+        action,
+        Action::GoTo { .. }
+            | Action::Ungrow { .. }
+            | Action::Undo {}
+            | Action::Redo {}
+            | Action::TakeBack { .. }
+            | Action::BringBack { .. }
+            | Action::TakeFuture { .. }
+            | Action::SetGrammar { .. }
+            | Action::SetGrammarBody { .. }
+            | Action::SetGrammarValues { .. }
+    )
+}
