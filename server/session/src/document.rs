@@ -50,7 +50,7 @@ use self::{
     travelling::moves_time,
 };
 pub use self::{
-    bytes::{DocumentError, MAX_METAMER_BUDGET, plain},
+    bytes::{DocumentError, MAX_METAMER_BUDGET, announced_bytes, plain},
     pins::{Anchor, Search, Whereabouts},
     transplanting::TransplantError,
     variation::LeftOut,

@@ -38,7 +38,7 @@ mod work;
 pub use command_script::{ScriptError, read_commands};
 pub use document::{
     Anchor, Document, DocumentError, Figures, LeftOut, MAX_METAMER_BUDGET, Search, TransplantError,
-    Whereabouts, plain,
+    Whereabouts, announced_bytes, plain,
 };
 pub use entrant::Entrant;
 pub use form::read_command;

@@ -52,7 +52,7 @@ const MAX_COMMENT_BODY: usize = MAX_TREE_BODY + 32 * 1024;
 const MAX_REVIEWS: usize = 1;
 /// Obstacles read at once: each holds millions of triangles.
 const MAX_UPLOADS: usize = 1;
-/// How long a request may take that brings an obstacle: so that it may be large, and the network slow.
+/// How long a request may take that brings an obstacle or a tree: so that it may be large, and the network slow.
 const UPLOAD_TIME: Duration = Duration::from_mins(10);
 /// Files read at once that become trees: a section of a document may unpack to 2 GB.
 const MAX_IMPORTS: usize = 1;
@@ -275,7 +275,7 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/schematic", Action::Look, post(schematic::draw).layer(at_once(MAX_SCHEMATICS)), About::new("A small tree that shows what parameters do (SC1).").takes::<ParameterValues>().gives::<Schematic>(200)),
         route("GET /api/v1/trees", Action::ListTrees, get(trees::list), About::new("Trees of the library, page by page (LB7).").asks::<trees::Page>().gives::<TreePage>(200)),
         route("POST /api/v1/trees", Action::SaveTree, post(trees::save), About::new("Save a session as a new tree.").takes::<SaveTree>().gives::<SavedTree>(201)).up_to(MAX_TREE_BODY),
-        route("POST /api/v1/trees/import", Action::SaveTree, post(imports::upload).layer(files.clone()), About::new("Make a tree of a file (IM1).").asks::<imports::Upload>().takes_file("application/octet-stream").gives::<SavedTree>(201)).up_to(MAX_WOOD_BYTES),
+        route("POST /api/v1/trees/import", Action::SaveTree, post(imports::upload).layer(files.clone()), About::new("Make a tree of a file (IM1).").asks::<imports::Upload>().takes_file("application/octet-stream").gives::<SavedTree>(201)).up_to(MAX_WOOD_BYTES).within(UPLOAD_TIME),
         route("GET /api/v1/trees/{tree}", Action::SeeTree, get(trees::find), About::new("One tree; one that was deleted as well, with its `deleted_at`.").gives::<SavedTree>(200)),
         route("PATCH /api/v1/trees/{tree}", Action::ChangeTree, patch(trees::change), About::new("Change what is said of a tree.").takes::<ChangeTree>().gives::<SavedTree>(200).revised()).up_to(MAX_SAID_BODY),
         route("DELETE /api/v1/trees/{tree}", Action::DeleteTree, delete(trees::delete), About::new(format!("Delete a tree; it can be taken back for {KEPT_DAYS} days (LB6).")).gives_nothing().revised()).noted("delete"),
@@ -315,7 +315,7 @@ pub(super) fn routes() -> Vec<Route> {
         route("DELETE /api/v1/collections/{collection}/members/{member}", Action::ShareCollection, delete(members::remove_from_collection), About::new("Take a collection back from a user or a group (AC22).").gives_nothing()).noted("take-back"),
         route("GET /api/v1/trees/{tree}/versions", Action::SeeTree, get(versions::list), About::new("Versions of a tree, newest first, page by page.").asks::<versions::Page>().gives::<Vec<TreeVersion>>(200)),
         route("POST /api/v1/trees/{tree}/versions", Action::ChangeTree, post(versions::save), About::new("Save a session as the newest version of a tree.").takes::<SaveVersion>().gives::<TreeVersion>(201).revised()).up_to(MAX_TREE_BODY),
-        route("POST /api/v1/trees/{tree}/versions/import", Action::ChangeTree, post(imports::upload_version).layer(files), About::new("Save a file as the newest version of a tree (IM2).").asks::<imports::VersionUpload>().takes_file("application/octet-stream").gives::<TreeVersion>(201).revised()).up_to(MAX_WOOD_BYTES),
+        route("POST /api/v1/trees/{tree}/versions/import", Action::ChangeTree, post(imports::upload_version).layer(files), About::new("Save a file as the newest version of a tree (IM2).").asks::<imports::VersionUpload>().takes_file("application/octet-stream").gives::<TreeVersion>(201).revised()).up_to(MAX_WOOD_BYTES).within(UPLOAD_TIME),
         route("PATCH /api/v1/trees/{tree}/versions/{version}", Action::ChangeTree, patch(versions::change), About::new("Change what is said of a version.").takes::<ChangeVersion>().gives::<TreeVersion>(200).revised()).up_to(MAX_SAID_BODY),
         route("POST /api/v1/trees/{tree}/versions/{version}/restore", Action::ChangeTree, post(versions::restore), About::new("What was saved then becomes the newest version, which has the next number.").takes::<RestoreVersion>().gives::<TreeVersion>(201).revised()).noted("restore"),
         route("GET /api/v1/trees/{tree}/versions/{version}/document", Action::OpenTree, get(versions::document), About::new("The document of a version ([docs/document.md](../docs/document.md)).").gives_parts("application/octet-stream")).noted(EXPORT),

@@ -2,10 +2,10 @@
 
 use axum::{extract::State, http::StatusCode, response::IntoResponse};
 use espalier_proto::{
-    Problem,
     library::ImportNote,
     text::{Name, Note},
 };
+use espalier_session::announced_bytes;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -21,6 +21,7 @@ use crate::{
     access::Caller,
     import::{self, Import, Imported},
     import_options::{ImportOptions, InternodeLength, SpeciesName, Unit},
+    memory::{self, Use},
     pool::Class,
     store::{Contents, NewVersion, Saved},
 };
@@ -115,14 +116,25 @@ async fn made(
     shared: &Shared,
     caller: &Caller,
     import: Import,
-    File(file, _turn): File,
+    File(file, turn): File,
     said: Said,
 ) -> Result<(NewVersion, Vec<ImportNote>), Failure> {
+    // Few bytes may become many: what a document says that it unpacks to is taken before anything of it is.
+    let unpacked = match import.format {
+        import::Format::Document => memory::unpacked(announced_bytes(&file)),
+        import::Format::Wood(_) => 0,
+    };
+    let claim = shared.memory.take_soon(Use::Upload, unpacked).await?;
     let made = shared.pool.run(Class::Whole, caller.person().into(), move |_| {
-        let Imported { document, notes } =
-            import::document(&file, &import).map_err(|error| import.refusal(&error))?;
-        let notes = notes.iter().map(import::ImportNote::to_proto).collect();
-        Ok::<_, Problem>((Saved::of(&document), notes))
+        let made = import::document(&file, &import).map_err(|error| import.refusal(&error)).map(
+            |Imported { document, notes }| {
+                let notes = notes.iter().map(import::ImportNote::to_proto).collect();
+                (Saved::of(&document), notes)
+            },
+        );
+        // Not before, whether or not anybody still waits: they are for the memory that this takes.
+        drop((claim, turn));
+        made
     });
     let (saved, notes) = made.await??;
     Ok((versions::new(caller, said, Contents::New(Box::new(saved))), notes))

@@ -70,6 +70,11 @@ pub fn upload(bytes: u64) -> u64 {
     bytes.saturating_mul(MODEL_BYTE)
 }
 
+/// A document that unpacks to so many bytes and is read, and written again to be kept.
+pub fn unpacked(bytes: u64) -> u64 {
+    bytes.saturating_mul(STORED_BYTE)
+}
+
 /// A tree of so many rows that a job grows.
 pub fn job(rows: u64) -> u64 {
     SESSION + rows.saturating_mul(FORESEEN_ROW)

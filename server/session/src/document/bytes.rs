@@ -24,12 +24,12 @@ use std::{collections::VecDeque, sync::Arc};
 use espalier_growth::{Simulation, simulation_version};
 use espalier_plant::{Plant, PlantParts};
 
+pub use self::{container::announced_bytes, lengths::MAX_METAMER_BUDGET, plain::plain};
 pub(crate) use self::{
     container::{Container, Section},
     fields::{Reader, Writer},
     sections::SESSION,
 };
-pub use self::{lengths::MAX_METAMER_BUDGET, plain::plain};
 use self::{
     names::Names,
     sections::{Kind, Release},

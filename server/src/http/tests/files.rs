@@ -296,3 +296,75 @@ async fn lb9_pictures_of_what_was_saved_are_there_before_anybody_asks() {
     stop.cancel();
     drawing.await.unwrap();
 }
+
+/// A document whose table says that its plant unpacks to so many bytes.
+fn announcing(bytes: u64) -> Vec<u8> {
+    let mut document = b"ESPALIER".to_vec();
+    // Format, what it needs, simulation, sections, checksum; of the section version, flags and codec.
+    document.extend([5, 0, 1, 1, 0].into_iter().flat_map(u32::to_le_bytes));
+    document.extend(b"PLNT");
+    document.extend([1, 0, 1, 1]);
+    document.extend([0, bytes].into_iter().flat_map(u64::to_le_bytes));
+    document.extend(0_u32.to_le_bytes());
+    document
+}
+
+#[tokio::test]
+async fn lm19_a_document_that_says_it_becomes_much_is_not_unpacked_without_memory_for_it() {
+    let memory = Memory::with_patience(1 << 30, Duration::from_millis(1));
+    let server = router(Shared { memory: memory.clone(), ..shared().await });
+    let found = async |bytes| {
+        let asked = request(&Method::POST, "/api/v1/trees/import?name=Oak&format=espalier");
+        let answer =
+            server.clone().oneshot(asked.body(Body::from(announcing(bytes))).unwrap()).await.unwrap();
+        answer.status()
+    };
+    assert_eq!(found(1 << 40).await, StatusCode::SERVICE_UNAVAILABLE);
+    assert_eq!(found(1 << 20).await, StatusCode::BAD_REQUEST, "it is damaged");
+    assert_eq!((memory.look().refused(), memory.look().taken()), (1, 0));
+}
+
+#[tokio::test]
+async fn lm18_a_file_is_being_read_until_it_is_read_whoever_waits() {
+    let pool = SimulationPool::new(std::num::NonZeroUsize::new(1)).unwrap();
+    let shared = Shared { pool: pool.clone(), ..shared().await };
+    let memory = shared.memory.clone();
+    // Of two workers one does what is large, and has something else to do.
+    let (release, mut released) = watch::channel(false);
+    let (begin, begun) = tokio::sync::oneshot::channel();
+    let other = tokio::spawn({
+        let (pool, handle) = (pool.clone(), tokio::runtime::Handle::current());
+        let work = move |_: &crate::pool::Turn<'_>| {
+            begin.send(()).unwrap();
+            handle.block_on(async { released.wait_for(|&is_over| is_over).await.map(drop) }).unwrap();
+        };
+        async move { pool.run(crate::pool::Class::Whole, "other".into(), work).await.unwrap() }
+    });
+    begun.await.unwrap();
+    let asked = request(&Method::POST, "/api/v1/trees/import?name=Oak&format=csv");
+    let mut answer = Box::pin(router(shared).oneshot(asked.body(Body::from(SCAN)).unwrap()));
+    while pool.figures().0.iter().sum::<usize>() == 0 {
+        assert!(futures_util::poll!(&mut answer).is_pending());
+        tokio::time::sleep(Duration::from_millis(1)).await;
+    }
+    drop(answer);
+    let held = memory.look().taken();
+    assert_eq!(held, crate::memory::upload(SCAN.len() as u64), "it is read still, as far as anybody knows");
+    release.send_replace(true);
+    other.await.unwrap();
+    while memory.look().taken() > 0 {
+        tokio::time::sleep(Duration::from_millis(1)).await;
+    }
+}
+
+#[tokio::test]
+async fn lm14_files_that_become_trees_may_take_as_long_as_models() {
+    let limits = |address: &str| {
+        routes().into_iter().find(|route| route.address == address).and_then(|route| route.time_limit)
+    };
+    let model = limits(OBSTACLES).expect("there is one");
+    for address in ["POST /api/v1/trees/import", "POST /api/v1/trees/{tree}/versions/import"] {
+        assert_eq!(limits(address), Some(model), "{address}");
+    }
+    assert!(model > limits("GET /api/v1/trees").expect("there is one"));
+}

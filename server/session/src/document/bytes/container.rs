@@ -235,6 +235,28 @@ impl Container {
     }
 }
 
+/// Bytes to which the sections of a container that this program reads unpack, as its table says; nothing is unpacked. 0 where
+/// there is no such table, or it is damaged.
+pub fn announced_bytes(bytes: &[u8]) -> u64 {
+    let announced = || {
+        let mut reader = Reader::new(bytes);
+        let magic: [u8; 8] = reader.array().ok()?;
+        let [_format, _needs, _simulation] = [reader.u32().ok()?, reader.u32().ok()?, reader.u32().ok()?];
+        let (count, _sum) = (reader.u32().ok()? as usize, reader.u32().ok()?);
+        let table = reader.slice(count.min(MAX_SECTIONS) * ENTRY).ok()?;
+        let mut entries = Reader::new(table);
+        let mut all = 0_u64;
+        for _ in 0..count.min(MAX_SECTIONS) {
+            let (tag, _version, _length) = (entries.array().ok()?, entries.u32().ok()?, entries.u64().ok()?);
+            let (unpacked, _sum) = (entries.u64().ok()?, entries.u32().ok()?);
+            // What is beyond the most is refused before it is unpacked.
+            all += Kind::of(tag).map_or(0, |kind| unpacked.min(kind.most));
+        }
+        (magic == MAGIC).then_some(all)
+    };
+    announced().unwrap_or(0)
+}
+
 /// Reads one entry of the table, and the section it speaks of.
 fn read_section(entries: &mut Reader<'_>, sections: &mut Reader<'_>) -> Result<Section, DocumentError> {
     let tag = entries.array()?;
