@@ -13,6 +13,7 @@ use espalier_proto::{
     Problem, Reason,
     library::{ChangeTree, CopyTree, ImportNote, Origin, SaveTree, SavedTree, TreePage},
     text::{self, Identifier, Name},
+    version::KEPT_DAYS,
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -298,12 +299,22 @@ pub(super) async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// A tree that was deleted goes at once; its room on the disk follows.
+/// A tree that was deleted goes at once; its room on the disk follows. Nobody can take that back, so that it is not for
+/// whoever owns that tree alone (`AC18`, `AC22`).
 pub(super) async fn delete_for_good(
     State(shared): State<Shared>,
+    caller: Caller,
     Path(id): Path<String>,
     Expected(expected): Expected,
 ) -> Result<StatusCode, Failure> {
+    if !caller.owns_all() {
+        let sentence = format!(
+            "Owners of the server alone delete a tree for good; a deleted one goes by itself after {KEPT_DAYS} days."
+        );
+        return Err(Problem::new(Reason::Forbidden, sentence)
+            .at("tree", "a tree to delete, or to take back")
+            .into());
+    }
     let deletion = Some(Deletion::ForGood);
     shared.store.change_tree(&id, expected, TreeChange { deletion, ..TreeChange::default() }).await?;
     shared.store.purge(NOT_SO_LONG_AGO, 1).await?;

@@ -112,6 +112,13 @@ async fn ac18_to_whom_a_tree_was_handed_over_owns_it_and_no_other() {
         assert_eq!(ask(put, "/api/v1/trees/yew/lock", "").await, where_else);
         assert_eq!(ask(&Method::GET, "/api/v1/status", "").await, 403, "nor the server");
         assert_eq!(ask(post, "/api/v1/collections", r#"{"name":"Wood"}"#).await, 403);
+        // They delete it, and take that back; that it cannot be taken back is for owners of the server.
+        let delete = &Method::DELETE;
+        assert_eq!(ask(delete, "/api/v1/trees/ash", "").await, 204);
+        let for_good = request_of(&bo, delete, "/api/v1/trees/ash/for-good");
+        let (status, problem) = asked(&server, for_good, "").await;
+        assert_eq!((status, &problem["reason"]), (403, &json!("forbidden")), "{problem}");
+        assert_eq!(ask(post, "/api/v1/trees/ash/undelete", "").await, 200);
         let owner = "/api/v1/sessions/ashen/owner";
         let found = asked(&server, request_of(&bo, &Method::GET, owner), "").await;
         assert_eq!(found, (200, json!({ "name": "Bo" })));
