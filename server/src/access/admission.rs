@@ -85,7 +85,8 @@ fn invitation(invite: Invite, waits: Duration, now: SystemTime) -> (Secret, Pass
     (secret, pass)
 }
 
-/// Makes a device of whoever has the secret of an invitation, which is used up by that; the device has its identifier.
+/// Makes a device of whoever has the secret of an invitation, which is used up by that; the device has its identifier. None
+/// where there is no such invitation, or its tree is deleted.
 pub async fn redeem(
     store: &impl Passes,
     secret: &str,
@@ -93,10 +94,8 @@ pub async fn redeem(
 ) -> Result<Option<(Secret, Pass)>, StoreError> {
     let found = store.pass(hash(secret.trim()), &written(now)).await?;
     let Some(invitation) = found.filter(|pass| pass.kind == PassKind::Invitation) else { return Ok(None) };
-    if !store.take_pass(&invitation.id).await? {
-        return Ok(None);
-    }
-    Ok(Some(come_in(store, Pass { kind: PassKind::Device, ..invitation }, now).await?))
+    let (secret, device) = cookie_of(Pass { kind: PassKind::Device, ..invitation }, now);
+    Ok(store.redeem_pass(secret.hash(), &device).await?.then_some((secret, device)))
 }
 
 /// Lets in a user whose password was right.
@@ -118,11 +117,13 @@ pub async fn log_in(store: &impl Passes, user: User, now: SystemTime) -> Result<
         expires_at,
         ends_at,
     };
-    come_in(store, pass, now).await
+    let (secret, pass) = cookie_of(pass, now);
+    store.add_pass(secret.hash(), pass.clone()).await?;
+    Ok((secret, pass))
 }
 
-/// Makes a cookie of its own for whoever comes in now by such a pass.
-async fn come_in(store: &impl Passes, like: Pass, now: SystemTime) -> Result<(Secret, Pass), StoreError> {
+/// A cookie of its own for whoever comes in now by such a pass.
+fn cookie_of(like: Pass, now: SystemTime) -> (Secret, Pass) {
     let secret = Secret::long("");
     let ends_at = written(now + DEVICE_LIFE).min(like.ends_at);
     let pass = Pass {
@@ -131,8 +132,7 @@ async fn come_in(store: &impl Passes, like: Pass, now: SystemTime) -> Result<(Se
         ends_at,
         ..like
     };
-    store.add_pass(secret.hash(), pass.clone()).await?;
-    Ok((secret, pass))
+    (secret, pass)
 }
 
 /// A token to be made.

@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     hosts,
-    store::{Holder, Pass, PassKind, Passes, StoreError, Users, identity_of, person_of},
+    store::{Holder, Pass, PassKind, Passes, Room, Standing, StoreError, Users, identity_of, person_of},
     time::written,
 };
 
@@ -278,6 +278,16 @@ impl Caller {
         let most = self.pass.as_ref().and_then(|held| held.most);
         let role = self.grant.role.max(given);
         most.map_or(role, |most| role.min(most))
+    }
+
+    /// The same in a room: what they were given of a tree, or are let in for, opens no session of it while it is deleted
+    /// (`LB6`).
+    pub fn role_in(&self, room: Room<'_>, given: Role, standing: &Standing) -> Role {
+        match room {
+            Room::Session(_) if standing.is_deleted && self.grant.tree.is_some() => Role::None,
+            Room::Session(_) if standing.is_deleted => self.role_where(Role::None),
+            _ => self.role_where(given),
+        }
     }
 
     /// What they may do.

@@ -218,7 +218,7 @@ impl Shared {
     ) -> Result<(Role, Standing), StoreError> {
         let room = match named {
             // Owners of all trees are neither locked nor kept out of one.
-            _ if caller.role() >= Role::Owner => return Ok((caller.role(), Standing::default())),
+            _ if caller.owns_all() => return Ok((caller.role(), Standing::default())),
             Named::Server => return Ok((caller.role(), Standing::default())),
             Named::Tree(id) => Room::Tree(id),
             Named::Session(name) => Room::Session(name),
@@ -226,7 +226,7 @@ impl Shared {
         let person = caller.person();
         let standing = self.store.standing(room, &person, &now()).await?;
         let given = if standing.is_heir { Role::Owner } else { self.store.role_given(room, &person).await? };
-        Ok((caller.role_where(given), standing))
+        Ok((caller.role_in(room, given, &standing), standing))
     }
 
     /// Counts something that is noted (`AC10`) and protects nobody. Tokens are everybody's own; what else owners of all trees do, they may do as

@@ -65,7 +65,7 @@ async fn states(shared: &Shared, tree: &StoredTree) -> Result<BTreeMap<u32, Pin>
     if pins.is_empty() {
         return Ok(BTreeMap::new());
     }
-    let document = sessions::saved_document(shared, &tree.id, tree.head.number).await?;
+    let document = sessions::kept_document(shared, &tree.id, tree.head.number).await?;
     let claim = shared.memory.take(Use::Export, Need::Other, memory::restore(document.bytes.len()))?;
     let found = shared.pool.run(Class::Whole, tree.id.as_str().into(), move |_| {
         let read = Document::from_bytes(&document.bytes).map(|document| review::states(&document, &pins));

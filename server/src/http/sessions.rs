@@ -89,7 +89,7 @@ pub(super) async fn create(
     let _one = shared.opening.lock().await;
     let stored = trees::stored(&shared, &tree).await?;
     if stored.deleted_at.is_some() {
-        return Err(Failure::no_tree(" any more: it was deleted, and can be taken back"));
+        return Err(deleted());
     }
     if new.version.is_none()
         && !new.template
@@ -383,10 +383,10 @@ async fn let_out(
         let standing =
             shared.store.standing(Room::Session(session), &person, &now()).await.unwrap_or_default();
         let own = caller.as_ref().ok().and_then(Option::as_ref).map(Caller::role);
-        if let Some(removed) = standing.removed.filter(|_| own < Some(Role::Owner)) {
+        if let Some(removed) = standing.removed.as_ref().filter(|_| own < Some(Role::Owner)) {
             // What they draw ends where it is.
             grants.grant(Role::Viewer).await;
-            return removals::close_of(&removals::problem(&removed));
+            return removals::close_of(&removals::problem(removed));
         }
         match caller {
             // As whoever they are called from now on, so that what they do counts for them.
@@ -398,7 +398,8 @@ async fn let_out(
                     true => Ok(Role::Owner),
                     false => shared.store.role_given(Room::Session(session), &person).await,
                 };
-                let own = given.map_or(role, |given| caller.role_where(given));
+                let room = Room::Session(session);
+                let own = given.map_or(role, |given| caller.role_in(room, given, &standing));
                 if own == Role::None {
                     grants.grant(Role::Viewer).await;
                     return removals::close_of(&no_longer_theirs());
@@ -426,8 +427,26 @@ fn no_longer_theirs() -> Problem {
         .at("session", "the name of a session")
 }
 
-/// What was saved of a tree.
+/// What was saved of a tree, for whoever takes or opens it: not of one that is deleted (`LB6`).
 pub(super) async fn saved_document(
+    shared: &Shared,
+    tree: &str,
+    version: u32,
+) -> Result<TreeDocument, Failure> {
+    let stored = trees::stored(shared, tree).await?;
+    if stored.deleted_at.is_some() {
+        return Err(deleted());
+    }
+    kept_document(shared, tree, version).await
+}
+
+/// What is asked for is of a tree that was deleted.
+fn deleted() -> Failure {
+    Failure::no_tree(" any more: it was deleted, and can be taken back")
+}
+
+/// What was saved of a tree, of which it may be that only pictures are still to be seen.
+pub(super) async fn kept_document(
     shared: &Shared,
     tree: &str,
     version: u32,

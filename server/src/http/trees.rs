@@ -296,6 +296,8 @@ pub(super) async fn delete(
 ) -> Result<StatusCode, Failure> {
     let deletion = Some(Deletion::Deleted(now()));
     shared.store.change_tree(&id, expected, TreeChange { deletion, ..TreeChange::default() }).await?;
+    // Whoever came by a link, or was given it, is let out of its sessions.
+    shared.tell_standings();
     Ok(StatusCode::NO_CONTENT)
 }
 

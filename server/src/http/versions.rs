@@ -236,7 +236,7 @@ pub(super) async fn picture_of(
     if let Some(png) = shared.drawn.kept(tree, number, kind) {
         return Ok(png);
     }
-    let saved = sessions::saved_document(shared, tree, number).await?;
+    let saved = sessions::kept_document(shared, tree, number).await?;
     let (shared, key) = (shared.clone(), (tree.to_owned(), number, kind));
     let drawing =
         tokio::spawn(async move { shared.drawn.of(key, saved, (&shared.memory, &shared.pool), why).await });

@@ -241,6 +241,10 @@ impl Passes for AnyStore {
         delegate!(self.change_pass(id, role))
     }
 
+    async fn redeem_pass(&self, hash: SecretHash, device: &Pass) -> Result<bool, StoreError> {
+        delegate!(self.redeem_pass(hash, device))
+    }
+
     async fn take_pass(&self, id: &str) -> Result<bool, StoreError> {
         delegate!(self.take_pass(id))
     }

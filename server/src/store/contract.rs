@@ -47,8 +47,8 @@ use self::library::{
 use self::locks::a_tree_is_locked_with_its_sessions;
 use self::passes::{
     a_pass_for_a_tree_goes_with_it, a_pass_may_allow_something_else,
-    as_many_are_made_at_once_as_there_may_be, one_of_those_who_take_a_pass_has_it, passes_are_listed_by_kind,
-    passes_let_in_until_they_expire,
+    as_many_are_made_at_once_as_there_may_be, one_of_those_who_redeem_an_invitation_has_come,
+    one_of_those_who_take_a_pass_has_it, passes_are_listed_by_kind, passes_let_in_until_they_expire,
 };
 use self::standings::{
     a_tree_is_handed_over_with_its_sessions, who_is_kept_out_of_a_tree_is_kept_out_of_its_sessions,
@@ -152,6 +152,7 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         filters_hold_at_once,
         passes_let_in_until_they_expire,
         one_of_those_who_take_a_pass_has_it,
+        one_of_those_who_redeem_an_invitation_has_come,
         passes_are_listed_by_kind,
         a_pass_may_allow_something_else,
         as_many_are_made_at_once_as_there_may_be,

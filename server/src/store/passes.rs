@@ -27,6 +27,10 @@ pub trait Passes {
     /// Lets a pass allow something else; whether it was there. What a login allows is its user's role.
     async fn change_pass(&self, id: &str, role: Role) -> Result<bool, StoreError>;
 
+    /// Makes what an invitation lets in of it, which keeps its identifier and what it allows: a device with a secret of its
+    /// own. Of several who do so at once one is told that it was done, and nobody while its tree is deleted.
+    async fn redeem_pass(&self, hash: SecretHash, device: &Pass) -> Result<bool, StoreError>;
+
     /// Takes a pass away. Of several who do so at once, one is told that it was there.
     async fn take_pass(&self, id: &str) -> Result<bool, StoreError>;
 

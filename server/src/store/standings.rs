@@ -80,6 +80,8 @@ pub struct Standing {
     pub removed: Option<Removed>,
     /// Whether the tree was handed over to them.
     pub is_heir: bool,
+    /// Whether the tree is deleted.
+    pub is_deleted: bool,
 }
 
 /// Why somebody is kept out.

@@ -157,6 +157,14 @@ async fn ac22_what_was_given_is_told_and_taken_while_somebody_is_connected() {
         socket.send(client::text(&command)).await.expect("it is sent");
         assert_eq!(until(&mut socket, expected).await["id"], id);
     }
+    // What is deleted is nobody's whom it was given to, until it is taken back (LB6).
+    assert_eq!(ask(&server, "DELETE", &path, &ada, "").status, 204);
+    let (code, reason) = client::close(&mut socket).await.expect("it is said why");
+    assert!(code == 4007 && reason.starts_with("no-session: "), "{code} {reason}");
+    assert_eq!(ask(&server, "POST", &format!("{path}/undelete"), &bo, "").status, 200);
+    let mut socket = client::open_with(server.port(), &session, &[("cookie", value)]).await;
+    socket.send(client::text(&hello)).await.expect("it is sent");
+    until(&mut socket, "welcome").await;
     assert_eq!(member(&["remove", "Old ash", "Bo"]).code, 0);
     let (code, reason) = client::close(&mut socket).await.expect("it is said why");
     assert!(code == 4007 && reason.starts_with("no-session: "), "{code} {reason}");

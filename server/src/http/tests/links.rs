@@ -166,3 +166,44 @@ async fn ac16_a_locked_tree_is_changed_by_owners_alone() {
     assert_eq!(change(&editor, "ash").await.0, 200);
     assert_eq!(asked(&server, of(&owner, &Method::PUT, "/api/v1/trees/elm/lock"), "").await.0, 404);
 }
+
+#[tokio::test]
+async fn lb6_a_deleted_tree_is_closed_to_links_and_gifts_until_it_is_taken_back() {
+    let (server, store) = server().await;
+    let owner = token(&store, Role::Owner, None).await;
+    let link = async || {
+        let made = asked(&server, request_of(&owner, &Method::POST, LINKS), r#"{"role":"editor"}"#).await.1;
+        made["url"].as_str().unwrap().to_owned()
+    };
+    let (used, waiting) = (link().await, link().await);
+    let cookie = come(&server, &used).await.expect("the link lets in");
+    let viewer = token(&store, Role::Viewer, None).await;
+    let [document, file] = ["document", "tree.mtg"].map(|of| format!("/api/v1/trees/ash/versions/1/{of}"));
+    let seen = "/api/v1/trees/ash/versions";
+    let session = "/api/v1/sessions/ashen";
+    let found = async |method: &Method, path: &str| by(&server, &cookie, method, path).await.0;
+    assert_eq!((found(&Method::GET, &document).await, found(&Method::GET, session).await), (200, 200));
+    // What is kept here is no plant: as a file it is damaged, not missing.
+    assert_eq!(found(&Method::GET, &file).await, 409);
+
+    let delete = request_of(&owner, &Method::DELETE, "/api/v1/trees/ash");
+    assert_eq!(asked(&server, delete, "").await.0, 204);
+    for path in [&*document, &file] {
+        let (status, problem) = by(&server, &cookie, &Method::GET, path).await;
+        assert_eq!((status, &problem["reason"]), (404, &json!("no-tree")), "{path}");
+        let (status, _) = asked(&server, request_of(&owner, &Method::GET, path), "").await;
+        assert_eq!(status, 404, "to nobody: {path}");
+    }
+    assert_eq!(found(&Method::GET, seen).await, 200, "its versions can be seen");
+    assert_eq!(found(&Method::GET, session).await, 404);
+    let read = asked(&server, request_of(&viewer, &Method::GET, session), "").await.0;
+    assert_eq!(read, 200, "whoever has a role on the server keeps that");
+    assert_eq!(come(&server, &waiting).await, None);
+
+    let back = request_of(&owner, &Method::POST, "/api/v1/trees/ash/undelete");
+    assert_eq!(asked(&server, back, "").await.0, 200);
+    for (path, status) in [(&*document, 200), (&file, 409), (session, 200)] {
+        assert_eq!(found(&Method::GET, path).await, status, "{path}");
+    }
+    assert!(come(&server, &waiting).await.is_some(), "the link waited");
+}

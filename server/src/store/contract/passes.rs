@@ -3,7 +3,7 @@
 use espalier_proto::access::Role;
 
 use super::{
-    super::{Holder, Library, Missing, Pass, PassKind, Passes, StoreError},
+    super::{Deletion, Holder, Library, Missing, Pass, PassKind, Passes, StoreError, TreeChange},
     library::tree,
 };
 use crate::access::SecretHash;
@@ -52,6 +52,34 @@ pub(super) async fn one_of_those_who_take_a_pass_has_it(store: &impl Passes) {
     assert_eq!([a, b, c].iter().filter(|&&it| it).count(), 1);
     assert_eq!(store.pass(hash(1), NOW).await.unwrap(), None);
     assert!(!taken().await);
+}
+
+pub(super) async fn one_of_those_who_redeem_an_invitation_has_come(store: &(impl Library + Passes)) {
+    store.add_tree(tree("ash", "2026")).await.unwrap();
+    let tree = Some("ash".to_owned());
+    let invitation = Pass { tree: tree.clone(), ..pass("door", PassKind::Invitation) };
+    let expires_at = "2026-06-01T12:00:00.000Z".to_owned();
+    let device = Pass {
+        created_at: NOW.into(),
+        expires_at: expires_at.clone(),
+        ends_at: expires_at,
+        ..Pass { kind: PassKind::Device, ..invitation.clone() }
+    };
+    store.add_pass(hash(1), invitation.clone()).await.unwrap();
+    let change = |deletion| TreeChange { deletion: Some(deletion), ..TreeChange::default() };
+    store.change_tree("ash", None, change(Deletion::Deleted(NOW.into()))).await.unwrap();
+    assert!(!store.redeem_pass(hash(2), &device).await.unwrap(), "its tree is deleted");
+    assert_eq!(store.pass(hash(1), NOW).await.unwrap(), Some(invitation), "it waits");
+    store.change_tree("ash", None, change(Deletion::Undeleted)).await.unwrap();
+    let late = Pass { created_at: LATER.into(), ..device.clone() };
+    assert!(!store.redeem_pass(hash(2), &late).await.unwrap(), "it has expired by then");
+    let redeem = async |byte: u8| store.redeem_pass(hash(byte), &device).await.unwrap();
+    let (a, b, c) = tokio::join!(redeem(3), redeem(4), redeem(5));
+    assert_eq!([a, b, c].iter().filter(|&&it| it).count(), 1);
+    assert_eq!(store.pass(hash(1), NOW).await.unwrap(), None, "its secret is used up");
+    let come = [(a, 3), (b, 4), (c, 5)].into_iter().find(|(has_come, _)| *has_come).unwrap().1;
+    assert_eq!(store.pass(hash(come), NOW).await.unwrap(), Some(device.clone()));
+    assert!(!redeem(6).await, "a device is no invitation");
 }
 
 pub(super) async fn as_many_are_made_at_once_as_there_may_be(store: &(impl Library + Passes)) {
@@ -119,8 +147,8 @@ pub(super) async fn a_pass_for_a_tree_goes_with_it(store: &(impl Library + Passe
     let missing = store.add_pass(hash(2), of("elm")).await;
     assert!(matches!(missing, Err(StoreError::NotFound(Missing::Tree))));
     assert_eq!(store.pass(hash(1), NOW).await.unwrap(), Some(of("ash")));
-    let deletion = Some(super::super::Deletion::Deleted("2026-01-01".into()));
-    let change = super::super::TreeChange { deletion, ..super::super::TreeChange::default() };
+    let deletion = Some(Deletion::Deleted("2026-01-01".into()));
+    let change = TreeChange { deletion, ..TreeChange::default() };
     store.change_tree("ash", None, change).await.unwrap();
     store.purge("2026-02-01", 8).await.unwrap();
     assert_eq!(store.pass(hash(1), NOW).await.unwrap(), None);

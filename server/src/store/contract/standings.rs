@@ -1,7 +1,10 @@
 //! The contract of how people stand with trees.
 
 use super::{
-    super::{Heir, Library, Locks, NewSession, Removal, Removed, Room, Standing, Standings, Store},
+    super::{
+        Deletion, Heir, Library, Locks, NewSession, Removal, Removed, Room, Standing, Standings, Store,
+        TreeChange,
+    },
     library::tree,
 };
 
@@ -93,5 +96,10 @@ pub(super) async fn a_tree_is_handed_over_with_its_sessions(
     // All of it in one answer.
     store.lock_tree("ash", Some("Ann".into())).await.unwrap();
     let standing = store.standing(Room::Session("ashen"), "login bo", NOW).await.unwrap();
-    assert_eq!(standing, Standing { locked_by: Some("Ann".into()), ..Standing::default() });
+    let locked = Standing { locked_by: Some("Ann".into()), ..Standing::default() };
+    assert_eq!(standing, locked);
+    let deletion = Some(Deletion::Deleted(NOW.into()));
+    store.change_tree("ash", None, TreeChange { deletion, ..TreeChange::default() }).await.unwrap();
+    let standing = store.standing(Room::Session("ashen"), "login bo", NOW).await.unwrap();
+    assert_eq!(standing, Standing { is_deleted: true, ..locked });
 }

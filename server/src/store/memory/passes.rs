@@ -64,6 +64,20 @@ impl Passes for MemoryStore {
         Ok(found.map(|(_, pass)| pass.role = role).is_some())
     }
 
+    async fn redeem_pass(&self, hash: SecretHash, device: &Pass) -> Result<bool, StoreError> {
+        let mut kept = self.writing()?;
+        let is_it = |(_, pass): &&mut (SecretHash, Pass)| {
+            pass.id == device.id && pass.kind == PassKind::Invitation && pass.expires_at > device.created_at
+        };
+        let deleted = |id: &String| kept.trees.get(id).is_none_or(|tree| tree.deleted_at.is_some());
+        if device.tree.as_ref().is_some_and(deleted) {
+            return Ok(false);
+        }
+        let Some(found) = kept.passes.iter_mut().find(is_it) else { return Ok(false) };
+        *found = (hash, Pass { role: found.1.role, ..device.clone() });
+        Ok(true)
+    }
+
     async fn take_pass(&self, id: &str) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
         let taken = kept.passes.extract_if(.., |(_, pass)| pass.id == id).count();

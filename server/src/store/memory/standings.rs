@@ -67,6 +67,9 @@ impl Standings for MemoryStore {
             locked_by: tree.and_then(|tree| kept.locks.get(tree)).cloned(),
             removed,
             is_heir: tree.and_then(|tree| kept.heirs.get(tree)).is_some_and(|heir| heir.person == person),
+            is_deleted: tree
+                .and_then(|tree| kept.trees.get(tree))
+                .is_some_and(|tree| tree.deleted_at.is_some()),
         })
     }
 }

@@ -23,6 +23,8 @@ pub(super) enum PassWrite {
         id: String,
         role: Role,
     },
+    /// What lets in from now on, as a device.
+    Redeem(SecretHash, Box<Pass>),
     Take(String),
     Purge(String),
 }
@@ -55,6 +57,11 @@ impl Passes for SqliteStore {
     async fn change_pass(&self, id: &str, role: Role) -> Result<bool, StoreError> {
         let write = Write::Pass(PassWrite::Change { id: id.to_owned(), role });
         Ok(self.writer.write(write).await? > 0)
+    }
+
+    async fn redeem_pass(&self, hash: SecretHash, device: &Pass) -> Result<bool, StoreError> {
+        let write = PassWrite::Redeem(hash, Box::new(device.clone()));
+        Ok(self.writer.write(Write::Pass(write)).await? > 0)
     }
 
     async fn take_pass(&self, id: &str) -> Result<bool, StoreError> {
@@ -183,6 +190,17 @@ impl PassWrite {
             Self::Change { id, role } => {
                 sqlx::query("UPDATE passes SET role = ? WHERE id = ?").bind(role.name()).bind(id)
             }
+            Self::Redeem(hash, device) => sqlx::query(
+                "UPDATE passes SET hash = ?1, kind = ?2, created_at = ?3, expires_at = ?4, ends_at = ?5
+                 WHERE id = ?6 AND kind = 'invitation' AND expires_at > ?3
+                   AND (tree IS NULL OR tree IN (SELECT id FROM trees WHERE deleted_at IS NULL))",
+            )
+            .bind(hash.to_vec())
+            .bind(device.kind.name())
+            .bind(&device.created_at)
+            .bind(&device.expires_at)
+            .bind(&device.ends_at)
+            .bind(&device.id),
             Self::Take(id) => sqlx::query("DELETE FROM passes WHERE id = ?").bind(id),
             Self::Purge(now) => sqlx::query("DELETE FROM passes WHERE expires_at <= ?").bind(now),
         };

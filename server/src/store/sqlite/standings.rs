@@ -21,8 +21,9 @@ pub(super) enum StandingWrite {
 /// Identifier, room, person, name, by whom, until when, whether the link is revoked.
 type RemovalRow = (String, String, String, String, String, String, bool);
 
-/// By whom the tree is locked, whether it was handed over to them, by whom they were removed, whether their link is revoked.
-type StandingRow = (Option<String>, bool, Option<String>, Option<bool>);
+/// By whom the tree is locked, whether it was handed over to them, whether it is deleted, by whom they were removed, whether
+/// their link is revoked.
+type StandingRow = (Option<String>, bool, bool, Option<String>, Option<bool>);
 
 impl Standings for SqliteStore {
     async fn keep_out(&self, removal: Removal, now: &str) -> Result<(), StoreError> {
@@ -64,14 +65,16 @@ impl Standings for SqliteStore {
     async fn standing(&self, room: Room<'_>, person: &str, now: &str) -> Result<Standing, StoreError> {
         let (query, name) = match room {
             Room::Tree(id) => (
-                "SELECT t.locked_by, coalesce(t.owner_person = ?2, 0) AS is_heir, r.removed_by, r.revoked \
+                "SELECT t.locked_by, coalesce(t.owner_person = ?2, 0) AS is_heir, t.deleted_at IS NOT NULL, \
+                 r.removed_by, r.revoked \
                  FROM trees t \
                  LEFT JOIN removals r ON r.person = ?2 AND r.until > ?3 AND r.room = 'tree ' || t.key \
                  WHERE t.key = ?1",
                 id,
             ),
             Room::Session(name) => (
-                "SELECT t.locked_by, coalesce(t.owner_person = ?2, 0) AS is_heir, r.removed_by, r.revoked \
+                "SELECT t.locked_by, coalesce(t.owner_person = ?2, 0) AS is_heir, t.deleted_at IS NOT NULL, \
+                 r.removed_by, r.revoked \
                  FROM sessions s LEFT JOIN trees t ON t.id = s.tree \
                  LEFT JOIN removals r ON r.person = ?2 AND r.until > ?3 \
                  AND r.room IN ('session ' || s.name, 'tree ' || t.key) \
@@ -123,7 +126,7 @@ fn removal((id, room, person, name, by, until, is_revoked): RemovalRow) -> Remov
     Removal { id, room, person, name, by, until, is_revoked }
 }
 
-fn standing((locked_by, is_heir, by, is_revoked): StandingRow) -> Standing {
-    let removed = by.zip(is_revoked);
-    Standing { locked_by, removed: removed.map(|(by, is_revoked)| Removed { by, is_revoked }), is_heir }
+fn standing((locked_by, is_heir, is_deleted, by, is_revoked): StandingRow) -> Standing {
+    let removed = by.zip(is_revoked).map(|(by, is_revoked)| Removed { by, is_revoked });
+    Standing { locked_by, removed, is_heir, is_deleted }
 }
