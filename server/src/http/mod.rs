@@ -56,7 +56,7 @@ use axum::{
     routing::{MethodRouter, any, get},
 };
 use espalier_proto::Reason;
-use tokio::sync::{Mutex, Notify, watch};
+use tokio::sync::{Notify, watch};
 use tower::ServiceBuilder;
 
 pub(crate) use self::comments::Said as SaidComment;
@@ -71,7 +71,7 @@ pub use self::{
     keys::{KEPT, UnderWay},
     members::NamesTried,
     proxies::Proxies,
-    sessions::SessionsBegun,
+    sessions::{Opening, SessionsBegun},
     turns::Turns,
 };
 use self::{
@@ -143,7 +143,7 @@ pub struct Shared {
     /// Checks passwords.
     pub passwords: Arc<Passwords>,
     /// Held by whoever opens a tree.
-    pub opening: Arc<Mutex<()>>,
+    pub opening: Arc<Opening>,
     /// Told where there is something to give back to the disk.
     pub tidying: Arc<Notify>,
     /// How far exports are.

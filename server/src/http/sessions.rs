@@ -1,7 +1,9 @@
 //! Sessions: making one, its socket.
 
 use std::{
+    collections::BTreeMap,
     future::pending,
+    sync::{Arc, Mutex, PoisonError},
     time::{Duration, Instant},
 };
 
@@ -22,7 +24,10 @@ use espalier_proto::{
 };
 use espalier_session::{DocumentError, Entrant, Principal, RestoreError, Session};
 
-use tokio::time::interval;
+use tokio::{
+    sync::{Mutex as OneAtATime, OwnedMutexGuard},
+    time::interval,
+};
 use tracing::Instrument;
 
 use super::{
@@ -57,6 +62,22 @@ impl Default for SessionsBegun {
     }
 }
 
+/// Trees that are being opened: one at a time of each.
+#[derive(Debug, Default)]
+pub struct Opening(Mutex<BTreeMap<String, Arc<OneAtATime<()>>>>);
+
+impl Opening {
+    /// Waits until nobody else opens this tree; what is given is held meanwhile.
+    pub(super) async fn of(&self, tree: &str) -> OwnedMutexGuard<()> {
+        let one = {
+            let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            all.retain(|_, one| Arc::strong_count(one) > 1);
+            Arc::clone(all.entry(tree.to_owned()).or_default())
+        };
+        one.lock_owned().await
+    }
+}
+
 /// How often it is looked whether somebody is still let in.
 const LOOKING: Duration = Duration::from_secs(1);
 /// Bytes read from a socket at once.
@@ -86,7 +107,7 @@ pub(super) async fn create(
     };
     shared.ask(&caller, Action::OpenTree, Named::Tree(&tree)).await?;
     // Two who open a tree at once come into one session: the second reads which one the first has begun.
-    let _one = shared.opening.lock().await;
+    let _one = shared.opening.of(&tree).await;
     let stored = trees::stored(&shared, &tree).await?;
     if stored.deleted_at.is_some() {
         return Err(deleted());

@@ -250,6 +250,28 @@ async fn au1_what_a_request_names_is_asked_for_as_well() {
 }
 
 #[tokio::test]
+async fn lb3_whoever_opens_a_tree_waits_for_nobody_who_opens_another() {
+    let shared = shared().await;
+    let opening = shared.opening.of("ash").await;
+    let begin = async |tree: &str| {
+        let body = json!({ "tree": tree }).to_string();
+        let asked =
+            request(&Method::POST, "/api/v1/sessions").header(header::CONTENT_TYPE, "application/json");
+        router(shared.clone()).oneshot(asked.body(Body::from(body)).unwrap()).await.unwrap().status()
+    };
+    // What is kept here is no plant; that is found out when it is opened.
+    assert_eq!(begin("yew").await, StatusCode::CONFLICT);
+    let same = begin("ash");
+    tokio::pin!(same);
+    for _ in 0..100 {
+        assert!(futures_util::poll!(&mut same).is_pending(), "one at a time");
+        tokio::task::yield_now().await;
+    }
+    drop(opening);
+    same.await;
+}
+
+#[tokio::test]
 async fn rg1_a_document_is_sent_in_parts() {
     let (server, _) = server().await;
     let import = request(&Method::POST, "/api/v1/trees/ash/versions/import?format=csv");
