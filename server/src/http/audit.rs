@@ -76,6 +76,9 @@ impl Shared {
     }
 }
 
+/// Where a tree or a collection lies that is seen by other people from then on, as the list calls what was done.
+pub(super) const MOVE: &str = "move";
+
 /// How the list calls somebody.
 pub(super) fn called(caller: &Caller) -> String {
     let me = caller.described();

@@ -1,16 +1,19 @@
 //! The library: collections, tags, favourites, and who saved trees.
 
-use axum::{Json, extract::State, http::StatusCode, response::IntoResponse};
-use espalier_proto::library::{ChangeCollection, NewCollection, TreeAuthor, TreeCollection, TreeTag};
+use axum::{Extension, Json, extract::State, http::StatusCode, response::IntoResponse};
+use espalier_proto::{
+    Problem, Reason,
+    library::{ChangeCollection, NewCollection, TreeAuthor, TreeCollection, TreeTag},
+};
 
 use super::{
-    Shared,
+    Shared, audit,
     failure::{Body, Failure, Path},
 };
 use crate::{
-    access::Caller,
+    access::{Caller, Peer},
     name,
-    store::{Collection, CollectionChange, Finding, Gifts, Missing},
+    store::{Collection, CollectionChange, DONE, Finding, Gift, Gifts, Missing},
 };
 
 pub(super) async fn list(
@@ -41,29 +44,58 @@ pub(super) async fn add(
 pub(super) async fn change(
     State(shared): State<Shared>,
     caller: Caller,
+    peer: Option<Extension<Peer>>,
     Path(id): Path<String>,
     Body(change): Body<ChangeCollection>,
 ) -> Result<Json<TreeCollection>, Failure> {
-    let parent = change.parent.as_deref().filter(|id| !id.is_empty());
-    let from = shared.store.collections().await?.into_iter().find(|collection| collection.id == id);
-    let from = from.and_then(|collection| collection.parent);
-    shared.ask_to_put_in(&caller, caller.role(), from.as_deref(), parent).await?;
     let change = CollectionChange {
         name: change.name.map(String::from),
         parent: change.parent.map(Some).map(|id| id.filter(|id| !id.is_empty())),
     };
+    let moved = match &change.parent {
+        None => None,
+        Some(to) => {
+            let all = shared.store.collections().await?;
+            let from = all.into_iter().find(|collection| collection.id == id);
+            let from = from.and_then(|collection| collection.parent);
+            let (from, to) = (from.as_deref(), to.as_deref());
+            let is_seen_by_others = shared.ask_to_move(&caller, caller.role(), from, to).await?;
+            is_seen_by_others.then(|| format!("{id}/{}", to.unwrap_or_default()))
+        }
+    };
     shared.store.change_collection(&id, change).await?;
     shared.tell_standings();
+    if let Some(moved) = moved {
+        noted(&shared, &caller, peer, moved).await;
+    }
     let found = shared.store.collections().await?.into_iter().find(|collection| collection.id == id);
     Ok(Json(to_proto(found.ok_or(Missing::Collection)?)))
 }
 
+/// Notes that what lies somewhere is seen by other people from now on.
+async fn noted(shared: &Shared, caller: &Caller, peer: Option<Extension<Peer>>, moved: String) {
+    let (who, peer) = (audit::called(caller), peer.map(|Extension(peer)| peer));
+    shared.note(who, peer, audit::MOVE, Some(moved), DONE.into()).await;
+}
+
+/// What lies in it lies in its parent then, and is seen no longer by those to whom it was given itself.
 pub(super) async fn delete(
     State(shared): State<Shared>,
+    caller: Caller,
+    peer: Option<Extension<Peer>>,
     Path(id): Path<String>,
 ) -> Result<StatusCode, Failure> {
+    let was_given = !shared.store.given(Gift::Collection(&id)).await?.is_empty();
+    if was_given && !caller.owns_all() {
+        let sentence = "That collection was given to people: only owners of the server can delete it.";
+        let allowed = "a collection that was given to nobody";
+        return Err(Problem::new(Reason::Forbidden, sentence).at("collection", allowed).into());
+    }
     shared.store.delete_collection(&id).await?;
     shared.tell_standings();
+    if was_given {
+        noted(&shared, &caller, peer, id).await;
+    }
     Ok(StatusCode::NO_CONTENT)
 }
 

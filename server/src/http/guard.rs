@@ -252,31 +252,38 @@ impl Shared {
         Ok(given)
     }
 
-    /// Whether somebody may have something lie in a collection, and so be seen by whom that was given: all trees are
-    /// theirs, or nobody sees it then who does not where it lies; they see the collection themselves, and may do no more
-    /// with it then than they may already.
-    pub(super) async fn ask_to_put_in(
+    /// Whether somebody may have something lie in a collection, or in none, instead of where it lies, and so be seen by
+    /// those to whom that was given, and no longer by others: all trees are theirs, or it is seen by the same people; they
+    /// see the collection themselves, and may do no more with it then than they may already. Says whether others see it
+    /// then.
+    pub(super) async fn ask_to_move(
         &self,
         caller: &Caller,
         role: Role,
         from: Option<&str>,
         collection: Option<&str>,
-    ) -> Result<(), Failure> {
-        let Some(collection) = collection else { return Ok(()) };
-        let there = self.store.role_in(collection, &caller.person()).await?;
-        if there == Role::None && !caller.sees_all() {
+    ) -> Result<bool, Failure> {
+        let there = match collection {
+            Some(collection) => self.store.role_in(collection, &caller.person()).await?,
+            None => Role::None,
+        };
+        if collection.is_some() && there == Role::None && !caller.sees_all() {
             return Err(Missing::Collection.into());
         }
-        if !caller.owns_all()
-            && !self.given_above(Some(collection)).await?.is_subset(&self.given_above(from).await?)
-        {
+        let (given, given_before) = (self.given_above(collection).await?, self.given_above(from).await?);
+        if !caller.owns_all() && !given.is_subset(&given_before) {
             let sentence =
                 "That collection was given to people: only owners of the server can put this there.";
             let allowed = "a collection that was given to nobody who does not see this already";
             return Err(Problem::new(Reason::Forbidden, sentence).at("collection", allowed).into());
         }
+        if !caller.owns_all() && !given_before.is_subset(&given) {
+            let sentence = "The collection where this lies was given to people: only owners of the server can take it away.";
+            let allowed = "a collection that was given to all who see this already";
+            return Err(Problem::new(Reason::Forbidden, sentence).at("collection", allowed).into());
+        }
         if there <= role {
-            return Ok(());
+            return Ok(given != given_before);
         }
         let sentence = "You may do more with what lies in that collection than with this.";
         let allowed = "a collection with which you may do no more";

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use axum::{
-    Json,
+    Extension, Json,
     extract::State,
     http::StatusCode,
     response::{IntoResponse, Response},
@@ -19,7 +19,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{
-    Shared,
+    Shared, audit,
     failure::{Body, Failure, Path, Query},
     guard::Named,
     limit::Limit,
@@ -27,11 +27,11 @@ use super::{
     versions::{self, Said, Saving},
 };
 use crate::{
-    access::{Action, Caller},
+    access::{Action, Caller, Peer},
     name,
     similar::{no_species, similar},
     store::{
-        Contents, Deletion, Finding, Library, NOT_SO_LONG_AGO, NewTree, NewVersion, Sort, StoreError,
+        Contents, DONE, Deletion, Finding, Library, NOT_SO_LONG_AGO, NewTree, NewVersion, Sort, StoreError,
         StoredTree, TreeChange, TreePlace, TreeQuery,
     },
     time::{Time, now},
@@ -265,6 +265,7 @@ pub(super) async fn add_noted(
 pub(super) async fn change(
     State(shared): State<Shared>,
     caller: Caller,
+    peer: Option<Extension<Peer>>,
     Path(id): Path<String>,
     Expected(expected): Expected,
     Body(change): Body<ChangeTree>,
@@ -278,12 +279,19 @@ pub(super) async fn change(
         ..TreeChange::default()
     };
     let (role, _) = shared.role_at(&caller, Named::Tree(&id)).await?;
-    let collection = change.collection.as_ref().and_then(Option::as_deref);
-    if collection.is_some() {
-        let from = stored(&shared, &id).await?.collection;
-        shared.ask_to_put_in(&caller, role, from.as_deref(), collection).await?;
-    }
+    let moved = match &change.collection {
+        None => None,
+        Some(to) => {
+            let from = stored(&shared, &id).await?.collection;
+            let is_seen_by_others = shared.ask_to_move(&caller, role, from.as_deref(), to.as_deref()).await?;
+            is_seen_by_others.then(|| format!("{id}/{}", to.as_deref().unwrap_or_default()))
+        }
+    };
     shared.store.change_tree(&id, expected, change).await?;
+    if let Some(moved) = moved {
+        let (who, peer) = (audit::called(&caller), peer.map(|Extension(peer)| peer));
+        shared.note(who, peer, audit::MOVE, Some(moved), DONE.into()).await;
+    }
     // Whoever was given what lies in a collection may have it no longer, or from now on.
     shared.tell_standings();
     answer(&shared, &caller, &id).await

@@ -177,6 +177,52 @@ async fn ac22_nobody_but_owners_puts_what_is_not_theirs_where_others_own() {
 }
 
 #[tokio::test]
+async fn ac22_nobody_but_owners_takes_away_what_people_were_given() {
+    let (server, store) = with_users(&["Ada", "Bo"]).await;
+    for (id, parent) in
+        [("park", None), ("pond", Some("park".to_owned())), ("reeds", Some("pond".to_owned()))]
+    {
+        let collection = Collection { id: id.into(), name: id.into(), parent, trees: 0 };
+        store.add_collection(collection).await.unwrap();
+    }
+    let editor = json!({ "role": "editor" });
+    assert_eq!(server.send(Method::PATCH, "/api/v1/users/key%20of%20Ada", editor).await.0, 200);
+    let bo = json!({ "name": "Bo", "role": "viewer" });
+    assert_eq!(server.send(Method::POST, "/api/v1/collections/pond/members", bo).await.0, 201);
+    assert_eq!(server.send(Method::PATCH, "/api/v1/trees/ash", json!({ "collection": "pond" })).await.0, 200);
+    let ada = server.log_in("Ada", "correct horse").await.unwrap();
+    let by_ada = async |method, path: &str, body| {
+        let (status, problem, _) = server.as_user(&ada, method, path, body).await;
+        (status, problem["field"].as_str().map(str::to_owned))
+    };
+    let refused = (403, Some("collection".to_owned()));
+    let patch = async |path: &str, body| by_ada(Method::PATCH, path, body).await;
+    for into in ["", "wood"] {
+        assert_eq!(patch("/api/v1/trees/ash", json!({ "collection": into })).await, refused, "{into:?}");
+        let moved = patch("/api/v1/collections/reeds", json!({ "parent": into })).await;
+        assert_eq!(moved, refused, "{into:?}");
+    }
+    assert_eq!(by_ada(Method::DELETE, "/api/v1/collections/pond", Value::Null).await, refused);
+    // Where the same people see it, it may lie; names and what was given to nobody are not in the way.
+    assert_eq!(patch("/api/v1/trees/ash", json!({ "collection": "reeds" })).await, (200, None));
+    assert_eq!(patch("/api/v1/collections/pond", json!({ "name": "Lake", "parent": "" })).await, (200, None));
+    assert_eq!(by_ada(Method::DELETE, "/api/v1/collections/park", Value::Null).await, (204, None));
+    assert_eq!(by_ada(Method::DELETE, "/api/v1/collections/reeds", Value::Null).await, (204, None));
+
+    assert_eq!(server.send(Method::PATCH, "/api/v1/trees/ash", json!({ "collection": "" })).await.0, 200);
+    assert_eq!(server.send(Method::DELETE, "/api/v1/collections/pond", Value::Null).await.0, 204);
+    let events = server.get("/api/v1/audit").await;
+    let moves: Vec<&str> = events
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|event| event["action"] == "move")
+        .map(|event| event["object"].as_str().unwrap())
+        .collect();
+    assert_eq!(moves, ["pond", "ash/", "ash/pond"], "and no move that nobody sees");
+}
+
+#[tokio::test]
 async fn ac22_the_greatest_role_counts_and_a_program_has_no_more_than_its_token() {
     let (server, store) = with_users(&["Ada"]).await;
     let change = json!({ "role": "viewer" });
