@@ -43,9 +43,7 @@ pub async fn run(store: Arc<AnyStore>, unsaved: Duration, told: Arc<Notify>, sto
                 _ = ticks.tick() => {}
                 () = told.notified() => {}
             }
-            if let Err(error) = once(&store, unsaved, SystemTime::now()).await {
-                tracing::warn!(%error, "the database could not be looked after; it is tried again later");
-            }
+            once(&store, unsaved, SystemTime::now()).await;
         }
     };
     stop.run_until_cancelled(work).await;
@@ -74,34 +72,54 @@ pub async fn watch(store: Arc<AnyStore>, sessions: Sessions, stop: CancellationT
     stop.run_until_cancelled(work).await;
 }
 
-/// Does what is due at a time.
-async fn once(store: &AnyStore, unsaved: Duration, now: SystemTime) -> Result<(), StoreError> {
+/// Does what is due at a time: first what makes room, for on a full disk nothing else can be done. What fails keeps nothing
+/// else from being done.
+async fn once(store: &AnyStore, unsaved: Duration, now: SystemTime) {
     let before = |span| written(now - span);
-    store.purge_passes(&written(now)).await?;
-    store.purge_answers(&before(http::KEPT)).await?;
-    store.purge_events(&before(EVENTS)).await?;
-    while store.purge(&before(UNDELETABLE), STEP).await? > 0 {
-        sleep(PAUSE).await;
-    }
-    let (saved, unsaved) = (before(SAVED_SESSIONS.min(unsaved)), before(unsaved));
-    loop {
-        let gone = store.purge_sessions(&saved, &unsaved, STEP).await?;
-        if gone == 0 {
-            break;
+    let trees = async {
+        while store.purge(&before(UNDELETABLE), STEP).await? > 0 {
+            sleep(PAUSE).await;
         }
-        tracing::info!(gone, "sessions that nobody had entered for long were given up");
-        sleep(PAUSE).await;
+        Ok(())
+    };
+    let sessions = async {
+        let (saved, unsaved) = (before(SAVED_SESSIONS.min(unsaved)), before(unsaved));
+        loop {
+            let gone = store.purge_sessions(&saved, &unsaved, STEP).await?;
+            if gone == 0 {
+                return Ok(());
+            }
+            tracing::info!(gone, "sessions that nobody had entered for long were given up");
+            sleep(PAUSE).await;
+        }
+    };
+    let room = async {
+        while store.shrink().await? {
+            sleep(PAUSE).await;
+        }
+        Ok(())
+    };
+    tried("deleted trees", trees.await);
+    tried("old sessions", sessions.await);
+    tried("room that is free", room.await);
+    tried("old passes", store.purge_passes(&written(now)).await);
+    tried("old answers", store.purge_answers(&before(http::KEPT)).await);
+    tried("old events", store.purge_events(&before(EVENTS)).await);
+}
+
+/// Says of a step where it failed; it is tried again next time.
+fn tried(what: &str, done: Result<(), StoreError>) {
+    if let Err(error) = done {
+        tracing::warn!(%error, what, "the database could not be looked after; it is tried again later");
     }
-    while store.shrink().await? {
-        sleep(PAUSE).await;
-    }
-    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
+    use sqlx::{ConnectOptions, sqlite::SqliteConnectOptions};
+
     use super::*;
-    use crate::store::{AnswerKey, Deletion, MostAnswers, NewSession, TreeChange, tree};
+    use crate::store::{AnswerKey, Deletion, MostAnswers, NewSession, SqliteStore, TreeChange, tree};
 
     const UNSAVED: Duration = Duration::from_hours(90 * 24);
 
@@ -114,9 +132,28 @@ mod tests {
             store.change_tree(id, None, TreeChange { deletion, ..TreeChange::default() }).await.unwrap();
         }
         let now = humantime::parse_rfc3339("2026-05-31T12:00:00Z").unwrap();
-        once(&store, UNSAVED, now).await.unwrap();
+        once(&store, UNSAVED, now).await;
         assert_eq!(store.tree("ash").await.unwrap(), None);
         assert!(store.tree("elm").await.unwrap().is_some());
+    }
+
+    #[tokio::test]
+    async fn lb6_what_cannot_be_tidied_keeps_nothing_else_from_going() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("trees.db");
+        let store = AnyStore::Sqlite(SqliteStore::open(&path).await.unwrap());
+        store.add_tree(tree("ash", "2026")).await.unwrap();
+        let deletion = Some(Deletion::Deleted("2026-05-01T12:00:00.000Z".into()));
+        store.change_tree("ash", None, TreeChange { deletion, ..TreeChange::default() }).await.unwrap();
+        let mut beside = SqliteConnectOptions::new().filename(&path).connect().await.unwrap();
+        for table in ["ALTER TABLE answers RENAME TO lost_answers", "ALTER TABLE audit RENAME TO lost_audit"]
+        {
+            sqlx::query(table).execute(&mut beside).await.unwrap();
+        }
+        once(&store, UNSAVED, humantime::parse_rfc3339("2026-07-01T12:00:00Z").unwrap()).await;
+        assert_eq!(store.tree("ash").await.unwrap(), None);
+        assert!(store.purge_answers("2026").await.is_err(), "that failed");
+        store.close().await;
     }
 
     #[tokio::test]
@@ -129,7 +166,7 @@ mod tests {
         let days = |days: u64| SystemTime::now() + Duration::from_hours(24 * days);
         let mut left = Vec::new();
         for day in [29, 31, 89, 91] {
-            once(&store, UNSAVED, days(day)).await.unwrap();
+            once(&store, UNSAVED, days(day)).await;
             let is_there = async |name| store.has_session(name).await.unwrap();
             left.push((is_there("seedling").await, is_there("unsaved").await));
         }
@@ -144,7 +181,7 @@ mod tests {
             assert!(store.begin_answer(key(byte), at, "2026", MostAnswers::default()).await.unwrap());
         }
         let now = humantime::parse_rfc3339("2026-05-31T12:00:00Z").unwrap();
-        once(&store, UNSAVED, now).await.unwrap();
+        once(&store, UNSAVED, now).await;
         assert_eq!(store.answer(key(1)).await.unwrap(), None);
         assert!(store.answer(key(2)).await.unwrap().is_some());
     }
