@@ -14,8 +14,10 @@ use crate::{
     store::TreeDocument,
 };
 
-/// Pictures that are drawn at the same time because somebody waits for them.
+/// Pictures that are drawn at the same time because somebody waits for them,
 const AT_ONCE: usize = 2;
+/// and turntables, each of a dozen pictures.
+const TURNTABLES: usize = 1;
 
 /// Bytes of pictures that are kept, and about how many pictures these are.
 const ROOM: u64 = 32 << 20;
@@ -74,6 +76,7 @@ impl Weighter<Key, Png> for Bytes {
 pub struct DrawnPictures {
     kept: Arc<Cache<Key, Png, Bytes>>,
     asked: Arc<Semaphore>,
+    turntables: Arc<Semaphore>,
 }
 
 /// Why there is no picture.
@@ -93,7 +96,8 @@ pub enum DrawError {
 impl Default for DrawnPictures {
     fn default() -> Self {
         let kept = Arc::new(Cache::with_weighter(ABOUT, ROOM, Bytes));
-        Self { kept, asked: Arc::new(Semaphore::new(AT_ONCE)) }
+        let [asked, turntables] = [AT_ONCE, TURNTABLES].map(|count| Arc::new(Semaphore::new(count)));
+        Self { kept, asked, turntables }
     }
 }
 
@@ -114,9 +118,10 @@ impl DrawnPictures {
         let key = (tree, version, kind);
         let drawn = self.kept.get_or_insert_async(&key, async {
             // What is drawn ahead is drawn one after the other anyway, and nobody waits behind it.
-            let _place = match why {
-                Why::Asked => self.asked.acquire().await.ok(),
-                Why::Ahead => None,
+            let _place = match (why, kind) {
+                (Why::Asked, Kind::Thumbnail) => self.asked.acquire().await.ok(),
+                (Why::Asked, Kind::Turntable { .. }) => self.turntables.acquire().await.ok(),
+                (Why::Ahead, _) => None,
             };
             let claim = memory.take_soon(Use::Export, memory::picture(document.bytes.len(), 0)).await?;
             // Pictures take seconds: on the pool others would wait behind them.
@@ -134,5 +139,31 @@ impl DrawnPictures {
             Ok::<Png, DrawError>(drawn.await??)
         });
         drawn.await
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[tokio::test]
+    async fn lb9_a_turntable_that_is_kept_waits_behind_none_that_is_drawn() {
+        let (pictures, memory) = (DrawnPictures::default(), Memory::of(1 << 30));
+        let pool = SimulationPool::new(None).unwrap();
+        let kind = Kind::Turntable { side: 8, count: 2 };
+        let key = |tree: &str| (tree.to_owned(), 1, kind);
+        let png: Png = Arc::from(*b"a picture");
+        pictures.kept.insert(key("ash"), Arc::clone(&png));
+        let drawing = pictures.turntables.acquire().await.unwrap();
+        let of = async |tree: &str| {
+            let document = TreeDocument { simulation_version: 1, bytes: Vec::new() };
+            pictures.of(key(tree), document, (&memory, &pool), Why::Asked).await
+        };
+        assert_eq!(of("ash").await.ok(), Some(png));
+        let other = of("yew");
+        tokio::pin!(other);
+        assert!(futures_util::poll!(&mut other).is_pending(), "one is drawn at a time");
+        drop(drawing);
+        assert!(matches!(other.await, Err(DrawError::Document(_))));
     }
 }

@@ -58,9 +58,7 @@ const UPLOAD_TIME: Duration = Duration::from_mins(10);
 const MAX_IMPORTS: usize = 1;
 /// Pictures of species made at once: sessions grow on the same threads.
 const MAX_PICTURES: usize = 1;
-/// Turntables drawn at once, each of a dozen pictures.
-const MAX_TURNTABLES: usize = 1;
-/// How long a request for one may take: those of the largest trees that a server keeps are drawn on a busy machine.
+/// How long a request for a turntable may take: those of the largest trees that a server keeps are drawn on a busy machine.
 const TURNTABLE_TIME: Duration = Duration::from_mins(5);
 /// Texts checked at once; each may take a tenth of a second where its sizes are wanted.
 const MAX_CHECKS: usize = 2;
@@ -321,6 +319,6 @@ pub(super) fn routes() -> Vec<Route> {
         route("GET /api/v1/trees/{tree}/versions/{version}/document", Action::OpenTree, get(versions::document), About::new("The document of a version ([docs/document.md](../docs/document.md)).").gives_parts("application/octet-stream")).noted(EXPORT),
         route("GET /api/v1/trees/{tree}/versions/{version}/exports/{ticket}", Action::OpenTree, get(exports::progress_of_version), About::new("How far a file of a version is that is being made (EX3).").gives::<ExportProgress>(200)),
         route("GET /api/v1/trees/{tree}/versions/{version}/thumbnail", Action::SeeTree, get(versions::thumbnail), About::new("The picture of a version.").gives_parts("image/*")),
-        route("GET /api/v1/trees/{tree}/versions/{version}/turntable", Action::SeeTree, get(versions::turntable).layer(at_once(MAX_TURNTABLES)), About::new("Twelve pictures of a version from all around, side by side (LB9).").gives_parts("image/png")).within(TURNTABLE_TIME),
+        route("GET /api/v1/trees/{tree}/versions/{version}/turntable", Action::SeeTree, get(versions::turntable), About::new("Twelve pictures of a version from all around, side by side (LB9).").gives_parts("image/png")).within(TURNTABLE_TIME),
     ]
 }
