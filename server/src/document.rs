@@ -36,6 +36,17 @@ pub enum FileError {
     Disk(#[from] std::io::Error),
 }
 
+impl FileError {
+    /// What the disk said, if it was the disk.
+    pub fn on_disk(&self) -> Option<std::io::ErrorKind> {
+        match self {
+            Self::Export(ExportError::Write(kind)) => Some(*kind),
+            Self::Disk(error) => Some(error.kind()),
+            _ => None,
+        }
+    }
+}
+
 /// A stored document that becomes a file.
 #[derive(Debug)]
 pub struct Stored(Document);

@@ -126,6 +126,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         ahead: http::Ahead::default(),
         hosts: Hosts::new(&options.host_names),
         progresses: http::Progresses::default(),
+        rooms: http::rooms(),
         turns: http::Turns::default(),
         under_way: under_way.clone(),
         addresses: if bound.ip().is_loopback() { Arc::default() } else { announce::addresses(bound).into() },

@@ -1,14 +1,18 @@
 //! A file in the making: on disk, a slice at a time, beneath what draws, until somebody gives it up.
 
+mod room;
+
 use std::{
     fs::File,
     io::{self, BufWriter, ErrorKind, Seek, SeekFrom, Write},
+    sync::Arc,
     time::Duration,
 };
 
 use tokio::sync::watch;
 use tokio_util::sync::CancellationToken;
 
+pub use self::room::{InRoom, Room, Rooms};
 use crate::pool::SimulationPool;
 
 /// Bytes that are made in one go: some milliseconds of work.
@@ -27,6 +31,7 @@ struct Slices {
     stop: CancellationToken,
     written: watch::Sender<u64>,
     bytes_left: u64,
+    room: Option<Arc<Room>>,
 }
 
 impl Spool {
@@ -37,7 +42,14 @@ impl Spool {
         stop: CancellationToken,
         written: watch::Sender<u64>,
     ) -> Self {
-        Self(BufWriter::with_capacity(SLICE, Slices { file, pool, stop, written, bytes_left: u64::MAX }))
+        let slices = Slices { file, pool, stop, written, bytes_left: u64::MAX, room: None };
+        Self(BufWriter::with_capacity(SLICE, slices))
+    }
+
+    /// The same, and it takes what it writes of a room: where that is full it is `QuotaExceeded`.
+    pub fn in_room(mut self, room: Arc<Room>) -> Self {
+        self.0.get_mut().room = Some(room);
+        self
     }
 
     /// The same, and it takes no more bytes than these: what is beyond is `QuotaExceeded`.
@@ -83,6 +95,9 @@ impl Write for Slices {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.go_on()?;
         if self.written.borrow().saturating_add(bytes.len() as u64) > self.bytes_left {
+            return Err(ErrorKind::QuotaExceeded.into());
+        }
+        if self.room.as_ref().is_some_and(|room| !room.take(bytes.len() as u64)) {
             return Err(ErrorKind::QuotaExceeded.into());
         }
         let count = self.file.write(bytes)?;

@@ -197,13 +197,14 @@ pub(super) fn downloads() -> Vec<Route> {
         Route { time_limit, ..take }
     };
     let of_session = |row| {
-        let answer =
-            get(move |state, path: Path<String>, query, asked| exports::take(state, path, query, asked, row));
+        let answer = get(move |state, path: Path<String>, caller, query, asked| {
+            exports::take(state, path, caller, (query, asked), row)
+        });
         download(row, "/api/v1/sessions/{session}", Action::TakeTree, "Download", answer)
     };
     let of_version = |row| {
-        let answer = get(move |state, path: Path<(String, u32)>, query, asked| {
-            exports::take_version(state, path, query, asked, row)
+        let answer = get(move |state, path: Path<(String, u32)>, caller, query, asked| {
+            exports::take_version(state, path, caller, (query, asked), row)
         });
         let path = "/api/v1/trees/{tree}/versions/{version}";
         download(row, path, Action::OpenTree, "Download of a version", answer)

@@ -41,16 +41,21 @@ use super::{
     turns::Place,
 };
 use crate::{
+    access::Caller,
     document::{FileError, Stored},
     export_options::{ExportOptions, NotOfFormat, option},
     formats::{FORMATS, FormatRow},
     memory::{Memory, Use},
-    spool::Spool,
+    spool::{InRoom, Room, Rooms, Spool},
     store::Library,
 };
 
 /// Bytes read from the disk at once.
 pub(super) const PIECE: usize = 256 * 1024;
+/// Bytes of files on the disk that are made for one person and sent to them,
+const BYTES_OF_ONE: u64 = 12 << 30;
+/// and for all.
+const MOST_BYTES: u64 = 16 << 30;
 /// Pixels of all pictures of a file together: nobody waits for hours for those of another.
 const MOST_DRAWN: u64 = 400_000_000;
 /// Characters of a ticket: so many that nobody guesses one.
@@ -67,6 +72,11 @@ struct Progress {
     expected: AtomicU64,
     /// Where it stands among those that are to be made.
     place: Place,
+}
+
+/// Room on the disk for what is downloaded.
+pub fn rooms() -> Rooms {
+    Rooms::new(BYTES_OF_ONE, MOST_BYTES)
 }
 
 /// Takes a ticket back when the export is done or given up.
@@ -158,11 +168,11 @@ fn progress_of(shared: &Shared, ticket: &str) -> Result<Json<ExportProgress>, Fa
 pub(super) async fn take(
     State(shared): State<Shared>,
     Path(session): Path<String>,
-    wish: Wish,
-    asked: HeaderMap,
+    caller: Caller,
+    (wish, asked): (Wish, HeaderMap),
     row: &'static FormatRow,
 ) -> Result<Response, Failure> {
-    let wanted = Wanted::of(&shared, row, wish)?;
+    let wanted = Wanted::of(&shared, &caller, row, wish)?;
     let turn = wanted.progress.place.turn().await?;
     let document = open(&shared, &session).await?.read().await?;
     let tree = match shared.store.tree_of(&session).await? {
@@ -176,11 +186,11 @@ pub(super) async fn take(
 pub(super) async fn take_version(
     State(shared): State<Shared>,
     Path((tree, number)): Path<(String, u32)>,
-    wish: Wish,
-    asked: HeaderMap,
+    caller: Caller,
+    (wish, asked): (Wish, HeaderMap),
     row: &'static FormatRow,
 ) -> Result<Response, Failure> {
-    let wanted = Wanted::of(&shared, row, wish)?;
+    let wanted = Wanted::of(&shared, &caller, row, wish)?;
     let turn = wanted.progress.place.turn().await?;
     let document = saved_document(&shared, &tree, number).await?;
     let name = name_of(&shared, &tree, number).await?;
@@ -199,25 +209,18 @@ struct Wanted {
     options: ExportOptions,
     progress: Arc<Progress>,
     held: Option<Held>,
+    /// What it takes of the disk.
+    room: Arc<Room>,
 }
 
 impl Wanted {
-    fn of(shared: &Shared, row: &'static FormatRow, wish: Wish) -> Result<Self, Failure> {
+    fn of(shared: &Shared, caller: &Caller, row: &'static FormatRow, wish: Wish) -> Result<Self, Failure> {
         let Wish { options, ticket } = wish;
-        options.check(row.options).map_err(|error| not_of(row, &error))?;
-        let pixels = row.pixels(&options);
-        if pixels > MOST_DRAWN {
-            let allowed = format!("so many pictures that all together have {MOST_DRAWN} pixels at most");
-            return Err(Problem::out_of_range(
-                option::FRAMES,
-                format!("too many for {pixels} pixels"),
-                allowed,
-            )
-            .into());
-        }
+        let pixels = checked(row, &options)?;
         let place = shared.turns.come(pixels);
         let (progress, held) = shared.progresses.hold(ticket, place)?;
-        Ok(Self { row, options, progress, held })
+        let room = shared.rooms.of(caller.person());
+        Ok(Self { row, options, progress, held, room })
     }
 
     /// Makes it of the bytes of a document, which the server and people call so, and sends it.
@@ -229,7 +232,7 @@ impl Wanted {
         bytes: impl AsRef<[u8]> + Send + 'static,
         asked: &HeaderMap,
     ) -> Result<Response, Failure> {
-        let Self { row, options, progress, held } = self;
+        let Self { row, options, progress, held, room } = self;
         let claim = shared.memory.take_soon(Use::Export, row.weight(bytes.as_ref().len(), &options)).await?;
         // The same program makes the same file of the same document.
         let said = format!("{options:?}");
@@ -245,10 +248,16 @@ impl Wanted {
         let stop = CancellationToken::new();
         let gone = stop.clone().drop_guard();
         let (made, whether_made) = oneshot::channel();
-        let sending = Sending { written: progress.written.subscribe(), made: whether_made, gone };
+        let sending = Sending {
+            written: progress.written.subscribe(),
+            made: whether_made,
+            gone,
+            room: Arc::clone(&room),
+        };
+        let of_writer = Arc::clone(&room);
         let (pool, memory, of_tree) = (shared.pool.clone(), shared.memory.clone(), name.to_owned());
         spawn_blocking(move || {
-            let out = Spool::new(out, pool, stop, progress.written.clone());
+            let out = Spool::new(out, pool, stop, progress.written.clone()).in_room(of_writer);
             let file = make(bytes.as_ref(), row, &options, (&progress.expected, &memory), out);
             drop((bytes, held, claim, progress, turn));
             if let Err(Err(error)) = made.send(file) {
@@ -256,7 +265,9 @@ impl Wanted {
             }
         });
         match sending.ready(reader).await {
-            Ready::Whole(Ok(Ok((file, length)))) => ranges::answer(asked, headers, &tag, file, length),
+            Ready::Whole(Ok(Ok((file, length)))) => {
+                ranges::answer(asked, headers, &tag, InRoom(file, room), length)
+            }
             Ready::Whole(Ok(Err(FileError::Document(error)))) => Err(unreadable(name, &error)),
             Ready::Whole(Ok(Err(FileError::Memory(full)))) => Err(full.into()),
             Ready::Whole(Ok(Err(error))) => Err(not_made(name, &error)),
@@ -268,6 +279,20 @@ impl Wanted {
 
 fn not_made(name: &str, error: &FileError) -> Failure {
     tracing::error!(name, %error, "a document cannot be exported");
+    if error.on_disk() == Some(io::ErrorKind::QuotaExceeded) {
+        let [one, all] = [BYTES_OF_ONE, MOST_BYTES].map(|bytes| bytes >> 30);
+        let sentence = format!(
+            "The tree cannot be exported now: files that you download have {one} GiB on the server's disk, or those of \
+             all {all} GiB; try again when they have arrived."
+        );
+        return Failure::new(Reason::NotExported, sentence);
+    }
+    if error.on_disk() == Some(io::ErrorKind::StorageFull) {
+        return Failure::new(
+            Reason::NotExported,
+            "The tree cannot be exported: the disk of the server is full.",
+        );
+    }
     Failure::new(Reason::NotExported, "The tree cannot be exported.")
 }
 
@@ -326,7 +351,18 @@ fn make(
     Ok(out.into_file()?)
 }
 
-pub(super) fn not_of(row: &FormatRow, error: &NotOfFormat) -> Problem {
+/// Checks that a format has these options, and that no more is drawn for a file than may be (`EX6`); how many pixels are.
+pub(super) fn checked(row: &FormatRow, options: &ExportOptions) -> Result<u64, Problem> {
+    options.check(row.options).map_err(|error| not_of(row, &error))?;
+    let pixels = row.pixels(options);
+    if pixels > MOST_DRAWN {
+        let allowed = format!("so many pictures that all together have {MOST_DRAWN} pixels at most");
+        return Err(Problem::out_of_range(option::FRAMES, format!("too many for {pixels} pixels"), allowed));
+    }
+    Ok(pixels)
+}
+
+fn not_of(row: &FormatRow, error: &NotOfFormat) -> Problem {
     let allowed = if row.options.is_empty() { "no option".to_owned() } else { row.options.join(", ") };
     let message = format!("The export cannot be done: {error}; allowed: {allowed}.");
     Problem::new(Reason::NoSuchOption, message).at(error.option(), allowed)

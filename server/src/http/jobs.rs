@@ -30,8 +30,7 @@ pub(super) use self::{
     list::{JobPage, Page, list},
 };
 use super::{
-    Shared,
-    exports::{self, not_of},
+    Shared, exports,
     failure::{Body, Failure, Path},
     guard::Named,
     ranges, sessions, trees,
@@ -332,7 +331,7 @@ pub(super) async fn grow(
 ) -> Result<impl IntoResponse, Failure> {
     let GrowTrees { template, parameters, appearance, seeds, steps, metamers, format, options } = wanted;
     let Ending(row) = format;
-    options.check(row.options).map_err(|error| not_of(row, &error).within("options"))?;
+    exports::checked(row, &options).map_err(|problem| problem.within("options"))?;
     let budget = shared.metamer_budget;
     // Read here, for no type knows how many this server allows.
     let range = Between(1, budget);

@@ -66,7 +66,7 @@ pub use self::{
     audit::described,
     comments::CommentsWritten,
     entry::Logins,
-    exports::Progresses,
+    exports::{Progresses, rooms},
     guard::NotedDone,
     keys::{KEPT, UnderWay},
     members::NamesTried,
@@ -89,6 +89,7 @@ use crate::{
     memory::Memory,
     pool::SimulationPool,
     portrait::Portraits,
+    spool::Rooms,
     store::AnyStore,
 };
 
@@ -148,6 +149,8 @@ pub struct Shared {
     pub tidying: Arc<Notify>,
     /// How far exports are.
     pub progresses: Progresses,
+    /// Room on the disk for what is downloaded.
+    pub rooms: Rooms,
     /// Whose turn it is to have one made.
     pub turns: Turns,
     /// Trees that are grown on request.

@@ -1,6 +1,6 @@
 //! A file that is sent while it is made.
 
-use std::{fs::File, io};
+use std::{fs::File, io, sync::Arc};
 
 use axum::body::{Body, Bytes};
 use futures_util::stream;
@@ -11,7 +11,7 @@ use tokio::sync::{
 use tokio_util::sync::DropGuard;
 
 use super::exports::{PIECE, piece_of};
-use crate::document::FileError;
+use crate::{document::FileError, spool::Room};
 
 /// Bytes of a file that are made before it is sent: a smaller one is sent when it is whole, with its length.
 pub(super) const BEGINNING: u64 = 4 * 1024 * 1024;
@@ -26,6 +26,8 @@ pub(super) struct Sending {
     pub made: oneshot::Receiver<Made>,
     /// Gives it up when it is dropped.
     pub gone: DropGuard,
+    /// What it takes of the disk.
+    pub room: Arc<Room>,
 }
 
 /// What can be answered with.
@@ -68,8 +70,8 @@ impl Sending {
     /// The file, a piece at a time, each when it lies on the disk and the one before has been taken. Where the file fails,
     /// its transfer ends without an end, which every client takes for a failure.
     fn body(self, file: File) -> Body {
-        let Self { written, made, gone } = self;
-        let reading = Reading { file, sent: 0, written, made: Some(made), _gone: gone };
+        let Self { written, made, gone, room } = self;
+        let reading = Reading { file, sent: 0, written, made: Some(made), _gone: gone, _room: room };
         Body::from_stream(stream::try_unfold(reading, Reading::next))
     }
 }
@@ -82,6 +84,7 @@ struct Reading {
     /// None once it is whole.
     made: Option<oneshot::Receiver<Made>>,
     _gone: DropGuard,
+    _room: Arc<Room>,
 }
 
 impl Reading {
@@ -119,7 +122,7 @@ mod tests {
     use tokio_util::sync::CancellationToken;
 
     use super::*;
-    use crate::http::exports::on_disk;
+    use crate::{http::exports::on_disk, spool::Rooms};
 
     /// A file that is written by hand.
     struct Hand {
@@ -135,7 +138,8 @@ mod tests {
             let (written, stop) = (watch::Sender::default(), CancellationToken::new());
             let (made, whether_made) = oneshot::channel();
             let gone = stop.clone().drop_guard();
-            let sending = Sending { written: written.subscribe(), made: whether_made, gone };
+            let room = Rooms::new(u64::MAX, u64::MAX).of("ada".into());
+            let sending = Sending { written: written.subscribe(), made: whether_made, gone, room };
             (Self { file, written, made, stop }, sending, reader.unwrap())
         }
 

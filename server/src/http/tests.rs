@@ -88,6 +88,7 @@ async fn shared() -> Shared {
         opening: Arc::default(),
         tidying: Arc::default(),
         progresses: Progresses::default(),
+        rooms: rooms(),
         turns: Turns::default(),
         under_way: UnderWay::default(),
     }

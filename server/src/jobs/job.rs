@@ -327,14 +327,14 @@ fn problem_of(error: &JobError, seed: u32) -> Problem {
         }
         JobError::Grow(GrowError::GivenUp) => given_up(),
         JobError::Grow(error @ GrowError::NoMemory) => Problem::new(Reason::MemoryFull, error.to_string()),
-        JobError::File(error) if kind_of(error) == Some(ErrorKind::QuotaExceeded) => {
+        JobError::File(error) if error.on_disk() == Some(ErrorKind::QuotaExceeded) => {
             let [one, all] = [BYTES_OF_ONE, MOST_BYTES].map(|bytes| bytes >> 30);
             let sentence = format!(
                 "The files of your jobs have {one} GiB, or those of all {all} GiB, and may not have more."
             );
             Problem::new(Reason::JobsDiskFull, sentence)
         }
-        JobError::File(error) if kind_of(error) == Some(ErrorKind::StorageFull) => {
+        JobError::File(error) if error.on_disk() == Some(ErrorKind::StorageFull) => {
             Problem::new(Reason::JobsDiskFull, "The disk of the server is full.")
         }
         JobError::File(error) => {
@@ -346,15 +346,6 @@ fn problem_of(error: &JobError, seed: u32) -> Problem {
 
 fn given_up() -> Problem {
     Problem::new(Reason::Stopping, "The job was given up.")
-}
-
-/// What the disk said, if it was the disk.
-fn kind_of(error: &FileError) -> Option<ErrorKind> {
-    match error {
-        FileError::Export(ExportError::Write(kind)) => Some(*kind),
-        FileError::Disk(error) => Some(error.kind()),
-        _ => None,
-    }
 }
 
 /// A document that grows beneath those who draw, until it is given up.

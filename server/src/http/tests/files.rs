@@ -368,3 +368,17 @@ async fn lm14_files_that_become_trees_may_take_as_long_as_models() {
     }
     assert!(model > limits("GET /api/v1/trees").expect("there is one"));
 }
+
+#[tokio::test]
+async fn ex2_a_download_that_finds_no_room_on_the_disk_is_refused_with_the_reason() {
+    let path = "/api/v1/sessions/oak/tree.mtg";
+    for (rooms, expected) in [(rooms(), 200), (Rooms::new(10, 1000), 503), (Rooms::new(1000, 10), 503)] {
+        let server = router(Shared { rooms, ..shared().await });
+        let answer = server.oneshot(request(&Method::GET, path).body(Body::empty()).unwrap()).await.unwrap();
+        let status = answer.status().as_u16();
+        let body = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+        let body = String::from_utf8_lossy(&body);
+        assert_eq!(status, expected, "{body}");
+        assert!(expected == 200 || body.contains("not-exported") && body.contains("12 GiB"), "{body}");
+    }
+}

@@ -78,3 +78,21 @@ async fn jb1_seeds_are_a_list_or_a_text() {
         assert_eq!(serde_json::from_slice::<Value>(&bytes).unwrap()["all"], all, "{seeds}");
     }
 }
+
+#[tokio::test]
+async fn ex6_pictures_of_a_job_are_bounded_as_those_of_a_download() {
+    let (server, _) = server().await;
+    for (frames, status) in [(100, 400), (10, 202)] {
+        let options = json!({ "size": "3840x2160", "frames": frames });
+        let body = json!({ "template": "oak", "format": "sway.png", "options": options }).to_string();
+        let order = request(&Method::POST, "/api/v1/grow").header(header::CONTENT_TYPE, "application/json");
+        let answer = server.clone().oneshot(order.body(Body::from(body)).unwrap()).await.unwrap();
+        let found = answer.status().as_u16();
+        let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+        let problem: Value = serde_json::from_slice(&bytes).unwrap();
+        assert_eq!(found, status, "{problem}");
+        if status == 400 {
+            assert_eq!(problem["field"], "options.frames", "{problem}");
+        }
+    }
+}
