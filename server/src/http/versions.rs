@@ -186,9 +186,10 @@ async fn version_of(shared: &Shared, tree: &str, number: u32) -> Result<TreeVers
 pub(super) async fn document(
     shared: State<Shared>,
     version: Path<(String, u32)>,
+    caller: Caller,
     asked: HeaderMap,
 ) -> Result<Response, Failure> {
-    exports::take_version(shared, version, Wish::default(), asked, &DOCUMENT).await
+    exports::take_version(shared, version, caller, (Wish::default(), asked), &DOCUMENT).await
 }
 
 /// The picture that was saved with a version, or else one that is drawn (`LB1`).
