@@ -78,6 +78,11 @@ impl Plant {
         }
     }
 
+    /// Metamers of the whole line of time: those ever born up to the present, and those recorded beyond it.
+    pub fn recorded_metamers(&self) -> usize {
+        self.metamers.parent.len()
+    }
+
     /// Axes ever born up to the present, buds and the dead included.
     pub fn axis_count(&self) -> usize {
         if self.timeline.recording { self.axes.bearer.len() } else { self.timeline.present().axes as usize }

@@ -287,7 +287,7 @@ impl Document {
     /// What it takes of memory, in rows: metamers, dead ones and those of its futures included, what grammars keep, and as
     /// many triangles of obstacles as [`Document::held_triangles`] said last.
     pub(crate) fn held_rows(&self, triangles: u64) -> u64 {
-        let rows = self.simulation.plant().metamer_count() + self.futures.metamers();
+        let rows = self.simulation.plant().recorded_metamers() + self.futures.metamers();
         let words = self.simulation.generator().bytes_of_words();
         room::as_rows(rows as u64, triangles) + room::grammars_as_rows(self.held_by_grammars().0, words)
     }

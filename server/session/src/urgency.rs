@@ -2,7 +2,7 @@
 
 use espalier_proto::Action;
 
-/// In a tree of more rows than this, dead ones included, what is done in one piece is long, whoever waits for it: no
+/// In a tree of more rows than this, dead ones and those beyond the present included, what is done in one piece is long, whoever waits for it: no
 /// slice can be interrupted, and those who draw do not wait for it.
 pub(crate) const LONG_ROWS: usize = 20_000;
 

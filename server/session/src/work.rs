@@ -314,7 +314,7 @@ impl Work {
     }
 
     fn has_many_rows(&self) -> bool {
-        self.document.plant().metamer_count() > LONG_ROWS
+        self.document.plant().recorded_metamers() > LONG_ROWS
     }
 
     /// Whether somebody who comes is to be shown the tree, and that is not made yet. Whoever has only fallen behind is
