@@ -103,7 +103,7 @@ reasons! {
         TooMany,
         /// Something is tried or done too often.
         TooOften,
-        /// Too many commands wait to be done.
+        /// Too many commands wait to be done, in the session or of one person (LM23).
         Behind,
         /// A file has too many bytes.
         LargeFile,
