@@ -3,7 +3,6 @@
 
 mod job;
 mod place;
-mod queue;
 
 use std::{
     cmp::Reverse,
@@ -18,12 +17,13 @@ use tokio::{sync::Notify, time::sleep};
 use tokio_util::sync::CancellationToken;
 
 pub use self::job::{Grown, Job, Order, Progress, State};
-use self::{place::Place, queue::Queue};
+use self::place::Place;
 use crate::{
     access::{Action, Caller},
     memory::Memory,
     name,
     pool::SimulationPool,
+    queue::Queue,
     store::AnyStore,
 };
 

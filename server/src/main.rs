@@ -31,6 +31,7 @@ mod pool;
 mod portrait;
 mod problem_json;
 mod progress;
+mod queue;
 mod recipe;
 mod review;
 mod serve;

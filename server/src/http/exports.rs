@@ -26,7 +26,7 @@ use futures_util::stream;
 use serde::Deserialize;
 use tokio::{
     runtime::Handle,
-    sync::{OwnedSemaphorePermit, oneshot, watch},
+    sync::{oneshot, watch},
     task::spawn_blocking,
 };
 use tokio_util::sync::CancellationToken;
@@ -38,7 +38,7 @@ use super::{
     sending::{Made, Ready, Sending},
     sessions::{open, saved_document, unreadable},
     trees,
-    turns::Place,
+    turns::{Place, Turn},
 };
 use crate::{
     access::Caller,
@@ -173,7 +173,7 @@ pub(super) async fn take(
     row: &'static FormatRow,
 ) -> Result<Response, Failure> {
     let wanted = Wanted::of(&shared, &caller, row, wish)?;
-    let turn = wanted.progress.place.turn().await?;
+    let turn = wanted.progress.place.turn().await;
     let document = open(&shared, &session).await?.read().await?;
     let tree = match shared.store.tree_of(&session).await? {
         Some(tree) => shared.store.tree(&tree.id).await?.map(|tree| tree.name),
@@ -191,7 +191,7 @@ pub(super) async fn take_version(
     row: &'static FormatRow,
 ) -> Result<Response, Failure> {
     let wanted = Wanted::of(&shared, &caller, row, wish)?;
-    let turn = wanted.progress.place.turn().await?;
+    let turn = wanted.progress.place.turn().await;
     let document = saved_document(&shared, &tree, number).await?;
     let name = name_of(&shared, &tree, number).await?;
     wanted.sent(&shared, turn, (&tree, &name), document.bytes, &asked).await
@@ -217,7 +217,7 @@ impl Wanted {
     fn of(shared: &Shared, caller: &Caller, row: &'static FormatRow, wish: Wish) -> Result<Self, Failure> {
         let Wish { options, ticket } = wish;
         let pixels = checked(row, &options)?;
-        let place = shared.turns.come(pixels);
+        let place = shared.turns.come(caller.person(), pixels);
         let (progress, held) = shared.progresses.hold(ticket, place)?;
         let room = shared.rooms.of(caller.person());
         Ok(Self { row, options, progress, held, room })
@@ -227,7 +227,7 @@ impl Wanted {
     async fn sent(
         self,
         shared: &Shared,
-        turn: OwnedSemaphorePermit,
+        turn: Turn,
         (name, tree): (&str, &str),
         bytes: impl AsRef<[u8]> + Send + 'static,
         asked: &HeaderMap,

@@ -1,52 +1,52 @@
-//! Whose turn it is: those who ordered jobs take turns, and the jobs of each are done in their order.
+//! Whose turn it is: those who ordered something take turns, and what each ordered is done in its order.
 
 use std::collections::BTreeMap;
 
-/// Jobs with trees to grow.
+/// What was ordered, jobs for short.
 #[derive(Debug, Default)]
-pub(super) struct Queue {
+pub struct Queue {
     /// By whom, and the name of the job, in the order in which they came.
     jobs: Vec<(String, String)>,
-    /// When each of those who wait had a turn last, or came.
+    /// When each of those who wait had a turn last, or came: even numbers are turns, odd ones arrivals.
     turns: BTreeMap<String, u64>,
     turn: u64,
 }
 
 impl Queue {
     /// How many there are.
-    pub(super) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.jobs.len()
     }
 
     /// How many somebody has.
-    pub(super) fn of(&self, person: &str) -> usize {
+    pub fn of(&self, person: &str) -> usize {
         self.jobs.iter().filter(|(by, _)| by == person).count()
     }
 
     /// Adds a job of somebody.
-    pub(super) fn add(&mut self, person: String, name: String) {
-        // Whoever comes anew is behind nobody's second turn, and before nobody's first.
-        self.turns.entry(person.clone()).or_insert(self.turn);
+    pub fn add(&mut self, person: String, name: String) {
+        // Whoever comes anew is before the one who had a turn last, and behind all who have waited longer.
+        self.turns.entry(person.clone()).or_insert(self.turn.saturating_sub(1));
         self.jobs.push((person, name));
     }
 
     /// Takes a job out.
-    pub(super) fn remove(&mut self, name: &str) {
+    pub fn remove(&mut self, name: &str) {
         self.jobs.retain(|(_, other)| other != name);
         let Self { jobs, turns, .. } = self;
         turns.retain(|person, _| jobs.iter().any(|(by, _)| by == person));
     }
 
     /// The job whose turn it is; it stays until it is taken out.
-    pub(super) fn next(&mut self) -> Option<String> {
+    pub fn next(&mut self) -> Option<String> {
         let (person, name) = self.jobs.get(first(&self.jobs, &self.turns)?)?.clone();
-        self.turn += 1;
+        self.turn += 2;
         self.turns.insert(person, self.turn);
         Some(name)
     }
 
-    /// All jobs in the order in which they begin, where so many trees of each are left: it has a turn for each of them.
-    pub(super) fn in_order(&self, left: impl Fn(&str) -> usize) -> Vec<&str> {
+    /// All jobs in the order in which they begin, where each has so many turns before it is done.
+    pub fn in_order(&self, left: impl Fn(&str) -> usize) -> Vec<&str> {
         // Of each person, the turns that they have had before, and the place of their first job.
         let mut had: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
         let mut all = Vec::with_capacity(self.jobs.len());
@@ -106,5 +106,14 @@ mod tests {
         queue.remove("a1");
         queue.add("a".into(), "a2".into());
         assert_eq!(queue.next().as_deref(), Some("b1"));
+    }
+
+    #[test]
+    fn jb6_whoever_comes_anew_does_not_wait_for_all_of_another_s() {
+        let mut queue = queue(&[("a", "a1"), ("a", "a2")]);
+        assert_eq!(queue.next().as_deref(), Some("a1"));
+        queue.remove("a1");
+        queue.add("b".into(), "b1".into());
+        assert_eq!(queue.in_order(|_| 1), ["b1", "a2"]);
     }
 }
