@@ -25,7 +25,6 @@ export const CHIPS = {
     "Der Server ist hieran zweimal gescheitert. Was gezeichnet wurde, ist behalten und wartet",
   ],
   "chips.paused.owner": ["; an owner can let it go on", "; ein Eigentümer kann es weitergehen lassen"],
-  "chips.paused.go-on": ["Go on", "Weitermachen"],
   "tools.growing.stop": ["Stop", "Anhalten"],
   "tools.growing.stop.title": ["Stop growing (Esc)", "Wachstum anhalten (Esc)"],
 } as const;

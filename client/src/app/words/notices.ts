@@ -20,6 +20,7 @@ export const NOTICES = {
   ],
   "notices.unknown-session.way": ["Plant a new tree", "Neuen Baum pflanzen"],
   "notices.cannot-open": ["This tree cannot be opened", "Dieser Baum lässt sich nicht öffnen"],
+  "notices.go-on": ["Go on", "Weitermachen"],
   "notices.only-look": ["Choose a tree", "Wähle einen Baum"],
   "notices.only-look.text": [
     "You are invited to look at the trees of this library, not to draw.",

@@ -2,7 +2,7 @@ import { useEffect, useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
 import { descriptorOf } from "../../tools/tools";
 import { say } from "../../words/say";
-import { GoOn } from "./paused-chip";
+import { GoOn } from "./go-on-button";
 
 /** What keeps the workspace from being used, and the way on. */
 export function HindranceCard({ studio }: { studio: Studio }) {
