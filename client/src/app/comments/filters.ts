@@ -1,14 +1,16 @@
 import type { Comment, Pin, Thread } from "../../wire/generated";
 
 /** Which threads a list shows. */
-export const FILTERS = ["open", "mine", "mentions", "unread", "detached", "all"] as const;
+export const FILTERS = ["open", "mentions", "unread", "regrown", "detached", "all"] as const;
 export type Filter = (typeof FILTERS)[number];
 
-/** Who looks, and what they want to see. */
+/** Who must have said something in a thread: anybody, whoever looks, or somebody else, by their name. */
+export type By = "anybody" | "own" | `other ${string}`;
+
+/** What whoever looks wants to see. */
 export interface Wanted {
   readonly filter: Filter;
-  /** What somebody must have taken part, if anybody must. */
-  readonly person: string | null;
+  readonly by: By;
 }
 
 /** Whether there is something in a thread that whoever looks has not seen. */
@@ -38,19 +40,19 @@ export function newCalls(before: Thread | undefined, after: Thread): Comment[] {
 }
 
 /** Whether a list shows a thread. */
-export function isWanted(thread: Thread, pin: Pin | undefined, { filter, person }: Wanted): boolean {
-  if (person !== null && !thread.comments.some(({ author }) => author === person)) {
+export function isWanted(thread: Thread, pin: Pin | undefined, { filter, by }: Wanted): boolean {
+  if (by !== "anybody" && !thread.comments.some((comment) => authorOf(comment) === by)) {
     return false;
   }
   switch (filter) {
     case "open":
       return thread.resolved === undefined;
-    case "mine":
-      return thread.comments.some(({ own }) => own);
     case "mentions":
       return thread.comments.some(isForMe);
     case "unread":
       return isUnread(thread);
+    case "regrown":
+      return thread.at !== undefined && pin?.state === "regrown";
     case "detached":
       return thread.at !== undefined && (pin?.state === "detached" || pin?.state === "elsewhere");
     case "all":
@@ -58,8 +60,19 @@ export function isWanted(thread: Thread, pin: Pin | undefined, { filter, person 
   }
 }
 
-/** Everybody who has said something, in order of their names. */
-export function authorsOf(threads: Iterable<Thread>): string[] {
-  const names = new Set([...threads].flatMap(({ comments }) => comments.map(({ author }) => author)));
-  return [...names].sort((a, b) => a.localeCompare(b));
+/** Everybody who has said something: whoever looks, then others in order of their names. */
+export function authorsOf(threads: Iterable<Thread>): By[] {
+  const all = new Set([...threads].flatMap(({ comments }) => comments.map(authorOf)));
+  const others = [...all].filter((by) => by !== "own").sort((a, b) => nameOf(a).localeCompare(nameOf(b)));
+  return all.has("own") ? ["own", ...others] : others;
+}
+
+/** What somebody else is called. */
+export function nameOf(by: By): string {
+  return by.slice("other ".length);
+}
+
+/** Whoever has the same name is somebody else. */
+function authorOf({ author, own }: Comment): By {
+  return own ? "own" : `other ${author}`;
 }

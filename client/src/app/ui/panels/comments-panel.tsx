@@ -2,7 +2,17 @@ import { useEffect, useState } from "preact/hooks";
 import type { Thread } from "../../../wire/generated";
 import { reviewAddress } from "../../comments/comment-api";
 import type { Conversation } from "../../comments/conversation";
-import { authorsOf, callsForMe, FILTERS, type Filter, isUnread, isWanted, unreadIn } from "../../comments/filters";
+import {
+  authorsOf,
+  type By,
+  callsForMe,
+  FILTERS,
+  type Filter,
+  isUnread,
+  isWanted,
+  nameOf,
+  unreadIn,
+} from "../../comments/filters";
 import type { Studio } from "../../studio";
 import { dateText } from "../../words/date-text";
 import { language, say } from "../../words/say";
@@ -72,10 +82,12 @@ interface ThreadListProps {
 
 function ThreadList({ studio, conversation, threads }: ThreadListProps) {
   const [filter, setFilter] = useState<Filter>("open");
-  const [person, setPerson] = useState<string | null>(null);
+  const [chosen, setChosen] = useState<By>("anybody");
   const pins = studio.comments.pins.value;
-  const wanted = threads.filter((thread) => isWanted(thread, pins.get(thread.thread), { filter, person }));
   const authors = authorsOf(threads);
+  // What somebody has said may be deleted while they are chosen.
+  const by = authors.length > 1 && authors.includes(chosen) ? chosen : "anybody";
+  const wanted = threads.filter((thread) => isWanted(thread, pins.get(thread.thread), { filter, by }));
   const tree = conversation.tree.value;
   return (
     <div class="stack">
@@ -117,14 +129,11 @@ function ThreadList({ studio, conversation, threads }: ThreadListProps) {
           {authors.length > 1 && (
             <label class="field">
               <span>{say("comments.person")}</span>
-              <select
-                value={person ?? ""}
-                onChange={({ currentTarget }) => setPerson(currentTarget.value === "" ? null : currentTarget.value)}
-              >
-                <option value="">{say("comments.person.any")}</option>
-                {authors.map((name) => (
-                  <option key={name} value={name}>
-                    {name}
+              <select value={by} onChange={({ currentTarget }) => setChosen(currentTarget.value as By)}>
+                <option value="anybody">{say("comments.person.any")}</option>
+                {authors.map((author) => (
+                  <option key={author} value={author}>
+                    {author === "own" ? say("comments.person.you") : nameOf(author)}
                   </option>
                 ))}
               </select>
