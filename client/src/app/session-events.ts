@@ -57,7 +57,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly drawnInVain: Pick<DrawnInVain, "show" | "clear">;
   readonly together: Together;
   readonly serverTime: Pick<ServerTime, "heard">;
-  readonly comments: Pick<Comments, "place" | "change" | "clear">;
+  readonly comments: Pick<Comments, "place" | "change" | "leaving" | "clear">;
   readonly undo: Pick<OwnUndo, "done" | "refused" | "forget">;
   readonly rights: Pick<Rights, "grant" | "leave" | "mayChange">;
 }
@@ -190,6 +190,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
     leaving: () => {
       page.tools.end();
       page.growth.release();
+      page.comments.leaving();
     },
     parted: () => page.toasts.show(say("notices.parted")),
     choosing: () => {

@@ -128,6 +128,46 @@ test("CT1, CT2: two pages talk about a place that rides with its branch, goes wi
   await tablet.show("comment-list");
 });
 
+test("CT5: what its author deletes comes back with Undo, and is gone for everyone when the page is closed", async () => {
+  const { tablet, address } = await workshop.fresh({ ...SEEN, watched: false });
+  const tree = await save(tablet, "Rowan");
+  await openComments(tablet);
+  const said = (page: Tablet, text: string) => page.page.locator(".comment-text", { hasText: text });
+  const toast = tablet.page.locator(".toast-row", { hasText: "Deleted: Thinner here" });
+  const onServer = () =>
+    tablet.page.evaluate(async (tree) => {
+      const threads = await (await fetch(`/api/v1/trees/${tree}/threads`)).json();
+      return threads.map(({ comments }: { comments: { text: string }[] }) => comments.map(({ text }) => text));
+    }, tree);
+  await tablet.press(tablet.page.getByRole("button", { name: "Comment on the whole tree" }));
+  await tablet.page.getByLabel("What you want to say").fill("Thinner here");
+  await tablet.press(tablet.page.getByRole("button", { name: "Send" }));
+  await said(tablet, "Thinner here").waitFor();
+  const other = await workshop.open(address, { ...SEEN, watched: false });
+  await openComments(other);
+  await other.press(other.page.locator(".comment-threads > li > button"));
+  await said(other, "Thinner here").waitFor();
+  await other.press(other.page.getByRole("button", { name: "Answer" }));
+  await other.page.getByLabel("What you want to say").fill("It is done");
+  await other.press(other.page.getByRole("button", { name: "Send" }));
+  await said(tablet, "It is done").waitFor();
+
+  const remove = () =>
+    tablet.press(tablet.page.locator(".comments > li").first().getByRole("button", { name: "Delete" }));
+  await remove();
+  await said(tablet, "Thinner here").waitFor({ state: "detached" });
+  expect(await onServer(), "the server still has it").toEqual([["Thinner here", "It is done"]]);
+  await tablet.press(toast.getByRole("button", { name: "Undo" }));
+  await said(tablet, "Thinner here").waitFor();
+  await toast.waitFor({ state: "detached" });
+
+  await remove();
+  await toast.waitFor();
+  await tablet.page.goto("about:blank");
+  await said(other, "Thinner here").waitFor({ state: "detached" });
+  await said(other, "It is done").waitFor();
+});
+
 test("CT6: the summary opens as a page of its own, and asks for nothing", async () => {
   const { tablet } = await workshop.stem({ ...SEEN, watched: false });
   const tree = await save(tablet, "<Elm>");
@@ -232,7 +272,11 @@ test.each<[string, Screen]>([
   await look("a thread");
   await tablet.show(`comments-${name}`);
   await tablet.press(tablet.page.getByRole("button", { name: "Delete" }));
-  await look("a comment to be deleted");
+  await tablet.page.getByText("Nobody has said anything yet.").waitFor();
+  await look("a comment that was deleted");
+  await tablet.show(`comments-deleted-${name}`);
+  await tablet.press(tablet.page.getByRole("button", { name: "Undo", exact: true }).last());
+  await tablet.page.locator(".comment-text", { hasText: "A fine seed" }).waitFor();
   await tablet.press(tablet.page.getByRole("button", { name: "All comments" }));
   await tablet.page.locator(".comment-threads > li").waitFor();
   await look("the list");

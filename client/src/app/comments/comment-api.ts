@@ -1,6 +1,6 @@
 import { COMMENT_MINUTES, type NewComment, type NewThread, type Thread } from "../../wire/generated";
 import { newClientKey } from "../connection/client-record";
-import { ask } from "../requests/request";
+import { ask, askFor } from "../requests/request";
 
 /** So long its words can be changed, in milliseconds (`CT5`). */
 export const CHANGED_WITHIN = COMMENT_MINUTES * 60_000;
@@ -42,8 +42,9 @@ export function editComment(tree: string, thread: number, comment: number, text:
   return ask<Thread>("PATCH", `${pathOf(tree)}/${thread}/comments/${comment}`, { text });
 }
 
+/** Also from a page that is closed meanwhile. */
 export async function deleteComment(tree: string, thread: number, comment: number): Promise<void> {
-  await ask<undefined>("DELETE", `${pathOf(tree)}/${thread}/comments/${comment}`);
+  await askFor("DELETE", `${pathOf(tree)}/${thread}/comments/${comment}`, undefined, { keepalive: true });
 }
 
 export async function seeThread(tree: string, thread: number, comment: number): Promise<void> {

@@ -36,6 +36,11 @@ export class Comments {
     this.stale.value = new Set([...this.stale.peek(), ...threads]);
   }
 
+  /** The page or the session is left. */
+  leaving(): void {
+    this.conversation.peek()?.leaving();
+  }
+
   /** Another session was opened. */
   clear(): void {
     this.pins.value = new Map();

@@ -1,8 +1,10 @@
 import { computed, signal } from "@preact/signals";
 import { DRAW_MODES } from "../../scene/mode/draw-mode";
 import type { Vec3 } from "../../scene/vector";
-import type { Bookmark, NewComment, NewMention, PinPlace, Thread } from "../../wire/generated";
+import type { Bookmark, Comment, NewComment, NewMention, PinPlace, Thread } from "../../wire/generated";
 import { findSession } from "../connection/session-api";
+import { browserClock } from "../page/clock";
+import { OFFERED_FOR } from "../page/toasts";
 import { explained } from "../problems/explained";
 import { RequestFailed } from "../requests/request";
 import type { Studio } from "../studio";
@@ -11,8 +13,12 @@ import { pointerAt } from "../together/own-pointer";
 import { onWood } from "../together/wood-place";
 import { say } from "../words/say";
 import * as api from "./comment-api";
+import { type Deletion, Deletions, without } from "./deletions";
 import { callsForMe, isForMe, newCalls, unreadIn } from "./filters";
 import { type Line, picture } from "./view-picture";
+
+/** So much of a comment is quoted, in characters. */
+const QUOTED = 40;
 
 /** A comment that is being written. */
 export interface Draft {
@@ -35,7 +41,10 @@ export class Conversation {
   /** The saved tree; null where the page shows none. */
   readonly tree = signal<string | null>(null);
   /** By their numbers, newest first; null until they were read. */
-  readonly threads = signal<ReadonlyMap<number, Thread> | null>(null);
+  readonly threads = computed(() => {
+    const told = this.#told.value;
+    return told && without(told, this.tree.value, this.#deletions.all.value);
+  });
   readonly draft = signal<Draft | null>(null);
   /** Whether the next touch of the picture says where a thread is pinned. */
   readonly placing = signal(false);
@@ -59,6 +68,13 @@ export class Conversation {
     const text = say(isForMe ? "comments.unread.me" : "comments.unread", { count });
     return count === 0 ? null : { count, isForMe, text };
   });
+  /** The same as the server has them. */
+  #told = signal<ReadonlyMap<number, Thread> | null>(null);
+  #deletions = new Deletions({
+    within: OFFERED_FOR,
+    clock: browserClock,
+    send: (deletion) => this.#delete(deletion),
+  });
   #studio: Studio;
   #session: string | null = null;
 
@@ -79,7 +95,7 @@ export class Conversation {
       this.#studio.comments.stale.value = new Set();
       const all = found?.tree ? await api.listThreads(found.tree.id) : [];
       if (this.#session === session) {
-        this.threads.value = new Map(all.map((thread) => [thread.thread, thread]));
+        this.#told.value = new Map(all.map((thread) => [thread.thread, thread]));
       }
     });
   }
@@ -99,7 +115,7 @@ export class Conversation {
         this.#take(thread);
         this.#tell(before, thread);
       } catch (error) {
-        if (!(error instanceof RequestFailed && error.status === 404)) {
+        if (!isMissing(error)) {
           return this.#failed(error);
         }
         this.#drop(number);
@@ -121,7 +137,7 @@ export class Conversation {
       for (const { author } of unreadIn(thread).filter(isForMe)) {
         this.#studio.toasts.withdraw(calls(author));
       }
-      this.#take({ ...thread, seen: newest });
+      this.#take({ ...(this.#told.peek()?.get(thread.thread) ?? thread), seen: newest });
       void this.#try(() => api.seeThread(tree, thread.thread, newest));
     }
   }
@@ -200,16 +216,30 @@ export class Conversation {
     );
   }
 
-  async delete(thread: Thread, comment: number): Promise<void> {
+  /** Takes a comment away; one's own can be brought back for a while. */
+  async delete({ thread }: Thread, { comment, own, text }: Comment): Promise<void> {
     const tree = this.tree.peek();
-    if (tree !== null && (await this.#try(() => api.deleteComment(tree, thread.thread, comment)))) {
-      const comments = thread.comments.filter((one) => one.comment !== comment);
-      if (comments.length > 0) {
-        this.#take({ ...thread, comments });
-      } else {
-        this.#drop(thread.thread);
-      }
+    if (tree === null) {
+      return;
     }
+    const deletion = { tree, thread, comment, said: deleted(text) };
+    this.#deletions.begin(deletion);
+    if (own) {
+      this.#studio.toasts.show(deletion.said, {
+        label: say("comments.undo"),
+        act: () => this.#deletions.takeBack(deletion),
+      });
+    } else {
+      await this.#deletions.settle(deletion);
+    }
+  }
+
+  /** The page or the session is left, from which nothing can be brought back any more. */
+  leaving(): void {
+    for (const { said } of this.#deletions.all.peek()) {
+      this.#studio.toasts.withdraw(said);
+    }
+    this.#deletions.settleAll();
   }
 
   /** Shows what somebody saw, as far as this page alone is concerned: their camera and draw mode. */
@@ -259,7 +289,7 @@ export class Conversation {
   clear(): void {
     this.#session = null;
     this.tree.value = null;
-    this.threads.value = null;
+    this.#told.value = null;
     this.giveUp();
   }
 
@@ -298,9 +328,9 @@ export class Conversation {
   }
 
   #take(thread: Thread): void {
-    const others = [...(this.threads.peek() ?? [])].filter(([number]) => number !== thread.thread);
+    const others = [...(this.#told.peek() ?? [])].filter(([number]) => number !== thread.thread);
     const all = [...others, [thread.thread, thread] as const];
-    this.threads.value = new Map(all.sort(([a], [b]) => b - a));
+    this.#told.value = new Map(all.sort(([a], [b]) => b - a));
   }
 
   /** Whoever is named in what was just said is told so, unless they read it already. */
@@ -316,9 +346,30 @@ export class Conversation {
     }
   }
 
+  async #delete({ tree, thread, comment }: Deletion): Promise<void> {
+    try {
+      await api.deleteComment(tree, thread, comment);
+    } catch (error) {
+      if (!isMissing(error)) {
+        this.#studio.toasts.show(await explained(error));
+        return;
+      }
+    }
+    const told = this.tree.peek() === tree && this.#told.peek()?.get(thread);
+    if (!told) {
+      return;
+    }
+    const comments = told.comments.filter((one) => one.comment !== comment);
+    if (comments.length > 0) {
+      this.#take({ ...told, comments });
+    } else {
+      this.#drop(thread);
+    }
+  }
+
   #drop(number: number): void {
     const { open } = this.#studio.comments;
-    this.threads.value = new Map([...(this.threads.peek() ?? [])].filter(([other]) => other !== number));
+    this.#told.value = new Map([...(this.#told.peek() ?? [])].filter(([other]) => other !== number));
     if (open.peek() === number) {
       open.value = null;
     }
@@ -343,6 +394,16 @@ export class Conversation {
     }
     toasts.show(await explained(error));
   }
+}
+
+/** Whether the server no longer has what was asked for. */
+function isMissing(error: unknown): boolean {
+  return error instanceof RequestFailed && error.status === 404;
+}
+
+/** What is said of a comment that can be brought back. */
+function deleted(text: string): string {
+  return say("comments.deleted", { text: text.length > QUOTED ? `${text.slice(0, QUOTED - 1).trimEnd()}…` : text });
 }
 
 /** What whoever somebody has named is told. */

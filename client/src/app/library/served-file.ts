@@ -23,7 +23,7 @@ export async function servedFile(
   );
   try {
     const asked = new URLSearchParams([...options, ["ticket", ticket]]);
-    const answer = await askFor("GET", `${place}/tree.${ending}?${asked}`, undefined, stop);
+    const answer = await askFor("GET", `${place}/tree.${ending}?${asked}`, undefined, { signal: stop });
     if (!answer.headers.has("content-length")) {
       // It comes while it is made, so what is made of it is how far it is.
       return await bytesOf(answer, () => {});

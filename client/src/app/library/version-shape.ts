@@ -14,7 +14,7 @@ export interface Shape {
 /** How large a version is. */
 export async function shapeOfVersion(tree: string, number: number, stop: AbortSignal): Promise<Shape | null> {
   const path = `${versionPath(tree, number)}/tree.ply?points=${POINTS}`;
-  return shapeOfPoints(await (await askFor("GET", path, undefined, stop)).arrayBuffer());
+  return shapeOfPoints(await (await askFor("GET", path, undefined, { signal: stop })).arrayBuffer());
 }
 
 export function versionPath(tree: string, number: number): string {

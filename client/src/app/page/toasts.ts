@@ -14,7 +14,7 @@ export interface Toast {
 
 const SHOWN_FOR = 4500;
 /** One that offers something stays until it can be read and reached. */
-const OFFERED_FOR = 10_000;
+export const OFFERED_FOR = 10_000;
 const MOST = 3;
 
 /** Short notes at the edge of the screen that go by themselves. */

@@ -1,4 +1,5 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
+import { deleteComment } from "../comments/comment-api";
 import { createSession, findSession, socketAddress } from "../connection/session-api";
 import { changeTree, deleteTree, saveVersion } from "../library/library-api";
 import { orderTrees } from "../library/variations/job-api";
@@ -32,6 +33,13 @@ describe("requests", () => {
     askAs(() => null);
     await deleteTree("t");
     expect([...headers()]).toEqual([]);
+  });
+
+  it("CT5: deletes a comment also from a page that is closed meanwhile", async () => {
+    const fetch = answer(204, undefined);
+    await deleteComment("oak", 3, 2);
+    const path = "/api/v1/trees/oak/threads/3/comments/2";
+    expect(fetch).toHaveBeenCalledWith(path, expect.objectContaining({ method: "DELETE", keepalive: true }));
   });
 
   it("LB2: says which revision it changes, where that matters", async () => {

@@ -44,7 +44,7 @@ export async function askFor(
   method: string,
   path: string,
   sent?: Conditions & { readonly type: string; readonly body: BodyInit },
-  signal?: AbortSignal,
+  how: Pick<RequestInit, "signal" | "keepalive"> = {},
 ): Promise<Response> {
   let response: Response;
   try {
@@ -58,10 +58,10 @@ export async function askFor(
       method,
       headers,
       ...(sent ? { body: sent.body } : {}),
-      ...(signal ? { signal } : {}),
+      ...how,
     });
   } catch (error) {
-    if (signal?.aborted) {
+    if (how.signal?.aborted) {
       throw error;
     }
     throw silence();

@@ -58,6 +58,8 @@ export const COMMENTS = {
   "comments.edit.save": ["Save the words", "Text speichern"],
   "comments.go.step": ["Go to step {step}, for everyone", "Zu Schritt {step}, für alle"],
   "comments.delete": ["Delete", "Löschen"],
+  "comments.deleted": ["Deleted: {text}", "Gelöscht: {text}"],
+  "comments.undo": ["Undo", "Rückgängig"],
   "comments.delete.ask": ["The comment is deleted for everyone.", "Der Kommentar wird für alle gelöscht."],
   "comments.edited": ["changed", "geändert"],
   "comments.picture": ["What {name} saw", "Was {name} sah"],

@@ -16,7 +16,7 @@ export async function growSchematic(parameters: Parameters): Promise<Schematic> 
     }, PATIENCE);
   });
   const sent = { type: "application/json", body };
-  const grown = askFor("POST", "/api/v1/schematic", sent, asking.signal).then((answer) => answer.json());
+  const grown = askFor("POST", "/api/v1/schematic", sent, { signal: asking.signal }).then((answer) => answer.json());
   try {
     return (await Promise.race([grown, late])) as Schematic;
   } finally {

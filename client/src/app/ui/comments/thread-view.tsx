@@ -179,7 +179,11 @@ function CommentView({ studio, conversation, thread, comment }: CommentViewProps
           </button>
         )}
         {mayDelete && !asks && (
-          <button type="button" class="small" onClick={() => setAsks(true)}>
+          <button
+            type="button"
+            class="small"
+            onClick={() => (comment.own ? void conversation.delete(thread, comment) : setAsks(true))}
+          >
             {say("comments.delete")}
           </button>
         )}
@@ -188,7 +192,7 @@ function CommentView({ studio, conversation, thread, comment }: CommentViewProps
         <ConfirmRow
           question={say("comments.delete.ask")}
           act={say("comments.delete")}
-          onAct={() => conversation.delete(thread, comment.comment)}
+          onAct={() => conversation.delete(thread, comment)}
           onKeep={() => setAsks(false)}
         />
       )}
