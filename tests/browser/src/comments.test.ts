@@ -163,7 +163,7 @@ test("CT5: what its author deletes comes back with Undo, and is gone for everyon
 
   await remove();
   await toast.waitFor();
-  await tablet.page.goto("about:blank");
+  await tablet.page.goto(`${workshop.server.address}/health`);
   await said(other, "Thinner here").waitFor({ state: "detached" });
   await said(other, "It is done").waitFor();
 });
