@@ -26,7 +26,8 @@ export async function perform(page: Page, session: string, commands: readonly st
           resolve(sentence);
         };
         socket.onopen = () => socket.send(JSON.stringify({ type: "hello", protocol, client }));
-        socket.onclose = ({ code }) => end(`the server closed the socket with ${code} after line ${done}`);
+        socket.onclose = ({ code, reason }) =>
+          end(`the server closed the socket with ${code}, "${reason}", after line ${done}`);
         socket.onmessage = ({ data }) => {
           if (typeof data !== "string") return;
           const message = JSON.parse(data);

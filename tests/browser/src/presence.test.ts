@@ -1,6 +1,5 @@
 import type { Page } from "playwright-core";
 import { afterEach, expect, test } from "vitest";
-import { perform } from "../gallery/performance";
 import { factsOf } from "./facts";
 import { misses } from "./hits";
 import { guestsLink, ownersLink } from "./invitations";
@@ -101,8 +100,7 @@ test("PS3: a person with two pages is one in the list, and has left when both ar
 
 test("PS3: who plays the design stays in the list, as one who does that", async () => {
   const { ann, bo, noted } = await two();
-  const session = new URL(ann.page.url()).pathname.split("/").at(-1)!;
-  await perform(ann.page, session, ['{"kind":"grow","steps":4}']);
+  await workshop.actAs(ann, [{ kind: "grow", steps: 4 }]);
   await bo.until("it has grown", ({ present }) => present === 4);
   const person = await row(ann, "Bo").getAttribute("data-person");
   const shown = bo.page.getByRole("button", { name: "Replay", exact: true });
@@ -115,7 +113,7 @@ test("PS3: who plays the design stays in the list, as one who does that", async 
   expect(await row(ann, "Bo").getByRole("button", { name: "Follow" }).count(), "there is nothing to follow").toBe(0);
   await ann.showNow("79-who-plays-the-design");
   // What he sees there is nobody's: others go on.
-  await perform(ann.page, session, ['{"kind":"grow","steps":1}']);
+  await workshop.actAs(ann, [{ kind: "grow", steps: 1 }]);
   await ann.until("it grows on", ({ present }) => present === 5);
   await bo.press(bo.page.getByRole("button", { name: "Back to the tree" }));
   await untilStates(ann, "Bo", "he is at it again", "here");
@@ -133,8 +131,7 @@ test.each([
   ["a phone", { width: 390, height: 844, detail: 0.2 }],
 ] as const)("RP1: who may only look finds the way to play the design, on %s", async (name, glass) => {
   const ann = await workshop.open(ownersLink(workshop.server, "Ann"), GLASS);
-  const session = new URL(ann.page.url()).pathname.split("/").at(-1)!;
-  await perform(ann.page, session, ['{"kind":"grow","steps":4}']);
+  await workshop.actAs(ann, [{ kind: "grow", steps: 4 }]);
   const viewer = await workshop.open(await guestsLink(ann, "Elm", "Vi", "viewer"), glass);
   await ann.press(ann.page.locator(".people-chip"));
   await untilStates(ann, "Vi", "she is here", "here");

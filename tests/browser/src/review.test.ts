@@ -1,7 +1,6 @@
 import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { expect, test } from "vitest";
-import { perform } from "../gallery/performance";
 import { screenshots } from "./browser";
 import { guestsLink, ownersLink } from "./invitations";
 import { print } from "./paper";
@@ -11,7 +10,7 @@ import { KEEPING, sideBySide } from "./side-by-side";
 import type { Tablet } from "./tablet";
 import { press } from "./visits";
 import { middle, type Point, way } from "./ways";
-import { seedling, Workshop } from "./workshop";
+import { seedling, sessionOf, Workshop } from "./workshop";
 
 // People log in: on a server of one's own whoever sits at it would be the same person on both pages.
 const workshop = Workshop.withItsOwnServer(["--auth"]);
@@ -33,14 +32,10 @@ async function anns(screen: Screen) {
   const at = (right: number, up: number): Point => ({ x: seed.x + right, y: seed.y - up });
   await ann.swipe([way(at(0, 0), at(0, 300))]);
   await ann.untilQuiet();
-  await perform(ann.page, sessionOf(ann), ['{"kind":"grow","steps":5}']);
+  await workshop.actAs(ann, [{ kind: "grow", steps: 5 }]);
   const link = await guestsLink(ann, "Oak by the gate", "Bo");
   await ann.untilQuiet();
   return { ann, link, at };
-}
-
-function sessionOf({ page }: Tablet): string {
-  return new URL(page.url()).pathname.split("/").at(-1)!;
 }
 
 /** Takes the thinnest brush there is. */

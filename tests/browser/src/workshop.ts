@@ -33,6 +33,15 @@ export interface Stem extends Grown {
 /** So far a place about the seedling lies at most from it to the side, in pixels. */
 const ASIDE = 320;
 
+/** The session that a tablet is in. */
+export function sessionOf({ page }: Tablet): string {
+  return new URL(page.url()).pathname.split("/").at(-1)!;
+}
+
+function inJson(commands: readonly object[]): string[] {
+  return commands.map((command) => JSON.stringify(command));
+}
+
 /** Where the seedling stands on the glass. */
 export async function seedling(tablet: Tablet): Promise<Point> {
   const { x, y, width, height } = await tablet.boxOf(tablet.page.locator(".seedling").first());
@@ -82,12 +91,18 @@ export class Workshop<At extends RunningServer = RunningServer> {
     if (!this.#browser) throw new Error("the browser has not been started");
     const page = await this.#browser.newPage();
     await page.goto(`${this.server.address}/health`);
-    const session = address.slice(address.lastIndexOf("/") + 1);
-    await perform(
-      page,
-      session,
-      commands.map((command) => JSON.stringify(command)),
-    );
+    await perform(page, address.slice(address.lastIndexOf("/") + 1), inJson(commands));
+    await page.close();
+  }
+
+  /**
+   * Has whoever is at a tablet do commands in its session, from a page that draws nothing: while one draws, its hello
+   * may come too late (`HS1`).
+   */
+  async actAs(tablet: Tablet, commands: readonly object[]): Promise<void> {
+    const page = await tablet.page.context().newPage();
+    await page.goto(`${this.server.address}/health`);
+    await perform(page, sessionOf(tablet), inJson(commands));
     await page.close();
   }
 
