@@ -266,7 +266,7 @@ impl Wanted {
         });
         match sending.ready(reader).await {
             Ready::Whole(Ok(Ok((file, length)))) => {
-                ranges::answer(asked, headers, &tag, InRoom(file, room), length)
+                ranges::answer(asked, headers, &tag, InRoom::new(file, room), length)
             }
             Ready::Whole(Ok(Err(FileError::Document(error)))) => Err(unreadable(name, &error)),
             Ready::Whole(Ok(Err(FileError::Memory(full)))) => Err(full.into()),

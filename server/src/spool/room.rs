@@ -32,7 +32,10 @@ pub struct Room {
 
 /// A file that keeps its room as long as it is read.
 #[derive(Debug)]
-pub struct InRoom(pub File, pub Arc<Room>);
+pub struct InRoom {
+    file: File,
+    _room: Arc<Room>,
+}
 
 impl Rooms {
     /// Room for so many bytes of one person, and of all.
@@ -76,15 +79,22 @@ impl Drop for Room {
     }
 }
 
+impl InRoom {
+    /// This file, which has this room.
+    pub fn new(file: File, room: Arc<Room>) -> Self {
+        Self { file, _room: room }
+    }
+}
+
 impl Read for InRoom {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        self.0.read(bytes)
+        self.file.read(bytes)
     }
 }
 
 impl Seek for InRoom {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        self.0.seek(to)
+        self.file.seek(to)
     }
 }
 
