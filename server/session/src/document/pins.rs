@@ -4,7 +4,7 @@
 //! the seed. On lines that share that step it is the same one. Where it is dead, or on none of the lines, those below
 //! it say where it was.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 use espalier_plant::{AxisId, MetamerId, hash::StableHash};
 use espalier_proto::comment::PinState;
@@ -227,8 +227,8 @@ impl Document {
     }
 
     /// Living metamers to which the same ways lead, by these: the last one of each.
-    fn like(&self, wanted: &BTreeSet<u64>) -> HashMap<u64, MetamerId> {
-        let mut found = HashMap::new();
+    fn like(&self, wanted: &BTreeSet<u64>) -> BTreeMap<u64, MetamerId> {
+        let mut found = BTreeMap::new();
         if wanted.is_empty() {
             return found;
         }
@@ -265,7 +265,7 @@ impl Document {
 
     /// Where living metamers come from that any of these grafts has moved, by where they were: a graft that moves wood
     /// copies it row by row and cuts it where it was.
-    fn moved_by(&self, mut grafts: BTreeMap<u32, Graft>) -> HashMap<u32, MetamerId> {
+    fn moved_by(&self, mut grafts: BTreeMap<u32, Graft>) -> BTreeMap<u32, MetamerId> {
         let plant = self.plant();
         if !grafts.is_empty() {
             let deaths = plant.columns(0..plant.metamer_count()).death;
