@@ -42,7 +42,7 @@ const LEARNED: usize = 8;
 
 fn main() -> std::io::Result<()> {
     if !std::env::args().any(|argument| argument == "--learn") {
-        let (before, sent) = draw(None, MEASURED);
+        let (before, sent) = measured();
         sent.report(&before);
         return Ok(());
     }
@@ -54,10 +54,9 @@ fn main() -> std::io::Result<()> {
     std::fs::write(priors, tally.priors())
 }
 
-/// Bytes for each new metamer, as they travel.
-pub(crate) fn bytes_a_metamer() -> f64 {
-    let (before, sent) = draw(None, MEASURED);
-    (sent.bytes - before.bytes) as f64 / (sent.appended_rows - before.appended_rows) as f64
+/// What is sent of the tree that is measured: before the first stroke, and with all of them.
+pub(crate) fn measured() -> (Sent, Sent) {
+    draw(None, MEASURED)
 }
 
 /// What was sent before the first stroke, and with all of them.
@@ -85,7 +84,7 @@ fn draw(species: Option<&Species>, seed: u32) -> (Sent, Sent) {
 
 /// Bytes, by what they are about.
 #[derive(Clone, Debug, Default)]
-struct Sent {
+pub(crate) struct Sent {
     frames: u64,
     /// As they travel, with headers.
     bytes: u64,
@@ -124,14 +123,26 @@ impl Sent {
         }
     }
 
+    /// So many bytes for each metamer that is new since then.
+    pub(crate) fn a_metamer(&self, before: &Self, bytes: u64) -> f64 {
+        bytes as f64 / (self.appended_rows - before.appended_rows) as f64
+    }
+
+    /// Bytes that travelled since then.
+    pub(crate) fn bytes_since(&self, before: &Self) -> u64 {
+        self.bytes - before.bytes
+    }
+
     fn report(&self, before: &Self) {
-        let rows = (self.appended_rows - before.appended_rows) as f64;
-        let line = |what: &str, bytes: u64| println!("  {what:<34} {bytes:>9} {:>7.2}", bytes as f64 / rows);
+        let rows = self.appended_rows - before.appended_rows;
+        let line = |what: &str, bytes: u64| {
+            println!("  {what:<34} {bytes:>9} {:>7.2}", self.a_metamer(before, bytes));
+        };
         println!(
             "{STROKES} strokes, {rows} new metamers, {} frames     bytes  a metamer",
             self.frames - before.frames
         );
-        line("all, as it travels", self.bytes - before.bytes);
+        line("all, as it travels", self.bytes_since(before));
         line("  of which headers", (self.bytes - self.bodies) - (before.bytes - before.bodies));
         line("  of which bodies", self.bodies - before.bodies);
         println!("bodies before deflating, by what they are about");

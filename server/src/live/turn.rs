@@ -28,7 +28,7 @@ mod tests {
         let mut session = Session::restore("oak", 1, None, 7, []).unwrap();
         session.handle(0, Input::Connected(ClientId(1), entrant));
         let hello = format!(r#"{{"type":"hello","protocol":{PROTOCOL_VERSION},"client":"{key}"}}"#);
-        session.handle(0, Input::Text(ClientId(1), hello.into()));
+        session.handle(0, Input::Text(ClientId(1), hello));
         let grow = r#"{"type":"command","id":1,"command":{"kind":"grow","steps":1}}"#;
         let worked = |session: &mut Session| {
             let mut outputs = std::iter::from_fn(|| session.poll_output());

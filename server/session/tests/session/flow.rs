@@ -411,6 +411,7 @@ fn fl5_who_checks_is_told_of_rows_that_are_whole() {
 
 #[test]
 fn fr9_a_drawing_hand_is_sent_fewer_than_12_bytes_for_each_new_metamer() {
-    let bytes = crate::delta_bytes::bytes_a_metamer();
+    let (before, sent) = crate::delta_bytes::measured();
+    let bytes = sent.a_metamer(&before, sent.bytes_since(&before));
     assert!(bytes < 12.0, "{bytes}");
 }

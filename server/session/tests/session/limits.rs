@@ -404,13 +404,13 @@ fn lm23_nobody_keeps_others_out_of_a_session() {
     };
     assert_eq!(send(&mut world, tablet, 1000, end()), [""; 0]);
     assert_eq!(send(&mut world, phone, 24, end()), [""; 0]);
-    let of_one = "up to 1024 commands of one person that wait".to_owned();
-    assert_eq!(send(&mut world, phone, 1, end()), [of_one.clone()]);
-    assert_eq!(send(&mut world, tablet, 1, end()), [of_one.clone()]);
-    assert_eq!(send(&mut world, tablet, 1, json!({ "kind": "stop" })), [of_one.clone()], "it is not refused");
+    let of_one = ["up to 1024 commands of one person that wait"];
+    assert_eq!(send(&mut world, phone, 1, end()), of_one);
+    assert_eq!(send(&mut world, tablet, 1, end()), of_one);
+    assert_eq!(send(&mut world, tablet, 1, json!({ "kind": "stop" })), of_one, "it is not refused");
     assert_eq!(send(&mut world, ann, 1, end()), [""; 0]);
     assert_eq!(send(&mut world, here, 1024, end()), [""; 0]);
-    assert_eq!(send(&mut world, here, 1, end()), [of_one]);
+    assert_eq!(send(&mut world, here, 1, end()), of_one);
     assert_eq!(send(&mut world, there, 1000, end()), [""; 0], "each key for itself");
     // What is done and durable makes room.
     world.settle();

@@ -37,7 +37,7 @@ impl Tree {
     fn enter(&mut self) -> Box<Work> {
         self.session.handle(0, Input::Connected(CLIENT, Entrant::new("Ann", Role::Editor)));
         let hello = json!({ "type": "hello", "protocol": PROTOCOL_VERSION, "client": "ann-tablet" });
-        self.session.handle(0, Input::Text(CLIENT, hello.to_string().into()));
+        self.session.handle(0, Input::Text(CLIENT, hello.to_string()));
         self.work().expect("there is something to show")
     }
 
@@ -64,7 +64,7 @@ impl Tree {
     fn order(&mut self, command: Value) -> Option<Box<Work>> {
         self.number += 1;
         let message = json!({ "type": "command", "id": self.number, "command": command });
-        self.session.handle(0, Input::Text(CLIENT, message.to_string().into()));
+        self.session.handle(0, Input::Text(CLIENT, message.to_string()));
         self.work()
     }
 }

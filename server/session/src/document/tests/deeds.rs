@@ -492,7 +492,8 @@ fn ud4_what_one_sowed_and_grew_while_another_drew_is_the_sowers() {
 
 #[test]
 fn ud4_what_is_begun_beside_a_stroke_is_no_part_of_what_was_done_meanwhile() {
-    let meanwhile: [(&str, fn(&mut Document)); 2] = [
+    type Happens = fn(&mut Document);
+    let meanwhile: [(&str, Happens); 2] = [
         ("a setting", |document| document.apply(&who("cy"), &patch(0.61)).expect("in range")),
         ("an undo", |document| take_back(document, "cy").expect("cy has drawn")),
     ];
