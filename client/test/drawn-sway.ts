@@ -119,6 +119,7 @@ async function tableOf(session: string): Promise<TreeTable> {
       events: {
         phase: ignore,
         commands: ignore,
+        heldUp: ignore,
         message: ignore,
         aside: ignore,
         cannotOpen: (sentence) => reject(new Error(sentence)),

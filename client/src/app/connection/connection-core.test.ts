@@ -5,6 +5,7 @@ import {
   type ClientRecord,
   ConnectionCore,
   type Effect,
+  HELD_LONG,
   OPEN_WITHIN,
   PING_AFTER,
   PONG_WITHIN,
@@ -215,11 +216,11 @@ describe("handshake", () => {
   it("HS4: a replaced client goes on under a fresh key", () => {
     const { core, connect, reconnect } = setUp();
     connect();
-    core.submit({ kind: "stroke_begin", stroke: 1 });
+    core.submit(0, { kind: "stroke_begin", stroke: 1 });
     core.message(1, { type: "acknowledged", id: 1 });
-    core.submit({ kind: "stroke_end", stroke: 1 });
-    core.submit({ kind: "bend_end", bend: 1 });
-    core.submit(undo);
+    core.submit(0, { kind: "stroke_end", stroke: 1 });
+    core.submit(0, { kind: "bend_end", bend: 1 });
+    core.submit(0, undo);
     core.effects();
     core.closed(2, 4004);
     expect(kinds(core.effects())).toEqual(["rekeyed"]);
@@ -235,8 +236,8 @@ describe.each([1001, 1011])("a server that closes with %i", (code) => {
     const held = { epoch: 7, generations: [3], rows: 200 };
     const { core, connect, welcome } = setUp({ resume: () => held });
     connect();
-    core.submit(undo);
-    core.submit(undo);
+    core.submit(0, undo);
+    core.submit(0, undo);
     core.message(1, { type: "acknowledged", id: 1 });
     core.effects();
     core.closed(2, code);
@@ -255,17 +256,17 @@ describe("commands", () => {
   it("CM1: numbers commands from 1 and sends them at once", () => {
     const { core, connect } = setUp();
     connect();
-    expect([core.submit(undo), core.submit(undo)]).toEqual([1, 2]);
+    expect([core.submit(0, undo), core.submit(0, undo)]).toEqual([1, 2]);
     expect(sentIds(core.effects())).toEqual([1, 2]);
   });
 
   it("CM1: keeps commands while offline and sends them in order", () => {
     const { core, connect, reconnect } = setUp();
     connect();
-    core.submit(undo);
+    core.submit(0, undo);
     core.closed(1, 1006);
-    core.submit(undo);
-    core.submit(undo);
+    core.submit(0, undo);
+    core.submit(0, undo);
     expect(sentIds(core.effects())).toEqual([1]);
     expect(reconnect(0)).toEqual([1, 2, 3]);
   });
@@ -273,7 +274,7 @@ describe("commands", () => {
   it("CM1: does not resend what the welcome acknowledges", () => {
     const { core, connect, reconnect } = setUp();
     connect();
-    for (let i = 0; i < 4; i++) core.submit(undo);
+    for (let i = 0; i < 4; i++) core.submit(0, undo);
     core.closed(1, 1006);
     core.effects();
     expect(reconnect(3)).toEqual([4]);
@@ -283,8 +284,8 @@ describe("commands", () => {
   it("CM1: sends again through any number of lost sockets", () => {
     const { core, connect, reconnect } = setUp();
     connect();
-    core.submit(undo);
-    core.submit(undo);
+    core.submit(0, undo);
+    core.submit(0, undo);
     for (let i = 0; i < 5; i++) {
       core.closed(core.deadline ?? 0, 1006);
       core.effects();
@@ -295,7 +296,7 @@ describe("commands", () => {
   it("CM2: an acknowledgement settles everything up to its id", () => {
     const { core, connect } = setUp();
     connect();
-    for (let i = 0; i < 3; i++) core.submit(undo);
+    for (let i = 0; i < 3; i++) core.submit(0, undo);
     core.message(1, { type: "acknowledged", id: 2 });
     expect([core.settled, core.unsettled("undo")]).toEqual([2, 1]);
     core.message(1, { type: "acknowledged", id: 1 });
@@ -305,7 +306,7 @@ describe("commands", () => {
   it("CM3: a refusal is reported once and counts as settled", () => {
     const { core, connect } = setUp();
     connect();
-    core.submit(undo);
+    core.submit(0, undo);
     core.effects();
     const problem = { code: "refused", reason: "nothing-to-undo", message: "There is nothing to undo." } as const;
     core.message(1, { type: "refused", id: 1, problem });
@@ -317,13 +318,13 @@ describe("commands", () => {
   it("CM3: a refused number is sent again, so that no gap arises", () => {
     const { core, connect, reconnect } = setUp();
     connect();
-    core.submit(undo);
+    core.submit(0, undo);
     core.message(1, {
       type: "refused",
       id: 1,
       problem: { code: "out_of_range", reason: "out-of-range", message: "No." },
     });
-    core.submit(undo);
+    core.submit(0, undo);
     core.closed(2, 1006);
     core.effects();
     expect(reconnect(0)).toEqual([1, 2]);
@@ -332,7 +333,7 @@ describe("commands", () => {
   it("CM1: takes a new key where a gap would be refused", () => {
     const { core, connect, reconnect } = setUp();
     connect();
-    for (let i = 0; i < 3; i++) core.submit(undo);
+    for (let i = 0; i < 3; i++) core.submit(0, undo);
     core.message(1, { type: "acknowledged", id: 2 });
     core.closed(2, 1006);
     core.effects();
@@ -344,10 +345,10 @@ describe("commands", () => {
   it("goes on from what an earlier page left", () => {
     const first = setUp();
     first.connect();
-    first.core.submit(undo);
+    first.core.submit(0, undo);
     first.core.message(1, { type: "acknowledged", id: 1 });
     first.core.closed(2, 1006);
-    first.core.submit({ kind: "redo" });
+    first.core.submit(0, { kind: "redo" });
     const second = setUp({ record: first.core.record() });
     second.core.start(0);
     second.core.opened(0);
@@ -355,6 +356,157 @@ describe("commands", () => {
     second.welcome(0, 1);
     expect(sentIds(second.core.effects())).toEqual([2]);
     expect(second.core.next).toBe(3);
+  });
+});
+
+describe("a server without room", () => {
+  const behind = { code: "too_many", reason: "behind", message: "Wait." } as const;
+  const gap = { code: "refused", reason: "number-taken", message: "A gap." } as const;
+  const move = (stroke: number): Command => ({ kind: "stroke_end", stroke });
+  const strokesIn = (effects: Effect[]) =>
+    effects.flatMap((effect) =>
+      effect.kind === "send" && effect.message.type === "command"
+        ? [[effect.message.id, "stroke" in effect.message.command ? effect.message.command.stroke : "stop"]]
+        : [],
+    );
+
+  /** Five commands on their way, for the third of which there was no room. */
+  function full() {
+    const all = setUp();
+    all.connect();
+    for (let stroke = 1; stroke <= 5; stroke++) all.core.submit(0, move(stroke));
+    all.core.effects();
+    all.core.message(10, { type: "refused", id: 3, problem: behind });
+    return all;
+  }
+  const drain = ({ core }: ReturnType<typeof setUp>) => {
+    core.message(11, { type: "refused", id: 4, problem: gap });
+    core.message(12, { type: "refused", id: 5, problem: gap });
+  };
+
+  it("LM23: has commands sent again in their order, and nobody is told that they were refused", () => {
+    const all = full();
+    const { core } = all;
+    expect(core.submit(11, move(6))).toBe(6);
+    drain(all);
+    expect([core.effects(), core.settled, core.deadline]).toEqual([[], 0, 262]);
+    core.tick(261);
+    expect(core.effects()).toEqual([]);
+    core.tick(262);
+    expect(strokesIn(core.effects())).toEqual([[3, 3]]);
+    core.message(270, { type: "acknowledged", id: 3 });
+    expect([strokesIn(core.effects()), core.settled]).toEqual([
+      [
+        [4, 4],
+        [5, 5],
+      ],
+      3,
+    ]);
+    core.message(280, { type: "acknowledged", id: 5 });
+    expect(strokesIn(core.effects())).toEqual([[6, 6]]);
+    core.message(290, { type: "acknowledged", id: 6 });
+    expect(core.submit(300, move(7))).toBe(7);
+    expect([strokesIn(core.effects()), core.settled]).toEqual([[[7, 7]], 6]);
+  });
+
+  it("LM23: what is refused for good when it comes again holds nothing up", () => {
+    const all = full();
+    const { core } = all;
+    drain(all);
+    core.tick(262);
+    core.effects();
+    const problem = { code: "refused", reason: "stroke-gone", message: "It ended." } as const;
+    core.message(270, { type: "refused", id: 3, problem });
+    core.message(271, { type: "acknowledged", id: 2 });
+    const effects = core.effects();
+    expect(effects[0]).toEqual({ kind: "refused", problem, command: move(3) });
+    expect(strokesIn(effects)).toEqual([
+      [4, 4],
+      [5, 5],
+    ]);
+  });
+
+  it("LM23: is asked again, and spoken of once that has taken long", () => {
+    const all = full();
+    const { core } = all;
+    drain(all);
+    const held: boolean[] = [];
+    for (const until = 10 + 2 * HELD_LONG; (core.deadline ?? until) < until; ) {
+      const now = core.deadline!;
+      core.tick(now);
+      if (strokesIn(core.effects()).length > 0) core.message(now + 1, { type: "refused", id: 3, problem: behind });
+      held.push(core.isHeldUp(now + 1));
+    }
+    expect([held[0], held.at(-1)]).toEqual([false, true]);
+    expect(core.phase, "it was heard of all the time").toBe("connected");
+    core.tick(core.deadline!);
+    core.message(7000, { type: "acknowledged", id: 3 });
+    core.message(7010, { type: "acknowledged", id: 5 });
+    expect(core.isHeldUp(9999)).toBe(false);
+  });
+
+  it("LM23: a stop goes before what waits, and again behind what was done before it", () => {
+    const all = full();
+    const { core } = all;
+    drain(all);
+    expect(core.submit(20, { kind: "stop" })).toBe(6);
+    expect(strokesIn(core.effects())).toEqual([[3, "stop"]]);
+    core.message(30, { type: "acknowledged", id: 3 });
+    expect(strokesIn(core.effects())).toEqual([
+      [4, 3],
+      [5, 4],
+    ]);
+    expect(core.settled, "the third of the page is still on its way").toBe(2);
+    core.message(40, { type: "acknowledged", id: 5 });
+    expect(strokesIn(core.effects())).toEqual([
+      [6, 5],
+      [7, "stop"],
+    ]);
+    const done = { type: "done", id: 5, step: 1, metamers: 1 } as const;
+    core.message(41, done);
+    expect(core.effects()).toEqual([{ kind: "message", message: { ...done, id: 4 } }]);
+    core.message(50, { type: "acknowledged", id: 7 });
+    expect([core.settled, core.submit(60, move(8))]).toEqual([7, 8]);
+    expect(strokesIn(core.effects())).toEqual([[8, 8]]);
+  });
+
+  it("LM23: a stop that was on its way goes first as well, once", () => {
+    const all = setUp();
+    const { core } = all;
+    all.connect();
+    core.submit(0, move(1));
+    core.submit(0, { kind: "stop" });
+    core.effects();
+    core.message(10, { type: "refused", id: 1, problem: behind });
+    core.message(11, { type: "refused", id: 2, problem: gap });
+    core.tick(core.deadline!);
+    expect(strokesIn(core.effects())).toEqual([[1, "stop"]]);
+    core.message(300, { type: "acknowledged", id: 1 });
+    core.effects();
+    core.message(310, { type: "refused", id: 2, problem: behind });
+    core.message(311, { type: "refused", id: 3, problem: gap });
+    core.tick(core.deadline!);
+    expect(strokesIn(core.effects())).toEqual([[2, 1]]);
+  });
+
+  it("LM23: what waits is sent after a reconnection, and outlives the page", () => {
+    const all = full();
+    const { core, reconnect } = all;
+    drain(all);
+    core.submit(20, { kind: "stop" });
+    core.closed(21, 1006);
+    core.effects();
+    const again = setUp({ record: JSON.parse(JSON.stringify(core.record())) });
+    expect(reconnect(2)).toEqual([3, 4, 5, 6, 7]);
+    expect(again.core.record().pending.map(({ command }) => command.kind)).toEqual([
+      "stroke_end",
+      "stroke_end",
+      "stop",
+      "stroke_end",
+      "stroke_end",
+      "stroke_end",
+      "stop",
+    ]);
   });
 });
 

@@ -7,6 +7,7 @@ import {
   type Resume,
   type ServerMessage,
 } from "../../wire/generated";
+import { Backlog } from "./backlog";
 import { Outbox, type OutboxRecord } from "./outbox";
 import type { PageMessage } from "./page-message";
 import type { RowSum } from "./row-store";
@@ -19,6 +20,8 @@ export const PONG_WITHIN = 5000;
 export const WATCHFUL = 2000;
 /** Rows that frames have changed are compared with the server's so often, when it is quiet (`CK1`). */
 export const CHECK_EVERY = 60_000;
+/** Commands that have been held back for so long are spoken of (`LM23`). */
+export const HELD_LONG = 3000;
 /** How long a socket may take to open and greet. */
 export const OPEN_WITHIN = 8000;
 const BACKOFF_FIRST = 250;
@@ -88,6 +91,9 @@ export class ConnectionCore {
   #options: CoreOptions;
   #key: string;
   #outbox: Outbox;
+  #backlog = new Backlog();
+  /** Whether a stop is to go before what is held back. */
+  #stopsFirst = false;
   #phase: Phase = "idle";
   #stopReason: StopReason | null = null;
   #attempts = 0;
@@ -137,9 +143,16 @@ export class ConnectionCore {
     return this.#garbled;
   }
 
+  /** Whether commands have been held back for long. */
+  isHeldUp(now: number): boolean {
+    const { since } = this.#backlog;
+    return since !== null && now - since >= HELD_LONG;
+  }
+
   /** When `tick` is next due, in the clock of the calls. */
   get deadline(): number | null {
-    return this.#deadline;
+    const { again } = this.#backlog;
+    return again === null || this.#deadline === null ? this.#deadline : Math.min(again, this.#deadline);
   }
 
   /** The key under which commands are sent (`HS1`). */
@@ -179,10 +192,17 @@ export class ConnectionCore {
   }
 
   /** Numbers a command and sends it as soon as there is a server to take it (`CM1`). */
-  submit(command: Command): number {
+  submit(now: number, command: Command): number {
     const id = this.#outbox.put(command);
-    if (this.#phase === "connected") {
-      this.#send({ type: "command", id, command });
+    if (this.#phase !== "connected") {
+      return id;
+    }
+    if (!this.#backlog.holds) {
+      this.#sendNumbered(id, command);
+    } else if (command.kind === "stop") {
+      this.#stopsFirst = true;
+      this.#backlog.hurry(now);
+      this.#sendHeld(now);
     }
     return id;
   }
@@ -212,9 +232,13 @@ export class ConnectionCore {
         break;
       case "acknowledged":
         this.#outbox.acknowledge(message.id);
+        this.#answered(now);
         break;
       case "refused":
-        this.#refuse(message.id, message.problem);
+        this.#refuse(now, message.id, message.problem);
+        break;
+      case "done":
+        this.#effects.push({ kind: "message", message: { ...message, id: this.#outbox.idThrough(message.id) } });
         break;
       case "checksum":
         this.#effects.push({ kind: "compare", sum: message });
@@ -321,6 +345,7 @@ export class ConnectionCore {
 
   /** Time has passed; call when `deadline` is reached, or later. */
   tick(now: number): void {
+    this.#sendHeld(now);
     if (this.#deadline === null || now < this.#deadline) {
       return;
     }
@@ -344,6 +369,7 @@ export class ConnectionCore {
     const delay = Math.min(longest, wait);
     this.#attempts += 1;
     this.#phase = "waiting";
+    this.#holdNothing();
     this.#pinged = null;
     // Half of the delay is chance, so that a room full of tablets does not return in one instant.
     this.#deadline = now + delay * (0.5 + 0.5 * this.#options.random());
@@ -351,6 +377,7 @@ export class ConnectionCore {
 
   #stop(reason: StopReason): void {
     this.#phase = "stopped";
+    this.#holdNothing();
     this.#stopReason = reason;
     this.#deadline = null;
   }
@@ -424,7 +451,7 @@ export class ConnectionCore {
     ];
     this.#effects.push(...messages.map((message) => ({ kind: "message", message }) as const));
     for (const { id, command } of this.#outbox.pending) {
-      this.#send({ type: "command", id, command });
+      this.#sendNumbered(id, command);
     }
     if (welcome.resumed) {
       // What is held is older than this connection.
@@ -432,11 +459,51 @@ export class ConnectionCore {
     }
   }
 
-  #refuse(id: number, problem: Problem): void {
+  #refuse(now: number, id: number, problem: Problem): void {
+    const held = this.#backlog.holds;
+    if (this.#backlog.refused(now, id, problem.reason)) {
+      // One that was on its way is not to wait for what it would end.
+      this.#stopsFirst ||= !held && this.#outbox.pending.some((one) => one.id >= id && one.command.kind === "stop");
+      return;
+    }
     const command = this.#outbox.commandOf(id);
     if (this.#outbox.refuse(id)) {
       this.#effects.push(command ? { kind: "refused", problem, command } : { kind: "refused", problem });
     }
+    this.#answered(now);
+  }
+
+  #answered(now: number): void {
+    this.#backlog.answered(now, this.#outbox.answered, this.#outbox.next - 1);
+    this.#sendHeld(now);
+  }
+
+  /** Sends what was held back, as far as it is time for it. */
+  #sendHeld(now: number): void {
+    const run = this.#backlog.due(now, this.#outbox.next - 1);
+    if (run === null) {
+      return;
+    }
+    if (this.#stopsFirst) {
+      // It also stays in its place, for what goes out before it grows as well.
+      this.#stopsFirst = false;
+      this.#outbox.overtake(run.from, { kind: "stop" });
+    }
+    for (const { id, command } of this.#outbox.pending) {
+      if (id >= run.from && id <= run.to) {
+        this.#sendNumbered(id, command);
+      }
+    }
+  }
+
+  #holdNothing(): void {
+    this.#backlog.forget();
+    this.#stopsFirst = false;
+  }
+
+  #sendNumbered(id: number, command: Command): void {
+    this.#backlog.sent(id);
+    this.#send({ type: "command", id, command });
   }
 
   /** Goes on under a new key. */

@@ -21,6 +21,7 @@ function setUp() {
   let reloads = 0;
   const nothing = () => {};
   const asides: [number, number][] = [];
+  const heldUp: boolean[] = [];
   const connection = new Connection<FrameHead, AsideFrame>({
     openSocket: () => {
       const socket = new FakeSocket();
@@ -52,6 +53,9 @@ function setUp() {
     events: {
       phase: nothing,
       commands: nothing,
+      heldUp: (isHeldUp) => {
+        if (isHeldUp !== heldUp.at(-1)) heldUp.push(isHeldUp);
+      },
       message: nothing,
       aside: ({ kind, frame }) => asides.push([kind, frame.sequence]),
       cannotOpen: nothing,
@@ -73,7 +77,8 @@ function setUp() {
     }
   };
   const socket = (index: number) => sockets[index] as FakeSocket;
-  return { connection, socket, sockets, applied, asides, cleared: () => cleared, reloads: () => reloads, settle, pass };
+  const counts = { cleared: () => cleared, reloads: () => reloads };
+  return { connection, socket, sockets, applied, asides, heldUp, ...counts, settle, pass };
 }
 
 describe("connection", () => {
@@ -177,6 +182,24 @@ describe("connection", () => {
     pass(300);
     socket(1).welcome(1);
     expect(socket(1).commands).toEqual([2, 3]);
+  });
+
+  it("LM23: says that what was done waits once that has taken long, until it is taken", () => {
+    const { connection, socket, heldUp, pass } = setUp();
+    const behind = { code: "too_many", reason: "behind", message: "Wait." } as const;
+    socket(0).welcome();
+    connection.submit({ kind: "undo" });
+    for (const tried of [250, 750, 1750, 3750]) {
+      socket(0).say({ type: "refused", id: 1, problem: behind });
+      expect(heldUp).toEqual([false]);
+      pass(tried);
+    }
+    expect([socket(0).commands, heldUp]).toEqual([
+      [1, 1, 1, 1, 1],
+      [false, true],
+    ]);
+    socket(0).say({ type: "acknowledged", id: 1 });
+    expect(heldUp).toEqual([false, true, false]);
   });
 
   it("ignores whatever a left session still says", () => {

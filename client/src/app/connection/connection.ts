@@ -34,6 +34,8 @@ export interface AsideFrame {
 export interface ConnectionEvents<Aside> {
   phase(phase: Phase, attempts: number, stopped: StopReason | null, garbled: number, loading: number | null): void;
   commands(sent: number, settled: number): void;
+  /** Whether commands have waited for long because the server has no room for them (`LM23`). */
+  heldUp(isHeldUp: boolean): void;
   /** The server says what the page has to show. */
   message(message: PageMessage): void;
   /** A branch that is being bent, a prediction, or what others do. */
@@ -89,7 +91,7 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
 
   /** Sends a command now or when there is a connection again. */
   submit(command: Command): number {
-    const id = this.#core.submit(command);
+    const id = this.#core.submit(this.#now(), command);
     this.#settle();
     return id;
   }
@@ -286,6 +288,7 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
     const { phase, attempts, stopReason, garbled, loading } = this.#core;
     events.phase(phase, attempts, stopReason, garbled, loading);
     events.commands(this.#core.next - 1, this.#core.settled);
+    events.heldUp(this.#core.isHeldUp(this.#now()));
     this.#arm();
   }
 

@@ -66,6 +66,49 @@ describe("commands on their way", () => {
   });
 });
 
+describe("a command that goes before others", () => {
+  const stop: Command = { kind: "stop" };
+
+  it("LM23: has the number of the first of them, and those the next ones", () => {
+    const outbox = holding(3);
+    outbox.put(redo);
+    outbox.acknowledge(1);
+    outbox.overtake(3, stop);
+    expect(outbox.pending.map(({ id, command }) => [id, command])).toEqual([
+      [2, undo],
+      [3, stop],
+      [4, undo],
+      [5, redo],
+    ]);
+    expect([outbox.next, outbox.put(undo), outbox.commandOf(5), outbox.commandOf(6)]).toEqual([6, 6, redo, undo]);
+  });
+
+  it("LM23: does not settle what it has overtaken", () => {
+    const outbox = holding(3);
+    outbox.overtake(2, stop);
+    outbox.acknowledge(2);
+    expect([outbox.settled, outbox.answered, outbox.idThrough(2)]).toEqual([1, 2, 1]);
+    outbox.acknowledge(3);
+    expect([outbox.settled, outbox.idThrough(3)], "the second of the page is the third of the server").toEqual([2, 2]);
+    outbox.acknowledge(4);
+    expect([outbox.settled, outbox.answered, outbox.idThrough(4)]).toEqual([4, 4, 4]);
+  });
+
+  it("LM23: may be refused, and those after it", () => {
+    const outbox = holding(2);
+    outbox.overtake(1, stop);
+    expect([outbox.refuse(1), outbox.refuse(1), outbox.settled, outbox.answered]).toEqual([true, false, 0, 1]);
+    outbox.refuse(2);
+    expect([outbox.settled, outbox.answered, outbox.unsettled("undo")]).toEqual([1, 2, 1]);
+  });
+
+  it("CM11: without one, what is done has the number that the page knows", () => {
+    const outbox = holding(4);
+    outbox.acknowledge(2);
+    expect([1, 2, 3, 4, 9].map((number) => outbox.idThrough(number))).toEqual([1, 2, 3, 4, 9]);
+  });
+});
+
 describe("what the server says it has", () => {
   it("CM1: must reach up to what is kept", () => {
     const outbox = holding(3);

@@ -35,6 +35,7 @@ export class Seat {
         message: (message) => message.type === "people" && events.message(message),
         refused: events.refused,
         commands: () => {},
+        heldUp: () => {},
         aside: () => {},
         rows: () => {},
         rekeyed: () => {},

@@ -33,7 +33,7 @@ export interface Opening {
 
 /** The events of a session: those of its connection and its own. */
 export interface SessionEvents
-  extends Omit<ConnectionEvents<AsideServerFrame>, "phase" | "commands" | "reload" | "rows" | "cannotOpen"> {
+  extends Omit<ConnectionEvents<AsideServerFrame>, "phase" | "commands" | "heldUp" | "reload" | "rows" | "cannotOpen"> {
   /** Another session is opened, or this one again, to play it or after that: nothing of the one before counts any more. */
   opened(how: Opening): void;
   rows(): void;
@@ -91,6 +91,8 @@ export class SessionLink implements PageEvents {
   readonly loading = signal<number | null>(null);
   readonly sent = signal(0);
   readonly settled = signal(0);
+  /** Whether what was done has waited for long because the server has no room for it (`LM23`). */
+  readonly heldUp = signal(false);
   /** Whether the page is in a copy of the session, to play it from its beginning. */
   readonly replaying = signal(false);
   /** Whether the session is told what this page says of itself; while it is replayed, that goes there by a way of its own. */
@@ -346,6 +348,9 @@ export class SessionLink implements PageEvents {
             this.settled.value = settled;
           });
           events.settled(settled);
+        },
+        heldUp: (isHeldUp) => {
+          this.heldUp.value = isHeldUp;
         },
         cannotOpen: async (text) => {
           const turned = turnedAway(text);

@@ -94,6 +94,10 @@ export const NOTICES = {
     "Was der Server schickt, ist nicht zu lesen. Die Seite versucht es bald wieder; vielleicht hilft es, sie neu zu laden.",
   ],
   "notices.kept": ["your strokes are kept", "deine Striche bleiben erhalten"],
+  "notices.held-up": [
+    "The tree does not keep up with you: what you do waits, and is done in its order.",
+    "Der Baum kommt nicht nach: Was du tust, wartet und geschieht der Reihe nach.",
+  ],
   "notices.full": [
     "The tree has all the growth this document holds. Undo or ungrow to draw on.",
     "Der Baum ist so groß, wie dieses Dokument es erlaubt. Mach etwas rückgängig oder lass ihn zurückwachsen, um weiterzuzeichnen.",

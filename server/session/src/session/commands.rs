@@ -120,7 +120,15 @@ impl Session {
             Ok((command, text)) => {
                 self.accept(principal, id, command, text, None);
             }
-            Err(problem) => self.send(client, &ServerMessage::Refused { id, problem }),
+            Err(problem) => {
+                if problem.reason == Reason::Behind
+                    && let Some(author) = self.authors.get_mut(principal)
+                {
+                    // It comes again, and what was sent after it must not go before it (`LM23`).
+                    author.taken = id - 1;
+                }
+                self.send(client, &ServerMessage::Refused { id, problem });
+            }
         }
     }
 
@@ -141,8 +149,8 @@ impl Session {
             return;
         }
         let problem = match command.and_then(|command| self.check(access, principal, command)) {
-            Err(problem) => problem,
-            Ok(_) => Problem::new(Reason::NumberTaken, format!("command {id} was refused before"))
+            Err(problem) if problem.reason != Reason::Behind => problem,
+            _ => Problem::new(Reason::NumberTaken, format!("command {id} was refused before"))
                 .at("id", "a number that no command had"),
         };
         self.send(client, &ServerMessage::Refused { id, problem });

@@ -319,15 +319,51 @@ fn check_bounded(world: &mut World) {
             world.pass(20);
         }
     }
-    let refused = people.iter().flat_map(|person| world.peer(*person).refused());
-    let behind = |problem: &Problem| problem.reason == Reason::Behind;
-    let behind: Vec<_> = refused.map(|(_, problem)| problem).filter(behind).collect();
-    assert!((850..=910).contains(&behind.len()), "{} were refused", behind.len());
+    let refused: Vec<_> = people.iter().map(|person| not_taken(world, *person)).collect();
+    let count: usize = refused.iter().map(Vec::len).sum();
+    assert!((850..=910).contains(&count), "{count} were refused");
     let all = Some("up to 4096 commands in 8388608 bytes that wait");
-    assert!(behind.iter().all(|problem| problem.allowed.as_deref() == all));
-    // What all of them wait for can be stopped.
-    world.command(people[0], 1001, json!({ "kind": "stop" }));
-    assert!(world.peer(people[0]).refused().iter().all(|(id, _)| *id != 1001));
+    for refused in &refused {
+        let behind = refused.iter().take_while(|(_, problem)| problem.reason == Reason::Behind);
+        assert_eq!(behind.count(), 1, "what follows the first is a gap");
+        assert_eq!(refused[0].1.allowed.as_deref(), all);
+    }
+    // What all of them wait for can be stopped, by who waits as well.
+    let (first, _) = refused[0][0];
+    world.command(people[0], first, json!({ "kind": "stop" }));
+    assert_eq!(not_taken(world, people[0]), refused[0]);
+}
+
+/// What was refused so that its number was not taken.
+fn not_taken(world: &World, client: u64) -> Vec<(u32, Problem)> {
+    let is_not_taken =
+        |(_, problem): &(u32, Problem)| [Reason::Behind, Reason::NumberTaken].contains(&problem.reason);
+    world.peer(client).refused().into_iter().filter(is_not_taken).collect()
+}
+
+#[test]
+fn lm23_what_finds_no_room_is_done_in_its_order_when_it_comes_again() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    let end = json!({ "kind": "stroke_end", "stroke": 1 });
+    // Nothing of it becomes durable, for no time passes.
+    for id in 1..=1026 {
+        world.command(client, id, end.clone());
+    }
+    let reasons = |world: &World| -> Vec<_> {
+        not_taken(world, client).into_iter().map(|(id, problem)| (id, problem.reason)).collect()
+    };
+    let first = [(1025, Reason::Behind), (1026, Reason::NumberTaken)];
+    assert_eq!(reasons(&world), first);
+    world.settle();
+    // There is room now, yet the second may not go before the first.
+    world.command(client, 1026, end.clone());
+    assert_eq!(reasons(&world), [first.as_slice(), &[(1026, Reason::NumberTaken)]].concat());
+    world.command(client, 1025, end.clone());
+    world.command(client, 1026, end.clone());
+    world.settle();
+    assert_eq!(reasons(&world).len(), 3, "both are taken");
+    assert!(world.disk.iter().map(|entry| entry.id).eq(1..=1026));
 }
 
 #[test]
@@ -395,8 +431,10 @@ fn lm23_nobody_keeps_others_out_of_a_session() {
     let mut send = |world: &mut World, id: u64, count: u32, command: Value| {
         let next = sent.entry(id).or_default();
         for _ in 0..count {
-            *next += 1;
-            world.command(id, *next, command.clone());
+            let before = not_taken(world, id).len();
+            world.command(id, *next + 1, command.clone());
+            // What finds no room does not take up its number.
+            *next += u32::from(not_taken(world, id).len() == before);
         }
         let refused = world.peer(id).refused().into_iter().map(|(_, problem)| problem);
         let refused = refused.filter(|problem| problem.reason == Reason::Behind);
@@ -408,6 +446,7 @@ fn lm23_nobody_keeps_others_out_of_a_session() {
     assert_eq!(send(&mut world, phone, 1, end()), of_one);
     assert_eq!(send(&mut world, tablet, 1, end()), of_one);
     assert_eq!(send(&mut world, tablet, 1, json!({ "kind": "stop" })), of_one, "it is not refused");
+    assert_eq!(not_taken(&world, tablet).len(), 1);
     assert_eq!(send(&mut world, ann, 1, end()), [""; 0]);
     assert_eq!(send(&mut world, here, 1024, end()), [""; 0]);
     assert_eq!(send(&mut world, here, 1, end()), of_one);

@@ -36,6 +36,7 @@ export function Status({ studio }: { studio: Studio }) {
       {!studio.rights.mayChange.value && studio.link.session.value !== null && !studio.link.replaying.value && (
         <p class="note">{say(studio.rights.mayComment ? "notices.comment-only" : "notices.looking-only")}</p>
       )}
+      {studio.link.heldUp.value && <p class="note">{say("notices.held-up")}</p>}
       {full && <p class="note full">{say("notices.full")}</p>}
       {document && (
         <p class="figures">
