@@ -1,10 +1,13 @@
-//! What designing costs: a limb that changes, and a whole tree of 10,000 internodes.
+//! What designing costs: a limb that changes, a whole tree of 10,000 internodes, and a design for 100,000 rows that grew.
 
 use std::{hint::black_box, time::Instant};
 
 use espalier_design::{
-    Curve, Design, Edit, Function, Generator, Held, Key, MAX_INTERNODES, NodeId, Owner, Setting, Value,
+    Curve, Design, Edit, Function, Generator, Held, Key, MAX_INTERNODES, MOST_ORDERS, NodeId, Owner, Setting,
+    Value, fit,
 };
+use espalier_growth::{NoObserver, Parameters, Simulation, StepInput, species};
+use espalier_plant::{Girth, MetamerId, Plant};
 use glam::Vec3;
 
 const ROUNDS: usize = 31;
@@ -46,6 +49,27 @@ fn main() {
     let wood = generator.generate(&design, MAX_INTERNODES).wood;
     let parameters = espalier_growth::Parameters::default();
     measure("a plant of that wood, with buds", || espalier_growth::transplant(&wood, &parameters));
+    let oak = oak(100_000);
+    let girth = Girth::new(oak.1.girth_exponent, oak.1.twig_diameter);
+    let fitted = fit(&oak.0, &girth, MetamerId::new(0), MOST_ORDERS).expect("it has wood");
+    let what = format!(
+        "fitted to {} rows: {} values, overlap {:.2}",
+        oak.0.living_count(),
+        fitted.records,
+        fitted.overlap
+    );
+    measure(&what, || fit(&oak.0, &girth, MetamerId::new(0), MOST_ORDERS));
+}
+
+/// An oak of so many metamers, and its parameters.
+fn oak(metamers: u32) -> (Plant, Parameters) {
+    let species = species::find("oak").expect("there are oaks");
+    let parameters = Parameters::new(species.parameters.clone()).expect("they are in range");
+    let mut simulation = Simulation::new(1, parameters.clone());
+    simulation.set_metamer_budget(metamers);
+    let alone = StepInput { autonomous: true, ..StepInput::default() };
+    while simulation.step(&alone, &mut NoObserver).metamers_grown > 0 {}
+    (simulation.plant().clone(), parameters)
 }
 
 /// About 10,000 internodes.

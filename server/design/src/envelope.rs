@@ -227,6 +227,12 @@ impl Envelope {
         Rim { share: 1.0 / reach.max(1e-9), height }
     }
 
+    /// How far out a place is, seen from a pole: 0 there and 1 on the periphery; and how high the periphery stands there.
+    pub(crate) fn out(&self, place: Vec3, pole: Vec3) -> (f32, f32) {
+        let rim = self.rim(self.within(pole), place);
+        (rim.share, rim.height)
+    }
+
     pub(crate) fn hash(&self, hash: &mut StableHash) {
         [self.top, self.bottom, self.tip].into_iter().for_each(|point| hash.vector(point));
         for number in self.radii.into_iter().chain(self.heights).chain([self.upper, self.lower]) {

@@ -4,6 +4,7 @@
 mod documented;
 mod edits;
 mod files;
+mod fitting;
 mod generation;
 mod hands;
 mod identity;

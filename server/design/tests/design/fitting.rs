@@ -1,0 +1,142 @@
+//! Designs are fitted to plants that grew (§7).
+
+use espalier_design::{
+    Design, Fitted, Generator, MAX_INTERNODES, MOST_ORDERS, NodeId, Owner, Source, TEMPLATES, Unfit, fit,
+};
+use espalier_growth::{NoObserver, Parameters, Simulation, StepInput, species, transplant};
+use espalier_plant::{AxisId, Girth, MetamerId, Plant};
+use glam::Vec3;
+
+use crate::said::{designed, node, plain};
+
+fn seed() -> MetamerId {
+    MetamerId::new(0)
+}
+
+/// Templates, how many values fitted designs of them have at most (twice as many as they have themselves, where that is
+/// reached), and how much of their crowns is the same.
+const FOUND: [(&str, usize, f32); 6] = [
+    ("bunjingi", 93, 0.85),
+    ("nejikan", 111, 0.82),
+    ("fukinagashi", 76, 0.69),
+    ("chokkan", 100, 0.78),
+    ("sankan", 138, 0.70),
+    ("kengai", 88, 0.46),
+];
+
+/// Grown species, and how much of their crowns is the same in their designs.
+const SPECIES: [(&str, f32); 6] = [
+    ("oak", 0.81),
+    ("birch", 0.81),
+    ("lombardy-poplar", 0.55),
+    ("olive", 0.75),
+    ("spruce", 0.81),
+    ("scots-pine", 0.80),
+];
+
+fn girth() -> Girth {
+    Girth::new(2.5, 0.07)
+}
+
+fn planted(design: &Design) -> Plant {
+    let wood = Generator::default().generate(design, MAX_INTERNODES).wood;
+    transplant(&wood, &Parameters::default()).expect("it fits together")
+}
+
+fn fitted(plant: &Plant) -> Fitted {
+    fit(plant, &girth(), seed(), MOST_ORDERS).expect("it has wood")
+}
+
+/// A tree of a species, of at least so many metamers.
+fn grown(slug: &str, metamers: u32) -> Plant {
+    let species = species::find(slug).expect("there is such a species");
+    let parameters = Parameters::new(species.parameters.clone()).expect("they are in range");
+    let mut simulation = Simulation::new(3, parameters);
+    let alone = StepInput { autonomous: true, ..StepInput::default() };
+    while simulation.plant().living_count() < metamers {
+        simulation.step(&alone, &mut NoObserver);
+    }
+    simulation.plant().clone()
+}
+
+#[test]
+fn fitting_finds_templates_again_in_few_values() {
+    assert_eq!(FOUND.map(|(name, ..)| name), TEMPLATES.map(|template| template.name));
+    for (template, (name, most, least)) in TEMPLATES.iter().zip(FOUND) {
+        let fitted = fitted(&planted(&template.design()));
+        assert!(fitted.records <= most, "{name}: {} values", fitted.records);
+        assert!(fitted.overlap >= least, "{name}: an overlap of {}", fitted.overlap);
+    }
+}
+
+#[test]
+fn fitting_keeps_the_crowns_of_species() {
+    for (slug, least) in SPECIES {
+        let fitted = fitted(&grown(slug, 3_000));
+        assert!(fitted.overlap >= least, "{slug}: an overlap of {}", fitted.overlap);
+    }
+}
+
+#[test]
+fn fitting_places_limbs_where_they_stand() {
+    let design = designed(&plain(5));
+    let generated = Generator::default().generate(&design, MAX_INTERNODES);
+    let fitted = fitted(&planted(&design));
+    assert_eq!(fitted.design.root().laterals().len(), 5);
+    let again = Generator::default().generate(&fitted.design, MAX_INTERNODES);
+    for of in ["/0", "/1", "/2", "/3", "/4"].map(node) {
+        let [was, is] = [&generated, &again].map(|wood| wood.placed(of).expect("it stands"));
+        assert!(was.base.distance(is.base) < 0.2, "{of}: {} and {}", was.base, is.base);
+        assert!(was.frame.y_axis.dot(is.frame.y_axis) > 0.99, "{of}");
+        assert!((was.length / is.length - 1.0).abs() < 0.12, "{of}: {} and {}", was.length, is.length);
+    }
+}
+
+#[test]
+fn what_was_fitted_is_a_design_like_any_other() {
+    let fitted = fitted(&grown("oak", 1_500));
+    let graph = fitted.design.graph();
+    assert_eq!(Design::from_json(&fitted.design.to_json()).as_ref(), Ok(&fitted.design));
+    assert_eq!((fitted.records, fitted.shares), (graph.values(), graph.shares().count()));
+    for (share, _) in graph.shares() {
+        assert!(graph.members(share).count() > 1, "siblings share a value, not one alone");
+    }
+    // What limbs say of themselves is for themselves.
+    for (owner, record) in graph.records() {
+        let is_limb = matches!(owner, Owner::Node(node) if node != NodeId::ROOT);
+        for (key, setting) in record.settings.iter().filter(|_| is_limb) {
+            assert!(setting.clone().private() == *setting, "{owner}: {key}");
+            assert!(matches!(setting.source, Source::Explicit(_) | Source::Shared(_)), "{owner}: {key}");
+        }
+    }
+}
+
+#[test]
+fn fewer_orders_are_fewer_branches() {
+    let plant = grown("oak", 1_500);
+    let highest = |orders| {
+        let fitted = fit(&plant, &girth(), seed(), orders).expect("it has wood");
+        let mut highest = 0;
+        fitted.design.root().walk(&mut |branch| highest = highest.max(branch.id().order()));
+        highest
+    };
+    assert_eq!([1, 2, 3].map(highest), [1, 2, 3]);
+}
+
+#[test]
+fn what_no_design_fits_is_refused() {
+    let mut plant = grown("oak", 300);
+    for orders in [0, MOST_ORDERS + 1] {
+        assert_eq!(fit(&plant, &girth(), seed(), orders), Err(Unfit::Orders { found: orders }));
+    }
+    for row in [5, plant.metamer_count()] {
+        let refused = Err(Unfit::NoSeed(row as u32));
+        assert_eq!(fit(&plant, &girth(), MetamerId::new(row), 2), refused);
+    }
+    let empty = Plant::new(Vec3::ZERO);
+    assert_eq!(fit(&empty, &girth(), seed(), 2), Err(Unfit::NoWood(0)));
+    plant.begin_step();
+    plant.shed(&[AxisId::new(0)]);
+    plant.end_step();
+    assert_eq!(fit(&plant, &girth(), seed(), 2), Err(Unfit::Dead(0)));
+}
