@@ -13,8 +13,8 @@ use ts_rs::{Config, TS};
 use crate::{
     schema::{between, list, schemas},
     version::{
-        MAX_AGE, MAX_BEND_TOUCHES, MAX_DIAMETER, MAX_LINK_HOURS, MAX_PREDICTED_STEPS, MAX_STEPS_PER_COMMAND,
-        MIN_DIAMETER,
+        MAX_AGE, MAX_BEND_TOUCHES, MAX_DIAMETER, MAX_LIMB_ORDERS, MAX_LINK_HOURS, MAX_PREDICTED_STEPS,
+        MAX_STEPS_PER_COMMAND, MIN_DIAMETER,
     },
 };
 
@@ -97,6 +97,8 @@ bounded! {
     Age: u32 from 0, to MAX_AGE, read deserialize_u32;
     /// Simulation steps of a prediction (`LM10`).
     PredictedSteps: u32 from 0, to MAX_PREDICTED_STEPS, read deserialize_u32;
+    /// Up to which order the limbs of a plant are described (`DS10`).
+    LimbOrders: u32 from 1, to MAX_LIMB_ORDERS, read deserialize_u32;
     /// How long a link lets in, in hours (`AC12`).
     LinkHours: u32 from 1, to MAX_LINK_HOURS, read deserialize_u32;
     /// The radius of the brush, in internode lengths (`LM2`).

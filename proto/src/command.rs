@@ -9,7 +9,7 @@ use serde_json::Value;
 use ts_rs::TS;
 
 use crate::{
-    bounded::{Age, BrushRadius, Depth, Diameter, List, Share, Steps, Touches},
+    bounded::{Age, BrushRadius, Depth, Diameter, LimbOrders, List, Share, Steps, Touches},
     design::{DesignEdit, DesignValue, MAX_DESIGN_EDITS},
     grammar::{GrammarBody, GrammarValue, MAX_GRAMMAR_VALUES},
     obstacle::{Obstacle, Pose, SimpleShape},
@@ -338,6 +338,17 @@ tagged_enum! {
         },
         /// Let the design in force go: its wood stays, and is wood like any other (`DS3`).
         ReleaseDesign {},
+        /// Describe a plant that grew by a design, whose wood takes its place (`DS10`).
+        FitDesign {
+            /// The row of any of its metamers; without one it is the plant that has most of them.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            row: Option<u32>,
+            /// Up to which order its limbs are described: 1 to 3, and 2 without it.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            orders: Option<LimbOrders>,
+        },
         /// Plant what a grammar writes (`GR1`).
         SetGrammar {
             /// The text of the grammar.

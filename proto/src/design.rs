@@ -245,6 +245,11 @@ pub struct DesignInForce {
     pub asleep: Vec<BranchPath>,
     /// Steps that stand on its wood; while there are any, the design cannot be changed.
     pub steps_on_top: u32,
+    /// Which share of their silhouettes the crown of a plant and that of the design have in common: area in both over
+    /// area in either. Of a design that was fitted to a plant (`DS10`), until it changes or the session is opened again.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub overlap: Option<f32>,
 }
 
 /// Where a branch of a design stands as wood, and how large it is. Numbers are rounded to ten thousandths.

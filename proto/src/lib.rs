@@ -45,8 +45,8 @@ pub mod version;
 
 pub use bend::{BendFrame, RowMotion};
 pub use bounded::{
-    Age, BrushRadius, Depth, Diameter, EyeDistance, LinkHours, List, Pitch, PredictedSteps, Scale, Share,
-    SphereRadius, Steps, Touches, Yaw,
+    Age, BrushRadius, Depth, Diameter, EyeDistance, LimbOrders, LinkHours, List, Pitch, PredictedSteps,
+    Scale, Share, SphereRadius, Steps, Touches, Yaw,
 };
 pub use command::{Action, Command, StrokeSample};
 pub use control::{

@@ -27,6 +27,9 @@ pub const MAX_NAME_CHARACTERS: usize = 80;
 /// The most characters of a note on a tree or a version (`LB5`).
 pub const MAX_NOTE_CHARACTERS: usize = 2000;
 
+/// The highest order up to which the limbs of a plant are described by a design (`DS10`).
+pub const MAX_LIMB_ORDERS: u32 = 3;
+
 /// The longest that a link may let in, in hours (`AC12`).
 pub const MAX_LINK_HOURS: u32 = 365 * 24;
 

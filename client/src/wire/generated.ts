@@ -49,6 +49,7 @@ export const BOUNDS = {
   Steps: { least: 1, most: 1000 },
   Age: { least: 0, most: 10000 },
   PredictedSteps: { least: 0, most: 100 },
+  LimbOrders: { least: 1, most: 3 },
   LinkHours: { least: 1, most: 8760 },
   BrushRadius: { least: 0, most: 40 },
   Depth: { least: 0.1, most: 1 },
@@ -1683,7 +1684,15 @@ graph?: unknown, } | { "kind": "edit_design",
 /**
  * 1 to 64 edits, done one after another.
  */
-edits: Array<DesignEdit>, } | { "kind": "release_design", } | { "kind": "set_grammar", 
+edits: Array<DesignEdit>, } | { "kind": "release_design", } | { "kind": "fit_design", 
+/**
+ * The row of any of its metamers; without one it is the plant that has most of them.
+ */
+row?: number, 
+/**
+ * Up to which order its limbs are described: 1 to 3, and 2 without it.
+ */
+orders?: number, } | { "kind": "set_grammar", 
 /**
  * The text of the grammar.
  */
@@ -1969,7 +1978,12 @@ asleep: Array<string>,
 /**
  * Steps that stand on its wood; while there are any, the design cannot be changed.
  */
-steps_on_top: number, };
+steps_on_top: number, 
+/**
+ * Which share of their silhouettes the crown of a plant and that of the design have in common: area in both over
+ * area in either. Of a design that was fitted to a plant (`DS10`), until it changes or the session is opened again.
+ */
+overlap?: number, };
 
 export type PlacedBranch = { 
 /**

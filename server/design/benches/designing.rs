@@ -47,7 +47,7 @@ fn main() {
         set(&mut design, NodeId::ROOT, Key::Axis, bends[round % 2].clone());
     });
     let wood = generator.generate(&design, MAX_INTERNODES).wood;
-    let parameters = espalier_growth::Parameters::default();
+    let parameters = Parameters::default();
     measure("a plant of that wood, with buds", || espalier_growth::transplant(&wood, &parameters));
     let oak = oak(100_000);
     let girth = Girth::new(oak.1.girth_exponent, oak.1.twig_diameter);

@@ -98,13 +98,14 @@ fn rooted(wood: &Wood, parameters: &Parameters) -> Result<PlantParts, BrokenPlan
 }
 
 impl<G: Generator + AsRef<Growth>> Simulation<G> {
-    /// Plants wood beside the plants that there are, moved by so much, in a step of its own, in which nothing grows
-    /// older. Its rows stand in the order of its nodes; width constraints, gaps and what was shed are left out.
+    /// Plants wood beside the plants that there are, moved by so much, and cuts some wood off, in a step of its own, in
+    /// which nothing grows older. Its rows stand in the order of its nodes; width constraints, gaps and what was shed are
+    /// left out.
     ///
     /// # Errors
     /// Where it would stand outside the world or be more than the scene may hold, or does not fit together; then
     /// nothing changes.
-    pub fn plant_wood(&mut self, wood: &Wood, by: Vec3) -> Result<(), EditError> {
+    pub fn replant(&mut self, cuts: &[MetamerId], wood: &Wood, by: Vec3) -> Result<(), EditError> {
         let count = self.plant().metamer_count() + wood.nodes.len();
         if count > self.scene().metamer_budget() as usize {
             return Err(EditError::OutOfBudget);
@@ -116,7 +117,12 @@ impl<G: Generator + AsRef<Growth>> Simulation<G> {
             rooted(wood, self.generator().as_ref().parameters()).map_err(|_| EditError::Broken)?;
         parts.end.iter_mut().for_each(|end| *end += by);
         let before = self.plant().step();
-        let planted = self.edit(|step| set(step, &parts));
+        let planted = self.edit(|step| {
+            if !cuts.is_empty() {
+                step.prune(cuts);
+            }
+            set(step, &parts)
+        });
         if planted.is_err() {
             self.go_to(before);
             self.stash_future();

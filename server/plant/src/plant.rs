@@ -7,6 +7,7 @@ use glam::Vec3;
 use crate::{
     axes::Axes,
     deaths::ALIVE,
+    edits::Edit,
     hash::StableHash,
     id::{AxisId, MetamerId},
     metamers::{Condition, Metamers, Row},
@@ -120,6 +121,14 @@ impl Plant {
     /// The last step recorded; beyond [`Plant::step`] if the plant has gone back in time.
     pub fn last_step(&self) -> u32 {
         self.timeline.ends.len() as u32 - 1
+    }
+
+    /// What was cut off in a step, each with all that stood on it.
+    pub fn cut_in(&self, step: u32) -> impl Iterator<Item = MetamerId> {
+        let [from, to] =
+            [self.timeline.before(step), self.timeline.before(step + 1)].map(|end| end.edits as usize);
+        let edits = self.timeline.edits.get(from..to).unwrap_or_default();
+        edits.iter().filter_map(|edit| if let Edit::Pruned(cut) = edit { Some(*cut) } else { None })
     }
 
     /// Steps of growth up to the present; edits are none.

@@ -231,6 +231,7 @@ impl Document {
             }
             Action::EditDesign { edits } => self.edit_design(cause, edits),
             Action::ReleaseDesign {} => self.release_design(cause),
+            Action::FitDesign { row, orders } => self.fit_design(cause, *row, *orders),
             Action::SetGrammar { text, values, seed, position, depth, within } => {
                 let planting = grammars::Planting {
                     text,
@@ -389,6 +390,7 @@ fn keeps_set(action: &Action) -> bool {
             | Action::NewDesign { .. }
             | Action::EditDesign { .. }
             | Action::ReleaseDesign {}
+            | Action::FitDesign { .. }
             | Action::SetGrammar { .. }
             | Action::SetGrammarBody { .. }
             | Action::Derive { .. }

@@ -22,7 +22,8 @@ pub(crate) fn grows_alone(action: &Action) -> bool {
     matches!(action, Action::Grow { .. } | Action::Lasso { .. } | Action::Derive { .. })
 }
 
-/// Whether an action takes the whole tree from one state to another in one piece: journeys in time, and grammars.
+/// Whether an action takes the whole tree from one state to another in one piece: journeys in time, grammars, and designs of
+/// what grew.
 pub(crate) fn is_in_one_piece(action: &Action) -> bool {
     matches!(
         action,
@@ -33,6 +34,7 @@ pub(crate) fn is_in_one_piece(action: &Action) -> bool {
             | Action::TakeBack { .. }
             | Action::BringBack { .. }
             | Action::TakeFuture { .. }
+            | Action::FitDesign { .. }
             | Action::SetGrammar { .. }
             | Action::SetGrammarBody { .. }
             | Action::SetGrammarValues { .. }

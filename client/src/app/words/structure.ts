@@ -8,6 +8,15 @@ export const STRUCTURE = {
   "structure.plain": ["Plain", "Schlicht"],
   "structure.plain.help": ["Straight, to be shaped", "Gerade, zum Formen"],
   "structure.open": ["Open a file", "Datei öffnen"],
+  "structure.describe": ["From the tree", "Vom Baum"],
+  "structure.describe.help": [
+    "A design of the largest tree that stands here, from its outline inwards. It takes the place of what grew; Undo brings that back.",
+    "Ein Entwurf des größten Baums, der hier steht, vom Umriss nach innen. Er tritt an die Stelle des Gewachsenen; „Rückgängig“ holt das zurück.",
+  ],
+  "structure.overlap": [
+    "Fitted to what grew: {percent} % of the silhouette stayed.",
+    "An das Gewachsene angepasst: {percent} % des Umrisses sind geblieben.",
+  ],
   "structure.download": ["Save as a file", "Als Datei sichern"],
   "structure.no-json": ["{file} holds no design.", "{file} enthält keinen Entwurf."],
   "structure.sealed": [
@@ -15,6 +24,7 @@ export const STRUCTURE = {
     "Auf diesem Baum ist seither etwas gewachsen ({steps} Schritte), darum ruht sein Entwurf.",
   ],
   "structure.sealed.back": ["Go back to the design", "Zurück zum Entwurf"],
+  "structure.sealed.keep": ["Keep what grew in it", "Gewachsenes behalten"],
   "structure.sealed.again": ["Plant the design anew", "Entwurf neu pflanzen"],
   "structure.release": ["Let the design go", "Entwurf loslassen"],
   "structure.branches": ["Branches", "Äste"],

@@ -4,6 +4,7 @@
 //! futures put it back. Its wood was born in one step of its own. As long as that is the last step of the line, the
 //! step is made anew whenever the design changes; what is recorded after it seals it.
 
+mod fitting;
 mod hands;
 mod placed;
 mod wood;
@@ -14,7 +15,7 @@ use espalier_design::{
     Design, Edit, Generated, Generator, MAX_INTERNODES, NodeId, Refusal, Standing, Template, hands as by_hand,
 };
 use espalier_growth::EditError;
-use espalier_plant::{Future, hash::StableHash};
+use espalier_plant::{Future, MetamerId, hash::StableHash};
 use espalier_proto::{BranchPath, DesignEdit, DesignInForce, DesignValue, Position, Problem, Reason, Slug};
 use espalier_reading::Unread;
 use glam::Vec3;
@@ -73,6 +74,8 @@ pub(super) struct Designs {
     /// Rows that the line has after the step of the design, while the step shows an earlier state of it than those rows
     /// stand on.
     aside: Option<Future>,
+    /// The design that was fitted last, and how much of the silhouette of what grew it has.
+    fitted: Option<(Arc<Designed>, f32)>,
 }
 
 impl Document {
@@ -101,6 +104,12 @@ impl Document {
             laterals: bearers.map(|bearer| (bearer.id().to_string(), numbers(bearer))).collect(),
             asleep: asleep.filter_map(|node| BranchPath::try_from(node.to_string()).ok()).collect(),
             steps_on_top: now.saturating_sub(design.step),
+            overlap: self
+                .designs
+                .fitted
+                .as_ref()
+                .filter(|(of, _)| *of == design)
+                .map(|(_, overlap)| *overlap),
         })
     }
 
@@ -127,6 +136,17 @@ impl Document {
             let problem = Problem::out_of_range("position", value, "a place outside all obstacles");
             return Err(Problem { reason: Reason::InObstacle, ..problem });
         }
+        self.plant_design(cause, design, at, &[]).map(|_| ())
+    }
+
+    /// Plants the wood of a design in place of what is cut off, in a step of its own.
+    fn plant_design(
+        &mut self,
+        cause: Cause<'_>,
+        design: Design,
+        at: Vec3,
+        cuts: &[MetamerId],
+    ) -> Result<Arc<Designed>, Problem> {
         self.require_nobody_draws()?;
         self.require_room()?;
         let text = design.to_json();
@@ -136,7 +156,7 @@ impl Document {
         let mut generator = Generator::default();
         let generated = generator.generate(&design, MAX_INTERNODES);
         let first = self.plant().metamer_count() as u32;
-        if let Err(error) = self.simulation.plant_wood(&generated.wood, at) {
+        if let Err(error) = self.simulation.replant(cuts, &generated.wood, at) {
             self.refuse(recorded);
             return Err(of_wood(error));
         }
@@ -148,9 +168,10 @@ impl Document {
             generated: Arc::new(generated),
             first,
         });
-        self.history.settle(Setting { design: Some(of), ..self.setting() });
+        self.history.settle(Setting { design: Some(Arc::clone(&of)), ..self.setting() });
         self.reach();
-        Ok(())
+        self.release_lost_bends();
+        Ok(of)
     }
 
     pub(super) fn edit_design(&mut self, cause: Cause<'_>, edits: &[DesignEdit]) -> Result<(), Problem> {

@@ -70,6 +70,7 @@ pub(crate) fn commands() -> Vec<Value> {
             { "edit": "seed", "seed": 3 },
         ] }),
         json!({ "kind": "release_design" }),
+        json!({ "kind": "fit_design", "row": 1, "orders": 3 }),
         json!({
             "kind": "set_grammar", "text": "axiom: A\nA --> F[+A]A", "seed": 3, "position": [1, 0, 2], "depth": 2,
             "values": [{ "name": "a", "value": 20 }], "gesture": 1,

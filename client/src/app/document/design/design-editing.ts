@@ -100,6 +100,13 @@ export class DesignEditing {
     this.chosen.value = ROOT;
   }
 
+  /** Begins with a design of the largest tree, as it stands; what grew gives its place to it. */
+  describe(): void {
+    this.begun.value += 1;
+    this.#options.submit({ kind: "fit_design" });
+    this.chosen.value = ROOT;
+  }
+
   release(): void {
     this.#options.submit({ kind: "release_design" });
   }

@@ -50,6 +50,9 @@ export function StructurePanel({ studio }: { studio: Studio }) {
               onChange={(event) => openGraph(event.currentTarget, editing, (text) => studio.toasts.show(text))}
             />
           </label>
+          <button type="button" title={say("structure.describe.help")} onClick={() => editing.describe()}>
+            {say("structure.describe")}
+          </button>
           <button type="button" disabled={!model} onClick={() => model && downloadGraph(model)}>
             {say("structure.download")}
           </button>
@@ -61,6 +64,9 @@ export function StructurePanel({ studio }: { studio: Studio }) {
           <div class="structure-row">
             <button type="button" onClick={() => studio.submit({ kind: "ungrow", steps: Math.min(onTop, 1000) })}>
               {say("structure.sealed.back")}
+            </button>
+            <button type="button" title={say("structure.describe.help")} onClick={() => editing.describe()}>
+              {say("structure.sealed.keep")}
             </button>
             <button type="button" onClick={() => editing.release()}>
               {say("structure.release")}
@@ -86,6 +92,9 @@ export function StructurePanel({ studio }: { studio: Studio }) {
         <>
           <Section name="structure.branches" title={say("structure.branches")} open>
             <p class="quiet">{say("structure.counts", { values: model.told.values, branches: model.told.branches })}</p>
+            {model.told.overlap !== undefined && (
+              <p class="quiet">{say("structure.overlap", { percent: Math.round(100 * model.told.overlap) })}</p>
+            )}
             <BranchList editing={editing} shaping={shaping} model={model} />
           </Section>
           <Section name="structure.values" title={say("structure.values")} open>

@@ -101,9 +101,10 @@ impl Document {
             if self.plant().last_step() > now {
                 self.designs.aside = Some(self.simulation.stash_future());
             }
+            let cuts: Vec<MetamerId> = self.plant().cut_in(now).collect();
             self.simulation.go_to(now - 1);
             let before = self.simulation.stash_future();
-            if let Err(error) = self.simulation.plant_wood(&generated.wood, of.at) {
+            if let Err(error) = self.simulation.replant(&cuts, &generated.wood, of.at) {
                 // It was cut off right here.
                 let _fits = self.simulation.take_future(before);
                 self.simulation.go_to(now);

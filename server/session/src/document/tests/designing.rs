@@ -418,6 +418,71 @@ fn ds7_widened_and_cut_wood_is_said_in_the_design() {
 }
 
 #[test]
+fn ds10_a_design_takes_the_place_of_what_grew_and_undo_brings_that_back() {
+    let mut document = tree();
+    apply(&mut document, &plain(Action::PlantSeed { position: Position::nearest(Vec3::X * 40.0) }));
+    let grown = wood(&document);
+    let living = document.metamers();
+    let fit = |row| plain(Action::FitDesign { row, orders: None });
+    apply(&mut document, &fit(None));
+    check_wood(&document);
+    assert_eq!(kinds(&document).last(), Some(&espalier_proto::OperationKind::Design));
+    let told = document.design_told().expect("it is in force");
+    assert!(told.overlap.is_some_and(|overlap| (0.5..=1.0).contains(&overlap)), "{:?}", told.overlap);
+    assert!(document.metamers() < 4 * living && told.steps_on_top == 0);
+    assert_eq!(told.at, Position::nearest(document.plant().metamers().end(MetamerId::new(0))));
+    let seeds = (0..document.plant().metamer_count()).map(MetamerId::new);
+    let seeds = seeds.filter(|&id| document.plant().is_seed(id) && document.plant().is_alive(id));
+    assert_eq!(seeds.count(), 3, "that of the design, the bare one below it, and the other one");
+    // What is changed stays one step, in which nothing of what grew comes back.
+    let fitted = wood(&document);
+    apply(&mut document, &edits(None, &[set("/", "height", &json!(9))]));
+    check_wood(&document);
+    assert_eq!(document.design_told().and_then(|told| told.overlap), None, "it is another one now");
+    apply(&mut document, &plain(Action::Undo {}));
+    assert_eq!(wood(&document), fitted);
+    apply(&mut document, &plain(Action::Undo {}));
+    assert_eq!((wood(&document), document.design_told()), (grown.clone(), None));
+    apply(&mut document, &plain(Action::Redo {}));
+    assert_eq!(wood(&document), fitted);
+    // It is kept with the document, and goes on from there.
+    let bytes = document.to_bytes();
+    let mut kept = Document::from_bytes(&bytes).expect("it is whole");
+    apply(&mut kept, &edits(None, &[set("/", "height", &json!(11))]));
+    check_wood(&kept);
+    apply(&mut kept, &plain(Action::Undo {}));
+    apply(&mut kept, &plain(Action::Undo {}));
+    assert_eq!(wood(&kept), grown);
+}
+
+#[test]
+fn ds10_a_fitted_design_is_taken_back_by_its_author_alone() {
+    let mut document = tree();
+    let grown = wood(&document);
+    let fit = plain(Action::FitDesign { row: Some(1), orders: None });
+    document.apply(&who("bo"), &fit).expect("it fits");
+    document
+        .apply(&who("cy"), &plain(Action::PlantSeed { position: Position::nearest(Vec3::X * 40.0) }))
+        .expect("it is free");
+    document.apply(&who("bo"), &plain(take_back_by(&[]))).expect("nobody built on it");
+    let others = wood(&document);
+    assert!(others.starts_with(&grown) || grown.iter().all(|row| others.contains(row)), "what grew is back");
+    assert_eq!(document.design_told(), None);
+}
+
+#[test]
+fn ds10_what_no_design_describes_is_refused() {
+    let mut document = Document::new(7);
+    let fit = |row| plain(Action::FitDesign { row, orders: None });
+    assert_eq!(problem(&mut document, &fit(None)).reason, Reason::DesignRefused);
+    assert_eq!(problem(&mut document, &fit(Some(0))).reason, Reason::BranchGone, "a seed is no wood");
+    assert_eq!(problem(&mut document, &fit(Some(9999))).reason, Reason::BranchGone);
+    let mut document = tree();
+    apply(&mut document, &plain(Action::StrokeBegin { stroke: 1, bud: None }));
+    assert_eq!(problem(&mut document, &fit(None)).reason, Reason::BeingDrawn);
+}
+
+#[test]
 fn ds5_nothing_is_read_that_no_document_has() {
     let document = designed();
     let design = document.design_in_force().expect("there is one");

@@ -1,0 +1,83 @@
+//! A design for a plant that grew: its wood takes the place of what grew (`DS10`).
+
+use std::collections::BTreeMap;
+
+use espalier_design::{Fitted, MOST_ORDERS, Unfit, fit};
+use espalier_plant::{MetamerId, Plant};
+use espalier_proto::{LimbOrders, Problem, Reason, version::MAX_LIMB_ORDERS};
+
+use super::refused;
+use crate::{
+    cause::Cause,
+    document::{Document, wood_of},
+};
+
+/// Up to which order limbs are described where nobody says it.
+const USUAL_ORDERS: u8 = 2;
+const _: () = assert!(MAX_LIMB_ORDERS == MOST_ORDERS as u32);
+
+impl Document {
+    pub(in crate::document) fn fit_design(
+        &mut self,
+        cause: Cause<'_>,
+        row: Option<u32>,
+        orders: Option<LimbOrders>,
+    ) -> Result<(), Problem> {
+        // What would be refused in the end is not fitted first.
+        self.require_nobody_draws()?;
+        self.require_room()?;
+        let plant = self.plant();
+        let seed = match row {
+            Some(row) => seed_of(plant, wood_of(plant, "row", row)?),
+            None => largest(plant).ok_or_else(nothing_grew)?,
+        };
+        let orders = orders.map_or(USUAL_ORDERS, |orders| orders.get() as u8);
+        let Fitted { design, overlap, .. } = fit(plant, &self.girth(), seed, orders).map_err(unfit)?;
+        let cuts: Vec<MetamerId> =
+            living(plant).filter(|&id| plant.metamers().parent(id) == Some(seed)).collect();
+        let at = plant.metamers().end(seed);
+        let of = self.plant_design(cause, design, at, &cuts)?;
+        self.designs.fitted = Some((of, overlap));
+        Ok(())
+    }
+}
+
+fn living(plant: &Plant) -> impl Iterator<Item = MetamerId> + '_ {
+    (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id))
+}
+
+/// The seed of the plant that a metamer belongs to.
+fn seed_of(plant: &Plant, metamer: MetamerId) -> MetamerId {
+    let mut at = metamer;
+    while let Some(parent) = plant.metamers().parent(at) {
+        at = parent;
+    }
+    at
+}
+
+/// The seed of the plant with most living metamers, the first of several; none where nothing has grown.
+fn largest(plant: &Plant) -> Option<MetamerId> {
+    let mut seeds: Vec<MetamerId> = Vec::with_capacity(plant.metamer_count());
+    let mut counts: BTreeMap<MetamerId, u32> = BTreeMap::new();
+    for id in (0..plant.metamer_count()).map(MetamerId::new) {
+        let parent = plant.metamers().parent(id);
+        let seed = parent.map_or(id, |parent| seeds[parent.index()]);
+        seeds.push(seed);
+        if parent.is_some() && plant.is_alive(id) {
+            *counts.entry(seed).or_default() += 1;
+        }
+    }
+    counts.into_iter().rev().max_by_key(|&(_, count)| count).map(|(seed, _)| seed)
+}
+
+fn nothing_grew() -> Problem {
+    Problem::new(Reason::DesignRefused, "nothing has grown yet that a design could describe")
+        .at("kind", "a design of a plant with wood")
+}
+
+fn unfit(unfit: Unfit) -> Problem {
+    match unfit {
+        Unfit::Refused(refusal) => refused(&refusal),
+        other => Problem::new(Reason::DesignRefused, other.to_string()).at("row", "a plant with wood"),
+    }
+}
