@@ -244,6 +244,31 @@ test("CT6: the summary is printed whole, whatever is said and shown", async () =
   await page.close();
 });
 
+/** Somebody answers in the first thread, from elsewhere. */
+async function answer(tablet: Tablet, tree: string, text: string): Promise<void> {
+  await tablet.page.evaluate(
+    async ([tree, text]) => {
+      const headers = { "content-type": "application/json" };
+      await fetch(`/api/v1/trees/${tree}/threads/1/comments`, {
+        method: "POST",
+        headers,
+        body: JSON.stringify({ text }),
+      });
+    },
+    [tree, text] as const,
+  );
+}
+
+/** Whether something in the panel is there and not scrolled away. */
+async function isInSight(tablet: Tablet, selector: string): Promise<boolean> {
+  return tablet.page.evaluate((selector) => {
+    const [body, shown] = [document.querySelector(".drawer-body"), document.querySelectorAll(selector)];
+    const last = [...shown].at(-1)?.getBoundingClientRect();
+    const within = body?.getBoundingClientRect();
+    return last !== undefined && within !== undefined && last.top >= within.top && last.bottom <= within.bottom + 1;
+  }, selector);
+}
+
 test.each<[string, Screen]>([
   ["tablet", LANDSCAPE],
   ["upright", UPRIGHT],
@@ -258,7 +283,7 @@ test.each<[string, Screen]>([
     void faults.push(...(await misses(tablet, `${name}, ${where}`, within)));
   await look("what is to be saved first");
   await tablet.show(`comments-unsaved-${name}`);
-  await save(tablet, `Ash on a ${name}`);
+  const tree = await save(tablet, `Ash on a ${name}`);
   await tablet.press(tablet.page.getByRole("button", { name: "Close", exact: false }).first());
   await openComments(tablet);
   await tablet.press(tablet.page.getByRole("button", { name: "Comment on a place" }));
@@ -271,12 +296,20 @@ test.each<[string, Screen]>([
   await tablet.page.locator(".comment-text", { hasText: "A fine seed" }).waitFor();
   await look("a thread");
   await tablet.show(`comments-${name}`);
-  await tablet.press(tablet.page.getByRole("button", { name: "Delete" }));
+  await answer(tablet, tree, "And a second line.");
+  await until("the answer is in sight", () => isInSight(tablet, ".comments > li:last-child .comment-text"));
+  for (let left = 2; left > 0; left--) {
+    await tablet.press(tablet.page.locator(".comments > li").first().getByRole("button", { name: "Delete" }));
+  }
   await tablet.page.getByText("Nobody has said anything yet.").waitFor();
   await look("a comment that was deleted");
   await tablet.show(`comments-deleted-${name}`);
-  await tablet.press(tablet.page.getByRole("button", { name: "Undo", exact: true }).last());
-  await tablet.page.locator(".comment-text", { hasText: "A fine seed" }).waitFor();
+  for (const text of ["And a second line.", "A fine seed"]) {
+    await tablet.press(
+      tablet.page.locator(".toast-row", { hasText: `Deleted: ${text}` }).getByRole("button", { name: "Undo" }),
+    );
+    await tablet.page.locator(".comment-text", { hasText: text }).waitFor();
+  }
   await tablet.press(tablet.page.getByRole("button", { name: "All comments" }));
   await tablet.page.locator(".comment-threads > li").waitFor();
   await look("the list");

@@ -1,4 +1,4 @@
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { type Comment, MAX_COMMENT_CHARACTERS, type Mention, type Pin, type Thread } from "../../../wire/generated";
 import { CHANGED_WITHIN, pictureAddress } from "../../comments/comment-api";
 import type { Conversation } from "../../comments/conversation";
@@ -20,6 +20,16 @@ export function ThreadView({ studio, conversation, thread }: ThreadViewProps) {
   const mayComment = studio.rights.mayComment;
   const pin = studio.comments.pins.value.get(thread.thread);
   const answers = conversation.draft.value?.thread === thread.thread;
+  const list = useRef<HTMLOListElement>(null);
+  const count = thread.comments.length;
+  const shown = useRef(count);
+  // What is said while the thread is open counts as seen, so it comes into sight, but under nobody's hand who writes.
+  useEffect(() => {
+    if (count > shown.current && !answers) {
+      list.current?.lastElementChild?.scrollIntoView({ block: "nearest" });
+    }
+    shown.current = count;
+  }, [count, answers]);
   return (
     <div class="stack">
       <button
@@ -35,7 +45,7 @@ export function ThreadView({ studio, conversation, thread }: ThreadViewProps) {
         {thread.thread} · {stateText(thread, pin)}
       </p>
       {thread.resolved && <p class="quiet">{say("comments.resolved", { name: thread.resolved.by })}</p>}
-      <ol class="comments">
+      <ol class="comments" ref={list}>
         {thread.comments.map((comment) => (
           <CommentView key={comment.comment} {...{ studio, conversation, thread, comment }} />
         ))}

@@ -19,6 +19,7 @@ import { language, say } from "../../words/say";
 import { conversationOf } from "../comments/comment-pins";
 import { Compose } from "../comments/compose";
 import { stateText, ThreadView } from "../comments/thread-view";
+import { Pick } from "../sheets/library/pick";
 
 /** What people say of the tree: a list, or one thread of it. */
 export function CommentsPanel({ studio }: { studio: Studio }) {
@@ -74,6 +75,18 @@ function SaveFirst({ studio }: { studio: Studio }) {
   );
 }
 
+/** Somebody among those who can be chosen. */
+function textOf(by: By): string {
+  switch (by) {
+    case "anybody":
+      return say("comments.person.any");
+    case "own":
+      return say("comments.person.you");
+    default:
+      return nameOf(by);
+  }
+}
+
 interface ThreadListProps {
   readonly studio: Studio;
   readonly conversation: Conversation;
@@ -127,17 +140,15 @@ function ThreadList({ studio, conversation, threads }: ThreadListProps) {
             ))}
           </fieldset>
           {authors.length > 1 && (
-            <label class="field">
-              <span>{say("comments.person")}</span>
-              <select value={by} onChange={({ currentTarget }) => setChosen(currentTarget.value as By)}>
-                <option value="anybody">{say("comments.person.any")}</option>
-                {authors.map((author) => (
-                  <option key={author} value={author}>
-                    {author === "own" ? say("comments.person.you") : nameOf(author)}
-                  </option>
-                ))}
-              </select>
-            </label>
+            <div class="field">
+              <span aria-hidden="true">{say("comments.person")}</span>
+              <Pick
+                label={say("comments.person")}
+                value={by}
+                options={(["anybody", ...authors] as const).map((author) => [author, textOf(author)] as const)}
+                onPick={setChosen}
+              />
+            </div>
           )}
         </>
       )}
