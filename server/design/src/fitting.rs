@@ -1,4 +1,4 @@
-//! A design for a plant that grew (§7): limbs by thickest heir, what they are like, and as little of it said as will do.
+//! A design for a plant that grew: limbs by thickest heir, what they are like, and as little of it said as will do.
 
 mod course;
 mod cover;

@@ -1,4 +1,4 @@
-//! Courses of axes, and functions along them (§7.2, §7.4).
+//! Courses of axes, and functions along them.
 
 use glam::Vec3;
 
@@ -73,7 +73,7 @@ pub(super) fn fitted(
     Function::new(&points).ok()
 }
 
-/// How far two functions are from each other, as a share of the greater (§7.5: L₂).
+/// How far two functions are from each other, as a share of the greater (L₂).
 pub(super) fn difference(a: &Function, b: &Function) -> f32 {
     let (mut off, mut all) = (0.0, 0.0f32);
     for step in 0..=16u8 {

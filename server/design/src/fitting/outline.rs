@@ -1,4 +1,4 @@
-//! Outlines around nodes (§7.3), and how much two outlines differ.
+//! Outlines around nodes, and how much two outlines differ.
 
 use glam::{Vec2, Vec3};
 

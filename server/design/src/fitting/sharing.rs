@@ -1,4 +1,4 @@
-//! When values are the same (§7.5), and what siblings share.
+//! When values are the same, and what siblings share.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::{
     value::{Held, Value},
 };
 
-/// Numbers that differ by a smaller share are the same (§7.5), and so are functions.
+/// Numbers that differ by a smaller share are the same, and so are functions.
 pub(super) const SAME: f32 = 0.1;
 /// So are outlines of which a smaller share differs.
 pub(super) const SAME_OUTLINE: f32 = 0.08;

@@ -1,4 +1,4 @@
-//! Designs are fitted to plants that grew (§7).
+//! Designs are fitted to plants that grew.
 
 use espalier_design::{
     Design, Fitted, Generator, MAX_INTERNODES, MOST_ORDERS, NodeId, Owner, Source, TEMPLATES, Unfit, fit,
