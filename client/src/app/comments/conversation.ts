@@ -223,7 +223,9 @@ export class Conversation {
       return;
     }
     const deletion = { tree, thread, comment, said: deleted(text) };
-    this.#deletions.begin(deletion);
+    if (!this.#deletions.begin(deletion)) {
+      return;
+    }
     if (own) {
       this.#studio.toasts.show(deletion.said, {
         label: say("comments.undo"),

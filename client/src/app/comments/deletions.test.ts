@@ -48,6 +48,15 @@ describe("comments that are deleted", () => {
     expect(sent).toEqual([2]);
   });
 
+  it("CT5: are deleted by two taps as by one", () => {
+    const { deletions, sent, clock } = setUp();
+    expect([deletions.begin(first), deletions.begin({ ...first })]).toEqual([true, false]);
+    deletions.takeBack(first);
+    expect(deletions.all.value).toEqual([]);
+    clock.pass(10_000);
+    expect(sent).toEqual([]);
+  });
+
   it("CT5: are deleted when the page is left, each once", async () => {
     const { deletions, sent, clock, answer } = setUp();
     deletions.begin(first);

@@ -33,14 +33,19 @@ export class Deletions {
     return this.#all;
   }
 
-  /** Shows a comment no longer; it is deleted once nobody has brought it back. */
-  begin(deletion: Deletion): void {
+  /** Shows a comment no longer; it is deleted once nobody has brought it back. False where it was to go already. */
+  begin(deletion: Deletion): boolean {
     const { clock, within } = this.#options;
+    const { tree, thread, comment } = deletion;
+    if (this.#all.peek().some((one) => one.tree === tree && one.thread === thread && one.comment === comment)) {
+      return false;
+    }
     this.#all.value = [...this.#all.peek(), deletion];
     this.#cancels.set(
       deletion,
       clock.after(within, () => void this.settle(deletion)),
     );
+    return true;
   }
 
   /** Shows it again, unless the server was told already. */
