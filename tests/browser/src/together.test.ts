@@ -102,6 +102,11 @@ test("PS1: a pointer is seen at its place in the tree, with its brush, and rides
   const above = at(130, 200);
   await other.page.mouse.move(above.x, above.y);
   await untilPointer(tablet, "the pointer is where the mouse is", isAt(above));
+  const edge = { x: SEEN.width - 8, y: above.y };
+  await other.page.mouse.move(edge.x, edge.y);
+  await untilPointer(tablet, "it is at the edge", isAt(edge));
+  const { x, width } = await tablet.boxOf(tablet.page.locator('.companion[data-shown="true"] .companion-mark span'));
+  expect(x + width, "its name is whole").toBeLessThanOrEqual(SEEN.width);
   // With a tool that has no ball it lies on the wood.
   await other.take("Bend");
   await tablet.take("Bend");
@@ -247,12 +252,16 @@ test.each([
   await tablet.page.evaluate(() => localStorage.setItem("espalier.author", '"Ann"'));
   await other.page.mouse.move(640, 480);
   await untilPointer(tablet, "the pointer comes", () => true);
+  for (const lever of ["Brush radius", "Grow"]) {
+    await tablet.page.getByRole("slider", { name: lever, exact: true }).waitFor();
+  }
   const faults: string[] = [];
   for (const theme of ["light", "dark"] as const) {
     await tablet.page.emulateMedia({ colorScheme: theme });
     await other.page.mouse.move(640 + Math.random() * 8, 470);
     await tablet.showNow(`75-together-${name}-${theme}`);
     faults.push(...(await misses(tablet, `${name}, ${theme}`, ".chips")));
+    faults.push(...(await misses(tablet, `${name}, ${theme}`, ".side-bar")));
     await openPeople(tablet);
     await tablet.showNow(`76-people-${name}-${theme}`);
     faults.push(...(await misses(tablet, `${name}, ${theme}, people`, "dialog")));

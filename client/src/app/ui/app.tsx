@@ -116,6 +116,8 @@ function Workspace({ studio }: { studio: Studio }) {
       data-tour={studio.tour.step.value ?? undefined}
     >
       <canvas id="workspace" ref={canvas} aria-label={say("notices.workspace")} role="img" />
+      {/* Below what stands at places of the tree. */}
+      {(studio.link.replaying.value || !studio.layout.bare.value) && <Status studio={studio} />}
       <Seedlings studio={studio} />
       {repeats && SymmetryMark && <SymmetryMark studio={studio} />}
       <StrokeGhosts studio={studio} />
@@ -204,7 +206,6 @@ function Bars({ studio }: { studio: Studio }) {
       <ToolBar studio={studio} />
       <SideBar studio={studio} />
       {mayChange && Options && made && !predicted && <Options tool={made} page={studio} />}
-      <Status studio={studio} />
       <Hint studio={studio} />
       <div class="foot">
         <RotationStrip studio={studio} />
@@ -228,7 +229,6 @@ function ReplayBars({ studio }: { studio: Studio }) {
   const Chips = usePart(studio, CHIPS, true);
   return (
     <>
-      <Status studio={studio} />
       <div class="foot">
         <RotationStrip studio={studio} />
         {ReplayBar && <ReplayBar studio={studio} />}

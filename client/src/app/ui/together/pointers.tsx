@@ -17,6 +17,7 @@ interface PointersProps {
 export function Pointers({ studio, room, all }: PointersProps) {
   const layer = useRef<HTMLDivElement>(null);
   useAnimationFrames(all.length > 0, () => {
+    const width = layer.current?.clientWidth ?? 0;
     const project = studio.stage.projector();
     const now = performance.now();
     const drawn = new Map([...(layer.current?.children ?? [])].map((child) => [Number(child.id.slice(8)), child]));
@@ -35,7 +36,8 @@ export function Pointers({ studio, room, all }: PointersProps) {
       if (!name || !ball || !line) {
         continue;
       }
-      set(name, "style", `translate: ${at[0].toFixed(1)}px ${at[1].toFixed(1)}px`);
+      const [x, y] = [at[0].toFixed(1), at[1].toFixed(1)];
+      set(name, "style", `translate: ${x}px ${y}px; --room: ${(width - at[0]).toFixed(1)}px`);
       set(name, "data-named", String(room.others.still(device.device, now) < NAMED_FOR));
       set(ball, "cx", at[0].toFixed(1));
       set(ball, "cy", at[1].toFixed(1));
