@@ -2,6 +2,7 @@ import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { expect, test } from "vitest";
 import { screenshots } from "./browser";
+import { misses } from "./hits";
 import { guestsLink, ownersLink } from "./invitations";
 import { print } from "./paper";
 import { LANDSCAPE, PHONE, type Screen } from "./screens";
@@ -369,6 +370,7 @@ test.each(KEEPING ? WALKS : WALKS.slice(0, 1))(
 
     // The summary opens as a page of its own, and is printed whole.
     await ann.press(ann.page.getByRole("button", { name: "All comments" }));
+    expect(await misses(ann, "the list of comments", ".drawer")).toEqual([]);
     const opened = ann.page.context().waitForEvent("page");
     await ann.press(ann.page.getByRole("link", { name: "Summary to read and print" }));
     const summary = await opened;
