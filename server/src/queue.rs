@@ -37,6 +37,11 @@ impl Queue {
         turns.retain(|person, _| jobs.iter().any(|(by, _)| by == person));
     }
 
+    /// Whether it is the turn of this job.
+    pub fn is_next(&self, name: &str) -> bool {
+        first(&self.jobs, &self.turns).is_some_and(|first| self.jobs[first].1 == name)
+    }
+
     /// The job whose turn it is; it stays until it is taken out.
     pub fn next(&mut self) -> Option<String> {
         let (person, name) = self.jobs.get(first(&self.jobs, &self.turns)?)?.clone();

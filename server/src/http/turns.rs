@@ -100,10 +100,10 @@ impl Place {
 
     fn try_turn(&self) -> Option<Turn> {
         let mut standing = self.lane.standing();
-        if standing.ahead(&self.name) != Some(0) {
+        if standing.is_taken || !standing.waiting.is_next(&self.name) {
             return None;
         }
-        // It is the first: that it has its turn is remembered of its person.
+        // That it has its turn is remembered of its person.
         standing.waiting.next();
         standing.waiting.remove(&self.name);
         standing.is_taken = true;
