@@ -2,7 +2,9 @@
 
 use std::{collections::VecDeque, time::Duration};
 
-use espalier_proto::{ClientMessage, DocumentState, FrameKind, ServerMessage, version::PROTOCOL_VERSION};
+use espalier_proto::{
+    ClientMessage, DocumentState, FrameKind, Reason, ServerMessage, version::PROTOCOL_VERSION,
+};
 use futures_util::{SinkExt, StreamExt};
 use serde_json::{Value, json};
 use tokio::{
@@ -237,9 +239,13 @@ impl Person {
                     self.measured.to_acknowledged.push(sent.elapsed());
                 }
             }
-            ServerMessage::Refused { id, .. } => {
+            ServerMessage::Refused { id, problem } => {
                 self.unacknowledged.retain(|(sent, _)| sent != id);
                 self.measured.refused += 1;
+                if problem.reason == Reason::Behind {
+                    // Its number was not taken, nor is any after it.
+                    self.next = self.next.min(*id);
+                }
             }
             ServerMessage::Done { id, .. } => {
                 self.done = self.done.max(*id);
