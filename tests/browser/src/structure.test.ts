@@ -43,3 +43,22 @@ test.each<[string, Screen]>([
   await tablet.tap("Undo");
   await tablet.until("it is as it was", ({ metamers }) => metamers === before);
 });
+
+test.each<[string, Screen]>([
+  ["on its side", LANDSCAPE],
+  ["upright", UPRIGHT],
+])("DS10: a tree that grew becomes a design on a tablet %s, and Undo brings it back", async (name, screen) => {
+  const { tablet, address } = await workshop.fresh(screen);
+  await workshop.act(address, [{ kind: "grow", steps: 9 }]);
+  await tablet.until("a tree has grown", ({ metamers }) => metamers > 100);
+  await tablet.untilSettled();
+  const grown = (await tablet.facts()).metamers;
+  await tablet.tap("Structure");
+  await tablet.press(button(tablet, "From the tree"));
+  await tablet.page.getByText(/^Fitted to what grew: \d+ % of the silhouette stayed\.$/).waitFor();
+  await tablet.until("the design stands in its place", ({ metamers }) => metamers !== grown);
+  await tablet.show(`99-structure-${name.replaceAll(" ", "-")}-fitted`);
+
+  await tablet.tap("Undo");
+  await tablet.until("it is as it grew", ({ metamers }) => metamers === grown);
+});
