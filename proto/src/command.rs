@@ -340,7 +340,7 @@ tagged_enum! {
         ReleaseDesign {},
         /// Describe a plant that grew by a design, whose wood takes its place (`DS10`).
         FitDesign {
-            /// The row of any of its metamers; without one it is the plant that has most of them.
+            /// The row of its seed or of any of its metamers; without one it is the plant that has most of them.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[ts(optional)]
             row: Option<u32>,

@@ -245,6 +245,8 @@ pub struct DesignInForce {
     pub asleep: Vec<BranchPath>,
     /// Steps that stand on its wood; while there are any, the design cannot be changed.
     pub steps_on_top: u32,
+    /// The row of the seed that bears its wood.
+    pub row: u32,
     /// Which share of their silhouettes the crown of a plant and that of the design have in common: area in both over
     /// area in either. Of a design that was fitted to a plant (`DS10`), until it changes or the session is opened again.
     #[serde(default, skip_serializing_if = "Option::is_none")]

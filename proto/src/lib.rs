@@ -52,7 +52,9 @@ pub use command::{Action, Command, StrokeSample};
 pub use control::{
     ClientMessage, Deed, DocumentState, Hint, HintReason, Notice, Pause, Resume, ServerMessage, Unreadable,
 };
-pub use design::{BranchPath, DesignEdit, DesignInForce, DesignSetting, DesignValue, PlacedBranch};
+pub use design::{
+    BranchPath, DesignEdit, DesignInForce, DesignSetting, DesignValue, MAX_DESIGN_BYTES, PlacedBranch,
+};
 pub use envelope::FrameKind;
 pub use espalier_reading::NotAllowed;
 pub use frame::{ChunkChange, Column, Frame, FrameError, Rows, Values};

@@ -1686,7 +1686,7 @@ graph?: unknown, } | { "kind": "edit_design",
  */
 edits: Array<DesignEdit>, } | { "kind": "release_design", } | { "kind": "fit_design", 
 /**
- * The row of any of its metamers; without one it is the plant that has most of them.
+ * The row of its seed or of any of its metamers; without one it is the plant that has most of them.
  */
 row?: number, 
 /**
@@ -1979,6 +1979,10 @@ asleep: Array<string>,
  * Steps that stand on its wood; while there are any, the design cannot be changed.
  */
 steps_on_top: number, 
+/**
+ * The row of the seed that bears its wood.
+ */
+row: number, 
 /**
  * Which share of their silhouettes the crown of a plant and that of the design have in common: area in both over
  * area in either. Of a design that was fitted to a plant (`DS10`), until it changes or the session is opened again.

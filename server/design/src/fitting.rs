@@ -30,6 +30,8 @@ pub const MOST_ORDERS: u8 = 3;
 const WORTH: f32 = 1.0 / 4000.0;
 /// Values tried together at first.
 const FIRST_ROUND: usize = 8;
+/// Most values tried together: siblings are compared with each other.
+const MOST_OF_ROUND: usize = 128;
 /// Most designs that are tried.
 const MOST_TRIALS: u32 = 40;
 /// Values that limbs may say for the sake of the silhouette.
@@ -125,7 +127,8 @@ pub fn fit(plant: &Plant, girth: &Girth, seed: MetamerId, orders: u8) -> Result<
             if best.records + chosen.len() > MAX_VALUES {
                 continue;
             }
-            let (fitted, next) = tried(&tried_said)?;
+            // It may have more branches than a design has.
+            let Ok((fitted, next)) = tried(&tried_said) else { continue };
             if score(&fitted) > better.as_ref().map_or(score(&best), |(better, ..)| score(better)) {
                 better = Some((fitted, next, tried_said));
             }
@@ -135,7 +138,7 @@ pub fn fit(plant: &Plant, girth: &Girth, seed: MetamerId, orders: u8) -> Result<
                 (best, others, said) = (fitted, next, now);
                 forms.retain(|wish| !said.has(wish.limb, wish.key));
             }
-            None if is_last => break,
+            None if is_last || count >= MOST_OF_ROUND => break,
             None => count *= 2,
         }
     }
@@ -146,7 +149,7 @@ pub fn fit(plant: &Plant, girth: &Girth, seed: MetamerId, orders: u8) -> Result<
         return Ok(best);
     }
     said.add(&girths);
-    Ok(tried(&said)?.0)
+    Ok(tried(&said).map_or(best, |(fitted, _)| fitted))
 }
 
 /// What speaks for a fitted design: its overlap, less what its values cost.

@@ -49,8 +49,8 @@ pub(crate) fn changes_triangles(action: &Action) -> bool {
 /// adds nothing.
 pub(crate) fn after_taking_on(action: &Action, rows: u64) -> u64 {
     match action {
-        // A copy of any branch.
-        Action::Graft { .. } => 2 * rows + LEAST_STEP,
+        // A copy of any branch, or wood like that of any plant.
+        Action::Graft { .. } | Action::FitDesign { .. } => 2 * rows + LEAST_STEP,
         // A step of derivation seldom adds more.
         Action::SetGrammar { .. }
         | Action::SetGrammarBody { .. }

@@ -25,6 +25,10 @@ export const STRUCTURE = {
   ],
   "structure.sealed.back": ["Go back to the design", "Zurück zum Entwurf"],
   "structure.sealed.keep": ["Keep what grew in it", "Gewachsenes behalten"],
+  "structure.sealed.keep.help": [
+    "A design of this tree with all that has grown on it. It takes the place of both; Undo brings them back.",
+    "Ein Entwurf dieses Baums mit allem, was auf ihm gewachsen ist. Er tritt an die Stelle von beidem; „Rückgängig“ holt es zurück.",
+  ],
   "structure.sealed.again": ["Plant the design anew", "Entwurf neu pflanzen"],
   "structure.release": ["Let the design go", "Entwurf loslassen"],
   "structure.branches": ["Branches", "Äste"],

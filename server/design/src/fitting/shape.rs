@@ -116,9 +116,9 @@ impl Stem {
         let places: Vec<Vec3> = nodes(wood, stem, MOST_NODES).map(|place| place - base).collect();
         let extent = places.iter().map(|place| place.abs().max_element()).fold(1.0, f32::max);
         let chord = stem.chord();
-        let unit = chord.length().max(extent / ROOMY);
         // A stem that is all but none is a longer one, cut off.
         let (least, most) = Key::Height.row().range;
+        let unit = chord.length().max(extent.max(least) / ROOMY);
         let height = chord.length().max(least).max(0.06 * unit).min(most);
         let cut = (chord.length() / height).min(1.0);
         let tip = chord.normalize_or(Vec3::Y) * (height / unit);

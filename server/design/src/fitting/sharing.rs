@@ -40,7 +40,7 @@ pub(super) fn is_same(key: Key, a: &Held, b: &Held) -> bool {
         (Value::Vector(a), Value::Vector(b)) => a.distance(*b) <= SAME.to_degrees(),
         (Value::Function(a), Value::Function(b)) => difference(a, b) <= SAME,
         (Value::Envelope(a), Value::Envelope(b)) => {
-            outline::difference(a, b) <= SAME_OUTLINE && a.tip == b.tip
+            a.tip == b.tip && outline::difference(a, b) <= SAME_OUTLINE
         }
         (Value::Curve(a), Value::Curve(b)) => {
             (0..=16u8).map(|step| f32::from(step) / 16.0).all(|t| a.at(t).distance(b.at(t)) <= 0.2 * SAME)

@@ -12,6 +12,7 @@ use super::{
 };
 use crate::{
     axis::{OUTSIDE, Placed, lay, place, stem},
+    curve::Curve,
     design::Design,
     frame::turn_between,
     function::Function,
@@ -28,8 +29,9 @@ use crate::{
 const SAME_PLACE: f32 = 0.75;
 /// Courses are the same that are nowhere farther apart, in internodes.
 const SAME_COURSE: f32 = 0.15;
-/// Most laterals whose places are written down; those of higher orders follow from the density alone.
-const MOST_SLOTS: usize = 16_384;
+/// Most laterals whose places are written down, so that a design is no larger than one that comes over the wire may be;
+/// those of higher orders follow from the density alone.
+const MOST_SLOTS: usize = 768;
 
 /// Something that a limb might say itself.
 #[derive(Clone, Copy, Debug)]
@@ -75,6 +77,8 @@ pub(super) struct Writer<'a> {
     wood: &'a Wood,
     shapes: Vec<Shape>,
     stem: Stem,
+    /// The course of the stem.
+    axis: Curve,
     /// By order.
     usual: Vec<Usual>,
     ids: Vec<Option<NodeId>>,
@@ -103,7 +107,8 @@ impl<'a> Writer<'a> {
                 ids[lateral] = NodeId::child(id, ordinal);
             }
         }
-        Self { wood, shapes, stem: Stem::of(wood), usual, ids, anchored }
+        let axis = shapes[0].axis(&wood.limbs[0]);
+        Self { wood, shapes, stem: Stem::of(wood), axis, usual, ids, anchored }
     }
 
     /// The design in which these limbs say these things themselves, and what others might say.
@@ -186,7 +191,7 @@ impl Writing<'_> {
 
     /// What limbs of each order have in common.
     fn commons(&mut self) {
-        let Writer { stem, usual, wood, shapes, .. } = self.writer;
+        let Writer { stem, axis, usual, wood, .. } = self.writer;
         let last = usual.len() - 1;
         self.say(0, Key::Orders, Held::new(Value::Scalar(last as f32)));
         self.say(0, Key::Height, scalar(Key::Height, stem.height));
@@ -195,7 +200,7 @@ impl Writing<'_> {
         if stem.cut < 1.0 {
             self.say(0, Key::Cut, scalar(Key::Cut, stem.cut));
         } else {
-            self.say(0, Key::Axis, Held::new(Value::Curve(shapes[0].axis(&wood.limbs[0]))));
+            self.say(0, Key::Axis, Held::new(Value::Curve(axis.clone())));
         }
         for (order, usual) in usual.iter().enumerate() {
             if order > 0 {

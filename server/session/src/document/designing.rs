@@ -104,6 +104,7 @@ impl Document {
             laterals: bearers.map(|bearer| (bearer.id().to_string(), numbers(bearer))).collect(),
             asleep: asleep.filter_map(|node| BranchPath::try_from(node.to_string()).ok()).collect(),
             steps_on_top: now.saturating_sub(design.step),
+            row: shown.first,
             overlap: self
                 .designs
                 .fitted

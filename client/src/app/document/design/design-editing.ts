@@ -100,10 +100,10 @@ export class DesignEditing {
     this.chosen.value = ROOT;
   }
 
-  /** Begins with a design of the largest tree, as it stands; what grew gives its place to it. */
-  describe(): void {
+  /** Begins with a design of the largest tree as it stands, or of the one of a row; what grew gives its place to it. */
+  describe(row?: number): void {
     this.begun.value += 1;
-    this.#options.submit({ kind: "fit_design" });
+    this.#options.submit({ kind: "fit_design", ...(row === undefined ? {} : { row }) });
     this.chosen.value = ROOT;
   }
 

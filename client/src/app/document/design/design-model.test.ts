@@ -7,7 +7,7 @@ import { DesignSignal } from "./design-signal";
 
 function told(graph: unknown, stepsOnTop = 0): DesignInForce {
   const laterals = { "/": [0, 1, 2], "/1": [0, 1] };
-  return { at: [0, 0, 0], graph, values: 0, branches: 6, laterals, asleep: [], steps_on_top: stepsOnTop };
+  return { at: [0, 0, 0], graph, values: 0, branches: 6, laterals, asleep: [], steps_on_top: stepsOnTop, row: 0 };
 }
 
 function keyOf(name: KeyName) {

@@ -50,6 +50,7 @@ function setUp(values: Record<string, unknown> = {}, laterals: unknown = undefin
     laterals: { "/": [0, 1], "/0": [0] },
     asleep: [],
     steps_on_top: 0,
+    row: 0,
   };
   design.receive(told);
   design.placed.value = { of: "/", branches: BRANCHES };

@@ -65,7 +65,11 @@ export function StructurePanel({ studio }: { studio: Studio }) {
             <button type="button" onClick={() => studio.submit({ kind: "ungrow", steps: Math.min(onTop, 1000) })}>
               {say("structure.sealed.back")}
             </button>
-            <button type="button" title={say("structure.describe.help")} onClick={() => editing.describe()}>
+            <button
+              type="button"
+              title={say("structure.sealed.keep.help")}
+              onClick={() => editing.describe(model.told.row)}
+            >
               {say("structure.sealed.keep")}
             </button>
             <button type="button" onClick={() => editing.release()}>

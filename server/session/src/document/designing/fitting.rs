@@ -2,14 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use espalier_design::{Fitted, MOST_ORDERS, Unfit, fit};
+use espalier_design::{Design, Fitted, MOST_ORDERS, Unfit, fit};
 use espalier_plant::{MetamerId, Plant};
-use espalier_proto::{LimbOrders, Problem, Reason, version::MAX_LIMB_ORDERS};
+use espalier_proto::{LimbOrders, MAX_DESIGN_BYTES, Problem, Reason, version::MAX_LIMB_ORDERS};
 
-use super::refused;
 use crate::{
     cause::Cause,
-    document::{Document, wood_of},
+    document::{Document, branch_gone},
 };
 
 /// Up to which order limbs are described where nobody says it.
@@ -28,11 +27,13 @@ impl Document {
         self.require_room()?;
         let plant = self.plant();
         let seed = match row {
-            Some(row) => seed_of(plant, wood_of(plant, "row", row)?),
+            Some(row) => seed_of(plant, alive(plant, row)?),
             None => largest(plant).ok_or_else(nothing_grew)?,
         };
         let orders = orders.map_or(USUAL_ORDERS, |orders| orders.get() as u8);
         let Fitted { design, overlap, .. } = fit(plant, &self.girth(), seed, orders).map_err(unfit)?;
+        // It is read again whenever the document is opened.
+        let design = read_again(&design)?;
         let cuts: Vec<MetamerId> =
             living(plant).filter(|&id| plant.metamers().parent(id) == Some(seed)).collect();
         let at = plant.metamers().end(seed);
@@ -40,6 +41,26 @@ impl Document {
         self.designs.fitted = Some((of, overlap));
         Ok(())
     }
+}
+
+/// A design as it comes back from what documents and files keep of it.
+fn read_again(design: &Design) -> Result<Design, Problem> {
+    let text = design.to_json();
+    if text.len() > MAX_DESIGN_BYTES {
+        let message = format!("its design would have {} bytes", text.len());
+        return Err(Problem::new(Reason::DesignRefused, message)
+            .at("kind", format!("a plant whose design has {MAX_DESIGN_BYTES} bytes at most")));
+    }
+    Design::from_json(&text).map_err(|_| {
+        let message = "its design would be none that can be kept";
+        Problem::new(Reason::DesignRefused, message).at("kind", "a plant that a design can describe")
+    })
+}
+
+fn alive(plant: &Plant, row: u32) -> Result<MetamerId, Problem> {
+    let is_known = (row as usize) < plant.metamer_count();
+    let metamer = is_known.then(|| MetamerId::new(row as usize));
+    metamer.filter(|&id| plant.is_alive(id)).ok_or_else(|| branch_gone("row", row))
 }
 
 fn living(plant: &Plant) -> impl Iterator<Item = MetamerId> + '_ {
@@ -76,8 +97,11 @@ fn nothing_grew() -> Problem {
 }
 
 fn unfit(unfit: Unfit) -> Problem {
-    match unfit {
-        Unfit::Refused(refusal) => refused(&refusal),
-        other => Problem::new(Reason::DesignRefused, other.to_string()).at("row", "a plant with wood"),
+    match &unfit {
+        Unfit::NoSeed(_) | Unfit::Dead(_) | Unfit::NoWood(_) => {
+            Problem::new(Reason::DesignRefused, unfit.to_string()).at("row", "a plant with wood")
+        }
+        Unfit::Orders { .. } | Unfit::Refused(_) => Problem::new(Reason::DesignRefused, unfit.to_string())
+            .at("kind", "a plant that a design can describe"),
     }
 }

@@ -1,7 +1,7 @@
 //! Designs in a document: wood that follows what is said, undone, sealed, saved, and changed by hand.
 
 use espalier_design::{Design, Generator, Key, MAX_INTERNODES, NodeId};
-use espalier_plant::checks;
+use espalier_plant::{Wood, WoodAxis, WoodNode, checks};
 use espalier_proto::{DesignEdit, DesignValue, Slug};
 use serde_json::{Value, json};
 
@@ -471,11 +471,37 @@ fn ds10_a_fitted_design_is_taken_back_by_its_author_alone() {
 }
 
 #[test]
+fn ds10_a_stub_has_a_design_that_can_be_read_again() {
+    for length in [0.02, 0.3, 0.9, 3.0] {
+        let node = |row: u8| WoodNode {
+            parent: (row > 0).then_some(0),
+            axis: 0,
+            end: Vec3::Y * (f32::from(row) * length),
+            normal: None,
+            radius: (row > 0).then_some(0.1),
+            birth: row.into(),
+        };
+        let trunk = WoodAxis { bearer: None, direction: None, has_bud: true };
+        let wood = Wood { nodes: vec![node(0), node(1)], axes: vec![trunk], ..Wood::default() };
+        let like = Document::new(7);
+        let document = Document::transplanted(&wood, 7, &like.parameters(), *like.appearance());
+        let mut document = document.expect("it fits together");
+        apply(&mut document, &plain(Action::FitDesign { row: Some(0), orders: None }));
+        check_wood(&document);
+        assert!(Document::from_bytes(&document.to_bytes()).is_ok(), "{length}");
+    }
+}
+
+#[test]
 fn ds10_what_no_design_describes_is_refused() {
     let mut document = Document::new(7);
     let fit = |row| plain(Action::FitDesign { row, orders: None });
     assert_eq!(problem(&mut document, &fit(None)).reason, Reason::DesignRefused);
-    assert_eq!(problem(&mut document, &fit(Some(0))).reason, Reason::BranchGone, "a seed is no wood");
+    assert_eq!(
+        problem(&mut document, &fit(Some(0))).reason,
+        Reason::DesignRefused,
+        "nothing has grown on it"
+    );
     assert_eq!(problem(&mut document, &fit(Some(9999))).reason, Reason::BranchGone);
     let mut document = tree();
     apply(&mut document, &plain(Action::StrokeBegin { stroke: 1, bud: None }));
