@@ -34,7 +34,7 @@ async function calmPicture(tablet: Tablet, name: string) {
 /** What is seen above the line of time, which has marks of what was set. */
 const aboveTime = ({ pixels }: Picture) => Buffer.from(pixels.slice(0, 0.85 * pixels.length));
 
-/** The same once it stays: light that was sent coarsely while somebody drew comes whole some seconds after. */
+/** The same once it stays: how older wood looks is told whole some seconds after somebody drew (FL5). */
 async function calmPictureThatStays(tablet: Tablet, name: string) {
   let picture = await calmPicture(tablet, name);
   for (;;) {
