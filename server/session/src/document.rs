@@ -401,9 +401,15 @@ fn keeps_set(action: &Action) -> bool {
 }
 
 fn wood_of(plant: &Plant, field: &str, row: u32) -> Result<MetamerId, Problem> {
+    let metamer = living(plant, field, row)?;
+    if plant.is_seed(metamer) { Err(branch_gone(field, row)) } else { Ok(metamer) }
+}
+
+/// A living metamer, seeds included.
+fn living(plant: &Plant, field: &str, row: u32) -> Result<MetamerId, Problem> {
     let is_known = (row as usize) < plant.metamer_count();
     let metamer = is_known.then(|| MetamerId::new(row as usize));
-    metamer.filter(|&id| plant.is_alive(id) && !plant.is_seed(id)).ok_or_else(|| branch_gone(field, row))
+    metamer.filter(|&id| plant.is_alive(id)).ok_or_else(|| branch_gone(field, row))
 }
 
 fn branch_gone(field: &str, row: u32) -> Problem {

@@ -412,10 +412,11 @@ fn no_design() -> Problem {
 fn sealed(step: u32, steps: u32) -> Problem {
     let message = format!(
         "{steps} later steps stand on the wood of the design, which can change only where nothing does: undo back to \
-         step {step}; or let the design go (release_design), and all of it is wood like any other; or begin another \
-         one with its graph (new_design)"
+         step {step}; or let the design go (release_design), and all of it is wood like any other; or have a design \
+         of all that stands there (fit_design); or begin another one with its graph (new_design)"
     );
-    let allowed = format!("undo back to step {step}, release_design, or new_design at another place");
+    let allowed =
+        format!("undo back to step {step}, release_design, fit_design, or new_design at another place");
     Problem::new(Reason::DesignSealed, message).at("kind", allowed)
 }
 

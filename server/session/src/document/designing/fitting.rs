@@ -8,7 +8,7 @@ use espalier_proto::{LimbOrders, MAX_DESIGN_BYTES, Problem, Reason, version::MAX
 
 use crate::{
     cause::Cause,
-    document::{Document, branch_gone},
+    document::{Document, living},
 };
 
 /// Up to which order limbs are described where nobody says it.
@@ -27,15 +27,16 @@ impl Document {
         self.require_room()?;
         let plant = self.plant();
         let seed = match row {
-            Some(row) => seed_of(plant, alive(plant, row)?),
+            Some(row) => seed_of(plant, living(plant, "row", row)?),
             None => largest(plant).ok_or_else(nothing_grew)?,
         };
         let orders = orders.map_or(USUAL_ORDERS, |orders| orders.get() as u8);
         let Fitted { design, overlap, .. } = fit(plant, &self.girth(), seed, orders).map_err(unfit)?;
         // It is read again whenever the document is opened.
         let design = read_again(&design)?;
-        let cuts: Vec<MetamerId> =
-            living(plant).filter(|&id| plant.metamers().parent(id) == Some(seed)).collect();
+        let rows = (0..plant.metamer_count()).map(MetamerId::new);
+        let stands_on_seed = |id: &MetamerId| plant.metamers().parent(*id) == Some(seed);
+        let cuts: Vec<MetamerId> = rows.filter(|id| stands_on_seed(id) && plant.is_alive(*id)).collect();
         let at = plant.metamers().end(seed);
         let of = self.plant_design(cause, design, at, &cuts)?;
         self.designs.fitted = Some((of, overlap));
@@ -55,16 +56,6 @@ fn read_again(design: &Design) -> Result<Design, Problem> {
         let message = "its design would be none that can be kept";
         Problem::new(Reason::DesignRefused, message).at("kind", "a plant that a design can describe")
     })
-}
-
-fn alive(plant: &Plant, row: u32) -> Result<MetamerId, Problem> {
-    let is_known = (row as usize) < plant.metamer_count();
-    let metamer = is_known.then(|| MetamerId::new(row as usize));
-    metamer.filter(|&id| plant.is_alive(id)).ok_or_else(|| branch_gone("row", row))
-}
-
-fn living(plant: &Plant) -> impl Iterator<Item = MetamerId> + '_ {
-    (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id))
 }
 
 /// The seed of the plant that a metamer belongs to.

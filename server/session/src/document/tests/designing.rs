@@ -247,7 +247,7 @@ fn ds3_what_grows_on_top_seals_the_design_until_it_is_undone() {
     let change = edits(None, &[set("/1", "roll", &json!(80))]);
     let problem = problem(&mut document, &change);
     assert_eq!(problem.reason, Reason::DesignSealed);
-    for way in ["undo", "release_design", "new_design"] {
+    for way in ["undo", "release_design", "fit_design", "new_design"] {
         assert!(problem.message.contains(way), "{problem}");
     }
     assert_eq!(document.design_told().map(|told| told.steps_on_top), Some(document.plant().step() - 1));
