@@ -53,14 +53,14 @@ impl Rows {
     }
 }
 
-/// All that a limb's rows depend on.
+/// All that a limb's rows, and what is told of how it stands, depend on.
 pub(crate) fn stamp(limb: &Branch, placed: &Placed, seed: u32) -> u64 {
     let mut hash = StableHash::default();
     hash.word(limb.stamp());
     hash.word(limb.id().raw());
     hash.word(seed.into());
     hash.vector(placed.base);
-    [placed.frame.x_axis, placed.frame.y_axis].into_iter().for_each(|axis| hash.vector(axis));
+    [placed.frame.x_axis, placed.frame.y_axis, placed.heading].into_iter().for_each(|axis| hash.vector(axis));
     hash.word(u64::from(placed.length.to_bits()) | u64::from(placed.radius.to_bits()) << 32);
     hash.word(u64::from(placed.t.to_bits()) | u64::from(placed.is_outside) << 32);
     hash.finish()

@@ -102,6 +102,8 @@ async fn au3_a_role_changes_while_its_user_is_connected() {
     let mut socket = client::open_with(server.port(), &session, &[("cookie", value)]).await;
     let hello = json!({ "type": "hello", "protocol": 3, "client": "browser-1" });
     socket.send(client::text(&hello)).await.expect("it is sent");
+    // With the role of now; what changes from now on is told.
+    until(&mut socket, "welcome").await;
     for (role, expected) in [("viewer", "refused"), ("owner", "acknowledged")] {
         assert_eq!(user(&["role", "Bo", role], &database, "").code, 0);
         let told = until(&mut socket, "role").await;

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use crate::{
     lives::{picks, sapling},
-    said::{constant, curved, designed, level, node, on, scalar, set, shared},
+    said::{constant, curved, designed, level, node, on, scalar, set, shared, vector},
 };
 
 fn wood(design: &Design) -> espalier_plant::Wood {
@@ -99,6 +99,24 @@ fn a_copy_says_of_one_branch_what_is_said_of_another() {
     design.apply(&Edit::Copy { from: node("/1/3"), to: node("/2/0/1") }).expect("it is allowed");
     assert_eq!(of(&design, "/2/0/1", Key::Girth), scalar(0.3));
     assert_eq!(design.graph().members(ShareId(1)).count(), 3);
+}
+
+/// A limb that stands as it did, on a stem that goes there a rounding error otherwise.
+#[test]
+fn a_limb_that_is_kept_tells_where_its_bearer_goes_now() {
+    let mut design = sapling();
+    let mut generator = Generator::default();
+    for edit in [
+        set(level(1), Key::Orders, scalar(1.0)),
+        set(on("/"), Key::Pull, vector(0.5129695, 0.4870305, -0.5129695)),
+        Edit::Anchor { node: node("/0"), at: Some(0.0) },
+    ] {
+        design.apply(&edit).expect("it is allowed");
+        let kept = generator.generate(&design, 110);
+        assert_eq!(kept.placed, Generator::default().generate(&design, 110).placed);
+    }
+    let limb = node("/1");
+    assert!(!generator.generate(&design, 110).renewed.contains(&limb), "what stays is kept");
 }
 
 proptest! {
