@@ -350,6 +350,22 @@ fn a_width_undone_beside_a_design_stays_a_future() {
     check_all(54, &events).expect("it is whole");
 }
 
+#[test]
+fn cm7_what_was_left_in_part_is_done_again_in_whole() {
+    let mut document = Document::new(54);
+    grow(&mut document, 4, None);
+    let (whole, step) = (document.plant().hash(), document.plant().step());
+    let ungrow = plain(Action::Ungrow { steps: Steps::nearest(1) });
+    apply(&mut document, &ungrow);
+    apply(&mut document, &plain(Action::Redo {}));
+    assert_eq!((document.plant().hash(), document.plant().step()), (whole, step), "the rest of it");
+    apply(&mut document, &ungrow);
+    apply(&mut document, &plain(Action::Undo {}));
+    assert_eq!(document.plant().step(), 0, "all of it");
+    apply(&mut document, &plain(Action::Redo {}));
+    assert_eq!((document.plant().hash(), document.plant().step()), (whole, step));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
