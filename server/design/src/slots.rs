@@ -40,14 +40,12 @@ pub(crate) fn laid_out(slots: &[Slot], is_personal: impl Fn(&Slot) -> bool, plac
         .map(|(slot, &place)| Slot { place, ..*slot })
         .filter(|slot| slot.place.is_some() || is_personal(slot))
         .collect();
-    let mut used: BTreeSet<u16> = laid.iter().map(|slot| slot.ordinal).collect();
+    let used: BTreeSet<u16> = laid.iter().map(|slot| slot.ordinal).collect();
     let stood: BTreeSet<u16> = taken.into_iter().flatten().collect();
-    let mut free =
-        (0..=MAX_ORDINAL).filter(|ordinal| !used.contains(ordinal)).collect::<Vec<_>>().into_iter();
+    let mut free = (0..=MAX_ORDINAL).filter(|ordinal| !used.contains(ordinal));
     for (place, &home) in (0..).zip(places).filter(|(place, _)| !stood.contains(place)) {
         // There are fewer places and records than numbers.
         let Some(ordinal) = free.next() else { break };
-        used.insert(ordinal);
         laid.push(Slot { ordinal, home, azimuth: None, anchor: None, place: Some(place) });
     }
     laid.sort_by_key(|slot| slot.ordinal);
