@@ -220,19 +220,26 @@ pub(crate) fn place(lateral: &Branch, bearer: &Placed, node: &Node, seed: u32) -
     let distance = bearer.distance(node.place, direction);
     let is_outside = distance.is_none();
     let length = distance.unwrap_or(OUTSIDE) * values.scalar(Key::Reach);
-    let placed = Placed {
+    let radius = (values.scalar(Key::Girth) * bearer.radius_at(node.t)).max(THINNEST);
+    let placed = Placed { radius, is_outside, ..placed_at(lateral, node, direction, length) };
+    (placed.course() >= LEAST_INTERNODES * values.scalar(Key::Internode)).then_some(placed)
+}
+
+/// How a lateral of a direction and a length stands at a node, as thin as can be.
+pub(crate) fn placed_at(lateral: &Branch, node: &Node, direction: Vec3, length: f32) -> Placed {
+    let values = lateral.table();
+    Placed {
         node: lateral.id(),
         base: node.place,
         frame: rolled(upward(direction, node.heading), values.scalar(Key::Roll)),
         length,
-        radius: (values.scalar(Key::Girth) * bearer.radius_at(node.t)).max(THINNEST),
+        radius: THINNEST,
         t: node.t,
         heading: node.heading,
-        is_outside,
+        is_outside: false,
         leafy_from: 0.0,
         values: values.clone(),
-    };
-    (placed.course() >= LEAST_INTERNODES * values.scalar(Key::Internode)).then_some(placed)
+    }
 }
 
 /// Where a lateral goes.

@@ -15,7 +15,6 @@ const LOST: f32 = 60.0;
 
 /// Which way a limb goes from a node of its bearer.
 pub(super) struct Going {
-    pub bearer: usize,
     pub limb: usize,
     pub t: f32,
     pub node: Node,
@@ -27,9 +26,9 @@ pub(super) struct Going {
 }
 
 impl Going {
-    pub(super) fn of(bearer: usize, limb: usize, t: f32, node: Node, chord: Vec3) -> Self {
+    pub(super) fn of(limb: usize, t: f32, node: Node, chord: Vec3) -> Self {
         let direction = chord.normalize_or(node.side);
-        let mut going = Self { bearer, limb, t, node, direction, azimuth: 0.0, angle: 0.0 };
+        let mut going = Self { limb, t, node, direction, azimuth: 0.0, angle: 0.0 };
         going.draw(Vec3::ZERO);
         going
     }

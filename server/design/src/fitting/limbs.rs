@@ -15,6 +15,7 @@ const STUB: f32 = 0.05;
 const MOST_LATERALS: usize = 60;
 
 /// The living wood of one seed.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Wood {
     /// Nodes without the seed, each followed by all that stands on it.
     pub places: Vec<Vec3>,
@@ -23,6 +24,7 @@ pub(super) struct Wood {
 }
 
 /// One limb.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Limb {
     /// The limb that bears it, and at which place of that one's line; none for the stem.
     pub bearer: Option<(usize, usize)>,

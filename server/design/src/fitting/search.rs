@@ -9,12 +9,12 @@ use crate::{key::Key, refusal::MAX_VALUES};
 /// How much of the crown a value must bring to its place to be said.
 const WORTH: f32 = 1.0 / 6000.0;
 /// Values tried together at first.
-const FIRST_ROUND: usize = 8;
+const FIRST_ROUND: usize = 4;
 /// Most values of a kind tried together: siblings are compared with each other.
 const MOST_OF_ROUND: usize = 128;
 /// Most designs in which something more is said, and most in which something is said no longer.
-const MOST_WITH: u32 = 60;
-const MOST_WITHOUT: u32 = 60;
+const MOST_WITH: u32 = 120;
+const MOST_WITHOUT: u32 = 100;
 /// Values that are tried without at first, all together.
 const FIRST_WITHOUT: usize = 16;
 /// Values that limbs may say for the sake of the silhouette.
@@ -43,11 +43,21 @@ pub(super) struct Search {
 #[derive(Clone, Debug, PartialEq)]
 enum Stage {
     /// Sets of values are tried, each by itself; those that were better are kept with their scores.
-    Alone { sets: Vec<Vec<Wish>>, better: Vec<(f32, Vec<Wish>)>, is_last: bool },
+    Alone {
+        sets: Vec<Vec<Wish>>,
+        better: Vec<(f32, Vec<Wish>)>,
+        is_last: bool,
+    },
     /// Those that were better are tried together, the best one first.
-    Together { sets: Vec<Vec<Wish>> },
+    Together {
+        sets: Vec<Vec<Wish>>,
+    },
     /// Parts of what is said are tried without.
-    Without { size: usize, parts: Vec<Vec<(usize, Key)>>, is_worse: bool },
+    Without {
+        size: usize,
+        parts: Vec<Vec<(usize, Key)>>,
+        is_worse: bool,
+    },
     Over,
 }
 

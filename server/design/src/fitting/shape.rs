@@ -5,7 +5,7 @@ use glam::{Mat3, Vec3};
 use super::{
     course::{SAMPLES, fitted, median, zone},
     limbs::{Limb, Wood},
-    outline::{around, reach_around},
+    outline::{Ray, around, reach_around, through},
 };
 use crate::{
     curve::Curve,
@@ -20,6 +20,8 @@ use crate::{
 const EXACT: f32 = 0.15;
 /// Most nodes that an outline is fitted to.
 const MOST_NODES: usize = 4096;
+/// Most limbs that an outline is fitted to.
+const MOST_RAYS: usize = 128;
 /// As far as an outline reaches in its own units.
 const ROOMY: f32 = 3.5;
 /// An outline is at least this share of a lateral's length from its base.
@@ -28,6 +30,7 @@ const NEAR: f32 = 0.4;
 const LEAST_BORNE: f32 = 3.0;
 
 /// One limb.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Shape {
     /// X on the side that looks up, Y from base to tip.
     pub frame: Mat3,
@@ -101,7 +104,23 @@ fn bases<'a>(wood: &'a Wood, limb: &'a Limb) -> impl Iterator<Item = Vec3> + use
     laterals.flat_map(|lateral| [lateral.base(), lateral.base() + lateral.chord() * NEAR])
 }
 
+/// What a limb bears, as its outline sees it, in a frame whose unit is so many internodes.
+fn rays<'a>(wood: &'a Wood, limb: &'a Limb, base: Vec3, frame: Mat3, unit: f32) -> impl Iterator<Item = Ray> {
+    let back = frame.transpose();
+    limb.laterals.iter().map(move |&lateral| {
+        let lateral = &wood.limbs[lateral];
+        let chord = lateral.chord();
+        Ray {
+            from: back * (lateral.base() - base) / unit,
+            direction: back * chord.normalize_or(Vec3::Y),
+            length: chord.length() / unit,
+            weight: lateral.size() * unit,
+        }
+    })
+}
+
 /// How the stem stands in its outline.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Stem {
     pub outline: Envelope,
     /// From base to tip, without what is cut off.
@@ -124,12 +143,16 @@ impl Stem {
         let tip = chord.normalize_or(Vec3::Y) * (height / unit);
         let own: Vec<Vec3> = places.iter().map(|&place| place / unit).collect();
         let mut outline = around(&own, tip);
-        reach_around(&mut outline, &bases(wood, stem).map(|place| (place - base) / unit).collect::<Vec<_>>());
+        let inner: Vec<Vec3> = bases(wood, stem).map(|place| (place - base) / unit).collect();
+        reach_around(&mut outline, &inner);
+        through(&mut outline, &rays(wood, stem, base, Mat3::IDENTITY, unit).collect::<Vec<_>>());
+        reach_around(&mut outline, &inner);
         Self { outline, height, cut }
     }
 }
 
 /// What limbs of one order are like on the whole.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Usual {
     pub course: [Vec3; SAMPLES],
     pub axis: Curve,
@@ -169,7 +192,17 @@ impl Usual {
             nodes(wood, limb, each).map(move |place| back * (place - base) / length).collect::<Vec<_>>()
         };
         let pooled: Vec<Vec3> = bearers.flat_map(own).collect();
-        let outline = (!pooled.is_empty()).then(|| around(&pooled, Vec3::Y));
+        let outline = (!pooled.is_empty() && order > 0).then(|| {
+            let mut outline = around(&pooled, Vec3::Y);
+            let mut seen: Vec<Ray> = all
+                .iter()
+                .flat_map(|(limb, shape)| rays(wood, limb, limb.base(), shape.frame, shape.length))
+                .collect();
+            let every = seen.len().div_ceil(MOST_RAYS).max(1);
+            seen = seen.into_iter().step_by(every).collect();
+            through(&mut outline, &seen);
+            outline
+        });
         let mut places: Vec<f32> = all.iter().flat_map(|(limb, _)| limb.places.iter().copied()).collect();
         places.sort_by(f32::total_cmp);
         // Long limbs bear more, and matter more.

@@ -29,10 +29,12 @@ fn agrees(key: Key, a: &Held, b: &Held) -> bool {
 
 /// Whether two values are so near to each other that one can stand for the other.
 pub(super) fn is_same(key: Key, a: &Held, b: &Held) -> bool {
-    let near = |a: f32, b: f32| (a - b).abs() <= SAME * a.abs().max(b.abs());
+    let near = |a: f32, b: f32, same: f32| (a - b).abs() <= same * a.abs().max(b.abs());
     match (a.get(), b.get()) {
         (&Value::Scalar(a), &Value::Scalar(b)) if matches!(key, Key::Orders | Key::Cut) => a == b,
-        (&Value::Scalar(a), &Value::Scalar(b)) => near(a, b),
+        // All of a plant stands on its stem.
+        (&Value::Scalar(a), &Value::Scalar(b)) if key == Key::Height => near(a, b, 0.1 * SAME),
+        (&Value::Scalar(a), &Value::Scalar(b)) => near(a, b, SAME),
         (&Value::Span(a, b), &Value::Span(c, d)) => {
             (a - c).abs() <= 0.5 * SAME && (b - d).abs() <= 0.5 * SAME
         }

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use glam::Vec3;
+
 use super::{
     course::{apart, density, fitted},
     going::{Going, pull},
@@ -11,7 +13,7 @@ use super::{
     sharing::{SAME, SAME_OUTLINE, is_same, share},
 };
 use crate::{
-    axis::{OUTSIDE, Placed, lay, place, stem},
+    axis::{OUTSIDE, Placed, lay, placed_at, stem},
     curve::Curve,
     design::Design,
     frame::turn_between,
@@ -34,7 +36,7 @@ const SAME_COURSE: f32 = 0.15;
 const MOST_SLOTS: usize = 768;
 
 /// Something that a limb might say itself.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Wish {
     /// The limb.
     pub limb: usize,
@@ -51,7 +53,7 @@ impl Wish {
 }
 
 /// Which limbs say what themselves.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Said(BTreeMap<usize, Vec<Key>>);
 
 impl Said {
@@ -60,6 +62,23 @@ impl Said {
         for wish in wishes {
             self.0.entry(wish.limb).or_default().push(wish.key);
         }
+    }
+
+    /// These things are said no longer.
+    pub(super) fn without(&self, part: &[(usize, Key)]) -> Self {
+        let mut said = self.clone();
+        for (limb, key) in part {
+            if let Some(keys) = said.0.get_mut(limb) {
+                keys.retain(|other| other != key);
+            }
+        }
+        said.0.retain(|_, keys| !keys.is_empty());
+        said
+    }
+
+    /// All that is said, and by which limb.
+    pub(super) fn all(&self) -> impl Iterator<Item = (usize, Key)> {
+        self.0.iter().flat_map(|(&limb, keys)| keys.iter().map(move |&key| (limb, key)))
     }
 
     pub(super) fn has(&self, limb: usize, key: Key) -> bool {
@@ -73,8 +92,9 @@ impl Said {
 }
 
 /// All that is known of a plant, to be written down.
-pub(super) struct Writer<'a> {
-    wood: &'a Wood,
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Writer {
+    wood: Wood,
     shapes: Vec<Shape>,
     stem: Stem,
     /// The course of the stem.
@@ -89,10 +109,10 @@ pub(super) struct Writer<'a> {
 /// The values that limbs of an order have unless they say others, order by order.
 type Common = BTreeMap<Key, Held>;
 
-impl<'a> Writer<'a> {
-    pub(super) fn new(wood: &'a Wood) -> Self {
-        let shapes: Vec<Shape> = (0..wood.limbs.len()).map(|limb| Shape::of(wood, limb)).collect();
-        let usual: Vec<Usual> = (0..).map_while(|order| Usual::of(wood, &shapes, order)).collect();
+impl Writer {
+    pub(super) fn new(wood: Wood) -> Self {
+        let shapes: Vec<Shape> = (0..wood.limbs.len()).map(|limb| Shape::of(&wood, limb)).collect();
+        let usual: Vec<Usual> = (0..).map_while(|order| Usual::of(&wood, &shapes, order)).collect();
         let mut ids = vec![None; wood.limbs.len()];
         ids[0] = Some(NodeId::ROOT);
         let (mut slots, mut anchored) = (0, Vec::new());
@@ -108,7 +128,8 @@ impl<'a> Writer<'a> {
             }
         }
         let axis = shapes[0].axis(&wood.limbs[0]);
-        Self { wood, shapes, stem: Stem::of(wood), axis, usual, ids, anchored }
+        let stem = Stem::of(&wood);
+        Self { wood, shapes, stem, axis, usual, ids, anchored }
     }
 
     /// The design in which these limbs say these things themselves, and what others might say.
@@ -122,17 +143,15 @@ impl<'a> Writer<'a> {
         };
         writing.commons();
         writing.limbs();
-        let design = writing.directions()?;
+        writing.directions()?;
         let mut graph = writing.graph;
         share(&mut graph);
-        // Shared values are the first of those that they stand for, and not the same to the last bit.
-        let design = if graph.shares.is_empty() { design } else { Design::of(graph)? };
-        Ok((design, writing.wishes))
+        Ok((Design::of(graph)?, writing.wishes))
     }
 }
 
 struct Writing<'a> {
-    writer: &'a Writer<'a>,
+    writer: &'a Writer,
     said: &'a Said,
     graph: Graph,
     common: Vec<Common>,
@@ -325,11 +344,12 @@ impl Writing<'_> {
     }
 
     /// Which way limbs go and how long they are, order by order, for that depends on how their bearers stand.
-    fn directions(&mut self) -> Result<Design, Refusal> {
+    fn directions(&mut self) -> Result<(), Refusal> {
         let Writer { wood, shapes, anchored, ids, usual, .. } = self.writer;
-        let mut design = Design::of(self.graph.clone())?;
+        let design = Design::of(self.graph.clone())?;
         // What the design has laid out is what there is.
         self.graph.slots = design.graph().slots.clone();
+        let (_, farthest) = Key::Reach.row().range;
         let mut standing: BTreeMap<usize, Placed> = BTreeMap::from([(0, stem(design.root()))]);
         for order in 0..usual.len() - 1 {
             let mut going = Vec::new();
@@ -339,74 +359,74 @@ impl Writing<'_> {
                 let laid = lay(branch, placed, 0);
                 for &(lateral, node) in &laid.laterals {
                     let ordinal = lateral.id().bearer().map(|(_, ordinal)| usize::from(ordinal));
-                    let Some(&of) = ordinal.and_then(|ordinal| wood.limbs[number].laterals.get(ordinal))
-                    else {
-                        continue;
-                    };
-                    let node = laid.nodes[node];
-                    going.push(Going::of(number, of, lateral.t(), node, wood.limbs[of].chord()));
+                    let of = ordinal.and_then(|ordinal| wood.limbs[number].laterals.get(ordinal));
+                    if let Some(&of) = of {
+                        let way = Going::of(of, lateral.t(), laid.nodes[node], wood.limbs[of].chord());
+                        going.push((way, placed, lateral));
+                    }
                 }
             }
             let weighed: Vec<(&Going, f32)> =
-                going.iter().map(|going| (going, wood.limbs[going.limb].size())).collect();
+                going.iter().map(|(going, ..)| (going, wood.limbs[going.limb].size())).collect();
             let pull = pull(&weighed);
             self.say(order + 1, Key::Pull, Held::new(Value::Vector(pull)));
             let pull = match self.inherited(order + 1, Key::Pull).get() {
                 Value::Vector(pull) => *pull,
                 _ => unreachable!("a pull is a vector"),
             };
-            going.iter_mut().for_each(|going| going.draw(pull));
-            let angles = going.iter().map(|going| (going.t, going.angle));
+            going.iter_mut().for_each(|(going, ..)| going.draw(pull));
+            let angles = going.iter().map(|(going, ..)| (going.t, going.angle));
             if let Some(angle) = fitted(angles, Key::BranchingAngle.row().range) {
                 self.say(order, Key::BranchingAngle, Held::new(Value::Function(angle)));
             }
             let angle = self.function(order, Key::BranchingAngle);
-            let way = |going: &Going| {
-                let bearer = standing.get(&going.bearer)?;
-                Some(bearer.distance(going.node.place, going.direction).unwrap_or(OUTSIDE).max(0.05))
-            };
-            let ways: Vec<f32> = going.iter().map(|going| way(going).unwrap_or(OUTSIDE)).collect();
-            let (_, farthest) = Key::Reach.row().range;
-            let length = |going: &Going| shapes[going.limb].length;
-            let reaches: Vec<f32> =
-                going.iter().zip(&ways).map(|(going, way)| (length(going) / way).min(farthest)).collect();
+            // Which way each goes in the design, and how far its bearer's outline is there.
+            let directions: Vec<Vec3> = (going.iter())
+                .map(|(going, ..)| match self.said.has(going.limb, Key::Turn) {
+                    true => going.direction,
+                    false => going.unturned(angle.at(going.t), pull),
+                })
+                .collect();
+            let ways: Vec<f32> = (going.iter().zip(&directions))
+                .map(|((going, bearer, _), &direction)| {
+                    bearer.distance(going.node.place, direction).unwrap_or(OUTSIDE).max(0.05)
+                })
+                .collect();
+            let length = |limb: usize| shapes[limb].length;
             // All together are as long as they were.
-            let all = going.iter().map(length).sum::<f32>() / ways.iter().sum::<f32>().max(1e-3);
+            let all = going.iter().map(|(going, ..)| length(going.limb)).sum::<f32>()
+                / ways.iter().sum::<f32>().max(1e-3);
             self.say(order + 1, Key::Reach, scalar(Key::Reach, all));
             let common = self.number(order + 1, Key::Reach);
-            for ((going, &reach), &ways) in going.iter().zip(&reaches).zip(&ways) {
-                let (Some(id), Some(bearer)) = (ids[going.limb], standing.get(&going.bearer)) else {
-                    continue;
-                };
-                self.turn_slot(id, going.azimuth);
+            let mut stand = Vec::new();
+            for (((going, bearer, lateral), &direction), &way) in going.iter().zip(&directions).zip(&ways) {
                 let limb = going.limb;
-                let off = 0.5 * shapes[limb].length * wood.limbs[limb].size();
+                let Some(id) = ids[limb] else { continue };
+                self.turn_slot(id, going.azimuth);
+                let reach = (length(limb) / way).min(farthest);
+                let off = 0.5 * length(limb) * wood.limbs[limb].size();
                 let by = turn_between(going.unturned(angle.at(going.t), pull), going.direction);
                 if self.said.has(limb, Key::Turn) {
                     self.say_own(id, Key::Turn, Held::new(Value::Vector(bearer.frame.transpose() * by)));
-                } else if by.length().to_radians() * shapes[limb].length > SAME_PLACE
-                    && wood.limbs[limb].says()
-                {
+                } else if by.length().to_radians() * length(limb) > SAME_PLACE && wood.limbs[limb].says() {
                     self.wishes.push(Wish { limb, key: Key::Turn, gain: off * by.length().to_radians() });
                 }
-                if self.said.has(limb, Key::Reach) {
+                let says = self.said.has(limb, Key::Reach);
+                if says {
                     self.say_own(id, Key::Reach, scalar(Key::Reach, reach));
-                } else if (reach - common).abs() * ways > SAME_PLACE {
+                } else if (reach - common).abs() * way > SAME_PLACE {
                     // Without it wood stands elsewhere, or more than there was.
-                    let length = shapes[limb].length * common / reach.max(0.02);
-                    let nodes = wood.limbs[limb].size().max(length * usual[order + 1].foliage);
-                    let gain = 0.5 * (length - shapes[limb].length).abs() * nodes;
+                    let without = way * common;
+                    let nodes = wood.limbs[limb].size().max(without * usual[order + 1].foliage);
+                    let gain = 0.5 * (without - length(limb)).abs() * nodes;
                     self.wishes.push(Wish { limb, key: Key::Reach, gain });
                 }
+                let length = way * if says { reach } else { common };
+                stand.push((limb, placed_at(lateral, &going.node, direction, length)));
             }
-            design = Design::of(self.graph.clone())?;
-            for going in &going {
-                let found = ids[going.limb].and_then(|id| design.branch(id)).zip(standing.get(&going.bearer));
-                let placed = found.and_then(|(branch, bearer)| place(branch, bearer, &going.node, 0));
-                standing.extend(placed.map(|placed| (going.limb, placed)));
-            }
+            standing.extend(stand);
         }
-        Ok(design)
+        Ok(())
     }
 
     fn turn_slot(&mut self, id: NodeId, azimuth: f32) {

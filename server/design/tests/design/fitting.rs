@@ -1,7 +1,8 @@
 //! Designs are fitted to plants that grew.
 
 use espalier_design::{
-    Design, Fitted, Generator, MAX_INTERNODES, MOST_ORDERS, NodeId, Owner, Source, TEMPLATES, Unfit, fit,
+    Design, Fitted, Fitting, Generator, MAX_INTERNODES, MOST_ORDERS, NodeId, Owner, Source, TEMPLATES, Unfit,
+    fit,
 };
 use espalier_growth::{NoObserver, Parameters, Simulation, StepInput, species, transplant};
 use espalier_plant::{AxisId, Girth, MetamerId, Plant};
@@ -16,22 +17,22 @@ fn seed() -> MetamerId {
 /// Templates, how many values fitted designs of them have at most (twice as many as they have themselves, where that is
 /// reached), and how much of their crowns is the same.
 const FOUND: [(&str, usize, f32); 6] = [
-    ("bunjingi", 93, 0.85),
-    ("nejikan", 111, 0.82),
-    ("fukinagashi", 76, 0.69),
-    ("chokkan", 100, 0.78),
-    ("sankan", 138, 0.70),
-    ("kengai", 88, 0.46),
+    ("bunjingi", 78, 0.91),
+    ("nejikan", 120, 0.89),
+    ("fukinagashi", 76, 0.93),
+    ("chokkan", 74, 0.92),
+    ("sankan", 175, 0.88),
+    ("kengai", 74, 0.85),
 ];
 
 /// Grown species, and how much of their crowns is the same in their designs.
 const SPECIES: [(&str, f32); 6] = [
-    ("oak", 0.81),
-    ("birch", 0.81),
-    ("lombardy-poplar", 0.55),
-    ("olive", 0.75),
-    ("spruce", 0.81),
-    ("scots-pine", 0.80),
+    ("oak", 0.87),
+    ("birch", 0.91),
+    ("lombardy-poplar", 0.89),
+    ("olive", 0.86),
+    ("spruce", 0.91),
+    ("scots-pine", 0.86),
 ];
 
 fn girth() -> Girth {
@@ -139,4 +140,21 @@ fn what_no_design_fits_is_refused() {
     plant.shed(&[AxisId::new(0)]);
     plant.end_step();
     assert_eq!(fit(&plant, &girth(), seed(), 2), Err(Unfit::Dead(0)));
+}
+
+#[test]
+fn fitting_is_done_one_trial_at_a_time() {
+    let plant = planted(&designed(&plain(5)));
+    let mut fitting = Fitting::new(&plant, &girth(), seed(), MOST_ORDERS).expect("it has wood");
+    let (mut left, mut trials) = (fitting.left(), 0);
+    let first = fitting.clone().found();
+    while fitting.step() {
+        trials += 1;
+        assert!((1..=left).contains(&fitting.left()), "{} after {left}", fitting.left());
+        left = fitting.left();
+    }
+    assert!(trials > 2 && fitting.left() == 0 && !fitting.step());
+    let found = fitting.found();
+    assert!(found.overlap >= first.overlap);
+    assert_eq!(found, fitted(&plant));
 }
