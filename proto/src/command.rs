@@ -344,7 +344,7 @@ tagged_enum! {
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[ts(optional)]
             row: Option<u32>,
-            /// Up to which order its limbs are described: 1 to 3, and 2 without it.
+            /// Up to which order its limbs are described: 1 to 3, and 3 without it.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[ts(optional)]
             orders: Option<LimbOrders>,

@@ -225,6 +225,10 @@ pub struct DocumentState {
     /// Simulation steps still to be run for commands already accepted; a lasso and a stroke
     /// that has ended, whose steps nobody knows before, count as one each until they are done.
     pub pending_steps: u32,
+    /// Whether they are trials of a design that is being fitted (`DS10`).
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[ts(optional, as = "Option<bool>")]
+    pub fits_design: bool,
     /// Clients connected, this one included.
     pub people: u32,
     /// Why growth rests though there is something to grow (`LM19`, `OP5`); absent where it does not.

@@ -1690,7 +1690,7 @@ edits: Array<DesignEdit>, } | { "kind": "release_design", } | { "kind": "fit_des
  */
 row?: number, 
 /**
- * Up to which order its limbs are described: 1 to 3, and 2 without it.
+ * Up to which order its limbs are described: 1 to 3, and 3 without it.
  */
 orders?: number, } | { "kind": "set_grammar", 
 /**
@@ -2315,6 +2315,10 @@ can_redo: boolean,
  * that has ended, whose steps nobody knows before, count as one each until they are done.
  */
 pending_steps: number, 
+/**
+ * Whether they are trials of a design that is being fitted (`DS10`).
+ */
+fits_design?: boolean, 
 /**
  * Clients connected, this one included.
  */

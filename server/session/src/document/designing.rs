@@ -4,7 +4,7 @@
 //! futures put it back. Its wood was born in one step of its own. As long as that is the last step of the line, the
 //! step is made anew whenever the design changes; what is recorded after it seals it.
 
-mod fitting;
+pub(super) mod fitting;
 mod hands;
 mod placed;
 mod wood;

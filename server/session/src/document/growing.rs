@@ -9,6 +9,7 @@ use glam::{Vec2, Vec3};
 
 use super::{
     Document, branch_gone,
+    designing::fitting,
     generators::{Generators, Step},
     hints::OpenLasso,
     history::Kind,
@@ -27,6 +28,8 @@ pub(super) enum Pending {
     Lasso { left: u32, chosen: Option<MetamerId>, lasso: OpenLasso },
     /// The step of a grammar that is under way.
     Write,
+    /// A design that is being fitted.
+    Fit(Box<fitting::Underway>),
     /// At most so many steps for a lifted brush, while anything grows into what it left.
     Settle { stroke: OpenStroke, left: u32 },
 }
@@ -76,6 +79,11 @@ impl Document {
                 if !self.go_on_writing() {
                     return true;
                 }
+            }
+            // Until it is planted nothing has happened.
+            Pending::Fit(underway) => {
+                self.go_on_fitting(underway);
+                return true;
             }
             Pending::Lasso { left, chosen, lasso } => {
                 let mut grows = false;
@@ -142,6 +150,7 @@ impl Document {
         let steps = |pending: &Pending| match pending {
             Pending::Brush(_) | Pending::Lasso { .. } | Pending::Settle { .. } => 1,
             Pending::Write => self.underway.as_ref().map_or(0, |underway| underway.steps()),
+            Pending::Fit(underway) => underway.left(),
             Pending::Steps { left, .. } => *left,
         };
         self.pending.iter().map(steps).sum()

@@ -178,3 +178,28 @@ fn st1_a_long_step_of_a_grammar_can_be_stopped() {
         check_replays(&mut world);
     }
 }
+
+#[test]
+fn st1_a_design_that_is_fitted_can_be_stopped() {
+    for passes in [1, 3, 8] {
+        let mut world = World::new();
+        let client = world.join("birch-01");
+        world.command(client, 1, grow(8));
+        world.settle();
+        let before = world.document().plant().hash();
+        world.work_ms = 40;
+        world.command(client, 2, json!({ "kind": "fit_design" }));
+        world.pass(passes * 60);
+        let state = world.peer(client).last_state().unwrap();
+        assert!(state.fits_design && state.pending_steps > 1, "{state:?}");
+        world.command(client, 3, stop());
+        world.settle();
+        assert_eq!(world.peer(client).acknowledged().last(), Some(&3));
+        let state = world.peer(client).last_state().unwrap();
+        assert!(!state.fits_design && state.pending_steps == 0, "{state:?}");
+        assert_eq!(world.document().plant().hash(), before, "nothing of it is there");
+        world.command(client, 4, grow(2));
+        world.settle();
+        check_replays(&mut world);
+    }
+}

@@ -95,9 +95,9 @@ function GrowthChip({ studio }: { studio: Studio }) {
   if (!shown || studio.document.value?.paused !== undefined) {
     return null;
   }
-  const text = say(outline ? "tools.growing.outline" : pending > 1 ? "tools.growing.steps" : "tools.growing", {
-    count: pending,
-  });
+  const fits = studio.document.value?.fits_design === true;
+  const growth = outline ? "tools.growing.outline" : pending > 1 ? "tools.growing.steps" : "tools.growing";
+  const text = say(fits ? "tools.fitting" : growth, { count: pending });
   return (
     <p class="chip">
       {share === null || outline ? (
@@ -110,7 +110,7 @@ function GrowthChip({ studio }: { studio: Studio }) {
         <button
           type="button"
           class="chip-stop"
-          title={say("tools.growing.stop.title")}
+          title={say(fits ? "tools.fitting.stop.title" : "tools.growing.stop.title")}
           onClick={() => stopGrowth(studio)}
         >
           <StopIcon />

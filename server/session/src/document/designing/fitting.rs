@@ -2,20 +2,22 @@
 
 use std::collections::BTreeMap;
 
-use espalier_design::{Design, Fitted, MOST_ORDERS, Unfit, fit};
+use espalier_design::{Design, Fitted, Fitting, MOST_ORDERS, Unfit};
 use espalier_plant::{MetamerId, Plant};
 use espalier_proto::{LimbOrders, MAX_DESIGN_BYTES, Problem, Reason, version::MAX_LIMB_ORDERS};
 
 use crate::{
     cause::Cause,
-    document::{Document, living},
+    document::{Document, growing::Pending, living},
+    principal::Principal,
 };
 
 /// Up to which order limbs are described where nobody says it.
-const USUAL_ORDERS: u8 = 2;
+const USUAL_ORDERS: u8 = MOST_ORDERS;
 const _: () = assert!(MAX_LIMB_ORDERS == MOST_ORDERS as u32);
 
 impl Document {
+    /// Begins to fit a design; what would be refused at once is.
     pub(in crate::document) fn fit_design(
         &mut self,
         cause: Cause<'_>,
@@ -31,16 +33,76 @@ impl Document {
             None => largest(plant).ok_or_else(nothing_grew)?,
         };
         let orders = orders.map_or(USUAL_ORDERS, |orders| orders.get() as u8);
-        let Fitted { design, overlap, .. } = fit(plant, &self.girth(), seed, orders).map_err(unfit)?;
+        let fitting = Fitting::new(plant, &self.girth(), seed, orders).map_err(unfit)?;
+        let (author, gesture) = (cause.author.clone(), cause.gesture);
+        self.pending.push_back(Pending::Fit(Box::new(Underway {
+            fitting,
+            seed,
+            author,
+            gesture,
+            trials: 0,
+        })));
+        Ok(())
+    }
+
+    /// Whether a design is being fitted.
+    pub(in crate::document) fn is_fitting(&self) -> bool {
+        matches!(self.pending.front(), Some(Pending::Fit(_)))
+    }
+
+    /// Tries one more design, and plants the best one after the last. A stop ends it, and nothing has happened.
+    pub(in crate::document) fn go_on_fitting(&mut self, mut underway: Box<Underway>) {
+        if self.is_stopped() {
+            self.outcome = Some(Ok(()));
+            return;
+        }
+        // They count, so that a stop is where it was when this is done again (ST1).
+        self.steps_begun = self.steps_begun.wrapping_add(1);
+        underway.trials += 1;
+        if underway.fitting.step() {
+            self.pending.push_front(Pending::Fit(underway));
+            return;
+        }
+        let trials = underway.trials;
+        let planted = self.plant_fitted(*underway);
+        match planted {
+            Ok(()) => self.forget_futures(),
+            Err(_) => self.steps_begun = self.steps_begun.wrapping_sub(trials),
+        }
+        self.outcome = Some(planted);
+    }
+
+    fn plant_fitted(&mut self, underway: Underway) -> Result<(), Problem> {
+        let Underway { fitting, seed, author, gesture, .. } = underway;
+        let Fitted { design, overlap, .. } = fitting.found();
         // It is read again whenever the document is opened.
         let design = read_again(&design)?;
+        let plant = self.plant();
         let rows = (0..plant.metamer_count()).map(MetamerId::new);
         let stands_on_seed = |id: &MetamerId| plant.metamers().parent(*id) == Some(seed);
         let cuts: Vec<MetamerId> = rows.filter(|id| stands_on_seed(id) && plant.is_alive(*id)).collect();
         let at = plant.metamers().end(seed);
-        let of = self.plant_design(cause, design, at, &cuts)?;
+        let of = self.plant_design(Cause { author: &author, gesture }, design, at, &cuts)?;
         self.designs.fitted = Some((of, overlap));
         Ok(())
+    }
+}
+
+/// A design that is being fitted for somebody, one trial at a time.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::document) struct Underway {
+    fitting: Fitting,
+    seed: MetamerId,
+    author: Principal,
+    gesture: Option<u32>,
+    /// Trials up to now.
+    trials: u32,
+}
+
+impl Underway {
+    /// Trials that are left, at most.
+    pub(in crate::document) fn left(&self) -> u32 {
+        self.fitting.left()
     }
 }
 

@@ -471,6 +471,34 @@ fn ds10_a_fitted_design_is_taken_back_by_its_author_alone() {
 }
 
 #[test]
+fn ds10_nothing_happens_until_the_last_trial_and_nothing_after_a_stop() {
+    let document = tree();
+    let before = (wood(&document), document.history.done);
+    let fit = plain(Action::FitDesign { row: None, orders: None });
+    let mut whole = document.clone();
+    whole.begin(&who("ann"), &fit).expect("it fits");
+    let mut trials = 0;
+    while whole.is_undecided() {
+        assert_eq!((wood(&whole), whole.history.done), before);
+        let figures = whole.figures();
+        assert!(figures.fits_design && figures.pending_steps > 0, "{figures:?}");
+        assert!(whole.advance());
+        trials += 1;
+    }
+    assert_eq!((whole.take_outcome(), whole.advance()), (Ok(()), false));
+    assert!(trials > 10 && whole.design_told().is_some(), "{trials} trials");
+    for taken in [0, 1, 7, trials - 1] {
+        let mut stopped = document.clone();
+        stopped.begin(&who("ann"), &fit).expect("it fits");
+        (0..taken).for_each(|_| assert!(stopped.advance()));
+        stopped.stop_at(Some(stopped.steps_begun()));
+        while stopped.advance() {}
+        assert_eq!(stopped.take_outcome(), Ok(()));
+        assert_eq!(((wood(&stopped), stopped.history.done), stopped.design_told()), (before.clone(), None));
+    }
+}
+
+#[test]
 fn ds10_a_stub_has_a_design_that_can_be_read_again() {
     for length in [0.02, 0.3, 0.9, 3.0] {
         let node = |row: u8| WoodNode {
