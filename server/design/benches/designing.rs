@@ -3,8 +3,8 @@
 use std::{hint::black_box, time::Instant};
 
 use espalier_design::{
-    Curve, Design, Edit, Function, Generator, Held, Key, MAX_INTERNODES, MOST_ORDERS, NodeId, Owner, Setting,
-    Value, fit,
+    Curve, Design, Edit, Fitting, Function, Generator, Held, Key, MAX_INTERNODES, MOST_ORDERS, NodeId, Owner,
+    Setting, Value,
 };
 use espalier_growth::{NoObserver, Parameters, Simulation, StepInput, species};
 use espalier_plant::{Girth, MetamerId, Plant};
@@ -51,14 +51,30 @@ fn main() {
     measure("a plant of that wood, with buds", || espalier_growth::transplant(&wood, &parameters));
     let oak = oak(100_000);
     let girth = Girth::new(oak.1.girth_exponent, oak.1.twig_diameter);
-    let fitted = fit(&oak.0, &girth, MetamerId::new(0), MOST_ORDERS).expect("it has wood");
-    let what = format!(
-        "fitted to {} rows: {} values, overlap {:.2}",
-        oak.0.living_count(),
+    let begun = || Fitting::new(&oak.0, &girth, MetamerId::new(0), MOST_ORDERS).expect("it has wood");
+    measure(&format!("a design for {} rows begun", oak.0.living_count()), begun);
+    let mut fitting = begun();
+    let mut trials = Vec::new();
+    while {
+        let start = Instant::now();
+        let goes_on = fitting.step();
+        trials.push(start.elapsed().as_secs_f64() * 1e3);
+        goes_on
+    } {}
+    trials.sort_by(f64::total_cmp);
+    let (count, whole) = (trials.len(), trials.iter().sum::<f64>());
+    println!(
+        "a trial of it                                      {:>8.3} {:>8.3}",
+        trials[0],
+        trials[count / 2]
+    );
+    let fitted = fitting.found();
+    println!(
+        "{count} trials in {whole:.0} ms, {:.0} the longest: {} values, overlap {:.2}",
+        trials[count - 1],
         fitted.records,
         fitted.overlap
     );
-    measure(&what, || fit(&oak.0, &girth, MetamerId::new(0), MOST_ORDERS));
 }
 
 /// An oak of so many metamers, and its parameters.
