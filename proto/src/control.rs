@@ -47,6 +47,11 @@ fn is_mesh_delta(kind: &FrameKind) -> bool {
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
+fn is_zero(number: &u32) -> bool {
+    *number == 0
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
 fn is_false(value: &bool) -> bool {
     !value
 }
@@ -225,10 +230,10 @@ pub struct DocumentState {
     /// Simulation steps still to be run for commands already accepted; a lasso and a stroke
     /// that has ended, whose steps nobody knows before, count as one each until they are done.
     pub pending_steps: u32,
-    /// Whether they are trials of a design that is being fitted (`DS10`).
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    #[ts(optional, as = "Option<bool>")]
-    pub fits_design: bool,
+    /// How many of them are trials of a design that is being fitted, at most (`DS10`); 0 where none is.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    #[ts(optional, as = "Option<u32>")]
+    pub trials: u32,
     /// Clients connected, this one included.
     pub people: u32,
     /// Why growth rests though there is something to grow (`LM19`, `OP5`); absent where it does not.

@@ -254,6 +254,18 @@ pub struct DesignInForce {
     pub overlap: Option<f32>,
 }
 
+/// A design for a session (`DS11`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct PutDesign {
+    /// The graph, as in files of designs.
+    pub graph: DesignValue,
+    /// Where it stands; without one it takes the place of the design in force.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub position: Option<Position>,
+}
+
 /// Where a branch of a design stands as wood, and how large it is. Numbers are rounded to ten thousandths.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]

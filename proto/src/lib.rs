@@ -54,6 +54,7 @@ pub use control::{
 };
 pub use design::{
     BranchPath, DesignEdit, DesignInForce, DesignSetting, DesignValue, MAX_DESIGN_BYTES, PlacedBranch,
+    PutDesign,
 };
 pub use envelope::FrameKind;
 pub use espalier_reading::NotAllowed;

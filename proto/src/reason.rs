@@ -149,6 +149,8 @@ reasons! {
         DesignSealed,
         /// The design refuses this; the message says why.
         DesignRefused,
+        /// Somebody has stopped the fitting of a design.
+        FitStopped,
         /// Somebody is drawing.
         BeingDrawn,
         /// The branch would leave the world.

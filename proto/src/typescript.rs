@@ -163,6 +163,7 @@ pub fn declarations() -> String {
         design::DesignSetting::decl(&config),
         design::DesignEdit::decl(&config),
         design::DesignInForce::decl(&config),
+        design::PutDesign::decl(&config),
         design::PlacedBranch::decl(&config),
         timeline::OperationKind::decl(&config),
         timeline::TimelineOperation::decl(&config),

@@ -1801,7 +1801,7 @@ appearance: Appearance, };
 
 export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "stale" | "unavailable";
 
-export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "not-a-grammar" | "packed-request" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-of-yours" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "design-sealed" | "design-refused" | "being-drawn" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "grammar-ends" | "no-programme" | "future-damaged" | "tree-locked" | "removed" | "removed-guest" | "comment-stays" | "not-deleted" | "collection-in-itself" | "name-taken" | "last-admin" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "session-waits" | "tree-damaged" | "branch-gone" | "no-grammar" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "design-gone" | "design-branch-gone" | "no-template" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
+export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-model" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "obj-damaged" | "not-a-grammar" | "packed-request" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-of-yours" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "design-sealed" | "design-refused" | "fit-stopped" | "being-drawn" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "grammar-ends" | "no-programme" | "future-damaged" | "tree-locked" | "removed" | "removed-guest" | "comment-stays" | "not-deleted" | "collection-in-itself" | "name-taken" | "last-admin" | "key-of-another" | "key-under-way" | "answer-not-kept" | "outcome-unknown" | "nothing-waits" | "newer-program" | "session-damaged" | "session-waits" | "tree-damaged" | "branch-gone" | "no-grammar" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "design-gone" | "design-branch-gone" | "no-template" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "memory-full" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
 
 export type Problem = { 
 /**
@@ -1988,6 +1988,16 @@ row: number,
  * area in either. Of a design that was fitted to a plant (`DS10`), until it changes or the session is opened again.
  */
 overlap?: number, };
+
+export type PutDesign = { 
+/**
+ * The graph, as in files of designs.
+ */
+graph: unknown, 
+/**
+ * Where it stands; without one it takes the place of the design in force.
+ */
+position?: [number, number, number], };
 
 export type PlacedBranch = { 
 /**
@@ -2316,9 +2326,9 @@ can_redo: boolean,
  */
 pending_steps: number, 
 /**
- * Whether they are trials of a design that is being fitted (`DS10`).
+ * How many of them are trials of a design that is being fitted, at most (`DS10`); 0 where none is.
  */
-fits_design?: boolean, 
+trials?: number, 
 /**
  * Clients connected, this one included.
  */

@@ -3,8 +3,8 @@
 use std::{hint::black_box, time::Instant};
 
 use espalier_design::{
-    Curve, Design, Edit, Fitting, Function, Generator, Held, Key, MAX_INTERNODES, MOST_ORDERS, NodeId, Owner,
-    Setting, Value,
+    Curve, Design, Edit, Fitting, Function, Generator, Held, Key, Limits, MAX_INTERNODES, MOST_ORDERS,
+    NodeId, Owner, Setting, Value,
 };
 use espalier_growth::{NoObserver, Parameters, Simulation, StepInput, species};
 use espalier_plant::{Girth, MetamerId, Plant};
@@ -51,7 +51,9 @@ fn main() {
     measure("a plant of that wood, with buds", || espalier_growth::transplant(&wood, &parameters));
     let oak = oak(100_000);
     let girth = Girth::new(oak.1.girth_exponent, oak.1.twig_diameter);
-    let begun = || Fitting::new(&oak.0, &girth, MetamerId::new(0), MOST_ORDERS).expect("it has wood");
+    let begun = || {
+        Fitting::new(&oak.0, &girth, MetamerId::new(0), MOST_ORDERS, Limits::default()).expect("it has wood")
+    };
     measure(&format!("a design for {} rows begun", oak.0.living_count()), begun);
     let mut fitting = begun();
     let mut trials = Vec::new();

@@ -28,8 +28,8 @@ use crate::{
 
 /// The highest order of limbs that a design is fitted to.
 pub const MOST_ORDERS: u8 = 3;
-/// How much of the crown thickness must bring to its place to be said.
-const WORTH: f32 = 1.0 / 4000.0;
+/// How much of the crown a thickness must bring to its place to be said.
+const GIRTH_WORTH: f32 = 1.0 / 4000.0;
 
 /// A design that was fitted to a plant.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,6 +68,37 @@ pub enum Unfit {
     /// The design would be refused.
     #[error("{0}")]
     Refused(Refusal),
+    /// The least design of it has more wood than there may be.
+    #[error("its design would have {found} internodes, and there is room for {allowed}")]
+    NoRoom {
+        /// Internodes that it has.
+        found: usize,
+        /// As many as there may be.
+        allowed: usize,
+    },
+    /// The least design of it has a longer text than may be kept.
+    #[error("its design would have {found} bytes, allowed are {allowed}")]
+    TooLong {
+        /// Bytes that it has.
+        found: usize,
+        /// As many as there may be.
+        allowed: usize,
+    },
+}
+
+/// How large a fitted design may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Internodes of its wood.
+    pub internodes: usize,
+    /// Bytes of its text.
+    pub bytes: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { internodes: MAX_INTERNODES, bytes: usize::MAX }
+    }
 }
 
 /// A design that is being fitted, one trial after another.
@@ -83,13 +114,23 @@ struct Trials {
     crown: Crown,
     /// The same in fine pixels.
     fine: Crown,
+    limits: Limits,
 }
 
 impl Trials {
     /// The design in which limbs say these things, and what they might say besides.
     fn of(&self, said: &Said) -> Result<Tried, Unfit> {
         let (design, wishes) = self.writer.write(said).map_err(Unfit::Refused)?;
-        let overlap = self.crown.overlap(&nodes(&design));
+        let nodes = nodes(&design);
+        let Limits { internodes, bytes } = self.limits;
+        if nodes.len() > internodes {
+            return Err(Unfit::NoRoom { found: nodes.len(), allowed: internodes });
+        }
+        let found = design.to_json().len();
+        if found > bytes {
+            return Err(Unfit::TooLong { found, allowed: bytes });
+        }
+        let overlap = self.crown.overlap(&nodes);
         let (records, shares) = (design.graph().values(), design.graph().shares().count());
         Ok((Fitted { design, overlap, records, shares }, wishes))
     }
@@ -106,8 +147,15 @@ impl Fitting {
     /// that order. Radii are those that the plant has by `girth`.
     ///
     /// # Errors
-    /// Where there is no living wood, or the orders are out of range.
-    pub fn new(plant: &Plant, girth: &Girth, seed: MetamerId, orders: u8) -> Result<Self, Unfit> {
+    /// Where there is no living wood, the orders are out of range, or the design in which no limb says anything is too
+    /// large.
+    pub fn new(
+        plant: &Plant,
+        girth: &Girth,
+        seed: MetamerId,
+        orders: u8,
+        limits: Limits,
+    ) -> Result<Self, Unfit> {
         if !(1..=MOST_ORDERS).contains(&orders) {
             return Err(Unfit::Orders { found: orders });
         }
@@ -121,7 +169,7 @@ impl Fitting {
         let base = wood.limbs[0].base();
         let nodes: Vec<Vec3> = wood.places.iter().map(|&place| place - base).collect();
         let (crown, fine) = (Crown::of(&nodes, COARSE), Crown::of(&nodes, PIXEL));
-        let trials = Trials { writer: Writer::new(wood), crown, fine };
+        let trials = Trials { writer: Writer::new(wood), crown, fine, limits };
         let search = Search::new(trials.of(&Said::default())?);
         Ok(Self { trials, search })
     }
@@ -131,18 +179,25 @@ impl Fitting {
         self.search.step(|said| self.trials.of(said))
     }
 
+    /// The best design so far.
+    pub fn best(&self) -> &Fitted {
+        self.search.best()
+    }
+
     /// Designs that are still to be tried, at most.
     pub fn left(&self) -> u32 {
         self.search.left()
     }
 
-    /// The best design so far.
+    /// The best design of those that were tried, with the widths of limbs.
     pub fn found(self) -> Fitted {
         let Self { trials, search } = self;
         let (best, mut said, forms) = search.found();
         // A silhouette does not show how thick limbs are.
-        let thick = |wish: &&Wish| wish.key == Key::Girth && 2.0 * wish.gain > WORTH * trials.crown.area();
-        let girths: Vec<Wish> = forms.iter().filter(thick).copied().take(MAX_VALUES - best.records).collect();
+        let thick =
+            |wish: &&Wish| wish.key == Key::Girth && 2.0 * wish.gain > GIRTH_WORTH * trials.crown.area();
+        let girths: Vec<Wish> =
+            forms.iter().filter(thick).copied().take(MAX_VALUES.saturating_sub(best.records)).collect();
         said.add(&girths);
         let best = trials.of(&said).map_or(best, |(fitted, _)| fitted);
         Fitted { overlap: trials.fine.overlap(&nodes(&best.design)), ..best }
@@ -154,7 +209,7 @@ impl Fitting {
 /// # Errors
 /// Where there is no living wood, or the orders are out of range.
 pub fn fit(plant: &Plant, girth: &Girth, seed: MetamerId, orders: u8) -> Result<Fitted, Unfit> {
-    let mut fitting = Fitting::new(plant, girth, seed, orders)?;
+    let mut fitting = Fitting::new(plant, girth, seed, orders, Limits::default())?;
     while fitting.step() {}
     Ok(fitting.found())
 }

@@ -115,8 +115,8 @@ pub struct Figures {
     pub can_redo: bool,
     /// Steps still to be run.
     pub pending_steps: u32,
-    /// Whether they are trials of a design that is being fitted.
-    pub fits_design: bool,
+    /// How many of them are trials of a design that is being fitted, at most.
+    pub trials: u32,
     /// Steps begun up to now, whatever was taken back since.
     pub steps_begun: u32,
 }
@@ -278,7 +278,7 @@ impl Document {
             can_undo: self.history.done > 0 || self.strays(),
             can_redo: self.history.can_redo(plant.step()),
             pending_steps: self.pending_steps(),
-            fits_design: self.is_fitting(),
+            trials: self.trials(),
             steps_begun: self.steps_begun,
         }
     }

@@ -331,6 +331,11 @@ impl Session {
         &self.parameters
     }
 
+    /// The design in force, as of the last slice of work (`DS11`).
+    pub fn design(&self) -> Option<&DesignInForce> {
+        self.design.as_ref()
+    }
+
     /// The mesh of an obstacle in the scene, as of the last slice of work (`OB5`).
     pub fn mesh(&self, obstacle: u32) -> Option<Arc<Mesh>> {
         self.scenery.meshes.get(&obstacle).cloned()

@@ -121,7 +121,7 @@ pub(crate) fn state(
         can_undo: figures.can_undo,
         can_redo: figures.can_redo,
         pending_steps: figures.pending_steps.saturating_add(queued),
-        fits_design: figures.fits_design,
+        trials: figures.trials,
         people: people as u32,
         paused,
     }

@@ -17,13 +17,16 @@ pub enum Urgency {
     Keeping,
 }
 
-/// Whether trees grow alone by a command, for as long as it says.
+/// Whether trees grow alone by a command, or a design is fitted to one, for as long as it takes.
 pub(crate) fn grows_alone(action: &Action) -> bool {
-    matches!(action, Action::Grow { .. } | Action::Lasso { .. } | Action::Derive { .. })
+    matches!(
+        action,
+        Action::Grow { .. } | Action::Lasso { .. } | Action::Derive { .. } | Action::FitDesign { .. }
+    )
 }
 
-/// Whether an action takes the whole tree from one state to another in one piece: journeys in time, grammars, and designs of
-/// what grew.
+/// Whether an action takes the whole tree from one state to another in one piece: journeys in time and grammars; of a design
+/// for what grew what goes before the first trial and after the last.
 pub(crate) fn is_in_one_piece(action: &Action) -> bool {
     matches!(
         action,

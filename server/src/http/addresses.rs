@@ -12,6 +12,7 @@ use espalier_proto::{
         TreeOwner,
     },
     comment::{ChangeComment, ChangeThread, NewComment, NewThread, Seen, Thread},
+    design::{DesignInForce, MAX_DESIGN_BYTES, PutDesign},
     library::{
         ChangeCollection, ChangeTree, ChangeVersion, CopyTree, ExportFormat, ExportProgress, NewCollection,
         NewSession, RestoreVersion, SaveTree, SaveVersion, SavedTree, SessionCreated, SessionPage,
@@ -28,10 +29,10 @@ use espalier_settings::ParameterValues;
 use tower::limit::GlobalConcurrencyLimitLayer;
 
 use super::{
-    Shared, audit, collections, comments, description, description::About, entry, exports, failure::Path,
-    grammars, groups, guard::TIME_LIMIT, guests, imports, jobs, keys::Shown, links, locks, members,
-    obstacles, origin::METRICS, owners, removals, reviews, schematic, session_list, sessions, species,
-    status, tokens, trees, uploads::uploads, users, versions,
+    Shared, audit, collections, comments, description, description::About, designs, entry, exports,
+    failure::Path, grammars, groups, guard::TIME_LIMIT, guests, imports, jobs, keys::Shown, links, locks,
+    members, obstacles, origin::METRICS, owners, removals, reviews, schematic, session_list, sessions,
+    species, status, tokens, trees, uploads::uploads, users, versions,
 };
 use crate::{
     access::Action,
@@ -66,6 +67,8 @@ const MAX_CHECKS: usize = 2;
 const MAX_ORIGINS: usize = 1;
 /// The longest text of a grammar as JSON, with room for the rest of the request.
 const MAX_GRAMMAR_BODY: usize = 2 * espalier_grammar::MAX_TEXT + 16 * 1024;
+/// The largest graph of a design, with room for the rest of the request.
+const MAX_DESIGN_BODY: usize = MAX_DESIGN_BYTES + 4 * 1024;
 /// Schematics grown at once; each takes some milliseconds.
 const MAX_SCHEMATICS: usize = 4;
 
@@ -264,6 +267,8 @@ pub(super) fn routes() -> Vec<Route> {
         route("GET /api/v1/grammars", Action::Look, get(grammars::list), About::new("Grammars that come with the program, in the order of a picker (GR7).").gives::<Vec<ShippedGrammar>>(200)),
         route("GET /api/v1/grammars/{name}/picture", Action::Look, get(grammars::picture).layer(at_once(MAX_PICTURES)), About::new("What that grammar writes, with an `ETag`.").gives_parts("image/png")),
         route("POST /api/v1/grammars/check", Action::Look, post(grammars::check).layer(at_once(MAX_CHECKS)), About::new("What is wrong with the text of a grammar, its sliders and its sizes (GR6).").takes::<CheckGrammar>().gives::<GrammarReport>(200)).up_to(MAX_GRAMMAR_BODY),
+        route("GET /api/v1/sessions/{session}/design", Action::SeeSession, get(designs::find), About::new("The design in force (DS11).").gives::<DesignInForce>(200)),
+        route("PUT /api/v1/sessions/{session}/design", Action::EditSession, put(designs::put), About::new("Plant the wood of a design, or let it take the place of the one in force (DS11).").takes::<PutDesign>().gives_nothing()).up_to(MAX_DESIGN_BODY),
         route("GET /api/v1/sessions/{session}/grammar", Action::SeeSession, get(grammars::origins).layer(at_once(MAX_ORIGINS)), About::new("Which rule of the grammar in force made which row (GR8).").gives::<GrammarOrigins>(200)),
         route("POST /api/v1/grow", Action::GrowTrees, post(jobs::grow), About::new("Grow a tree for each of many seeds into files, as a job (JB1).").takes::<jobs::GrowTrees>().gives::<jobs::JobNow>(202)).up_to(MAX_SAID_BODY),
         route("GET /api/v1/jobs", Action::OwnJobs, get(jobs::list), About::new("One's own jobs, newest first, page by page (JB8).").asks::<jobs::Page>().gives::<jobs::JobPage>(200)),

@@ -8,6 +8,7 @@ mod client;
 mod collections;
 mod comments;
 mod description;
+mod designs;
 mod entry;
 mod exports;
 mod failure;

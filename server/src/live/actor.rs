@@ -305,6 +305,10 @@ impl Actor {
                 let _ = answer.send(self.session.parameters().clone());
                 return None;
             }
+            Request::Design(answer) => {
+                let _ = answer.send(self.session.design().cloned());
+                return None;
+            }
             Request::Mesh(obstacle, answer) => {
                 let _ = answer.send(self.session.mesh(obstacle));
                 return None;

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use espalier_proto::{Command, Mesh, Pause, PlacedObstacle, Problem, access::Role, comment::Pin};
+use espalier_proto::{
+    Command, DesignInForce, Mesh, Pause, PlacedObstacle, Problem, access::Role, comment::Pin,
+};
 use espalier_session::{Anchor, ClientId, Entrant, Place, Principal, ReadDocument, Register};
 use espalier_settings::ParameterValues;
 use tokio::sync::{mpsc, oneshot};
@@ -30,6 +32,7 @@ pub(super) enum Request {
     Act(Principal, Entrant, Box<Command>, oneshot::Sender<Outcome>),
     Parameters(oneshot::Sender<ParameterValues>),
     Mesh(u32, oneshot::Sender<Option<Arc<Mesh>>>),
+    Design(oneshot::Sender<Option<DesignInForce>>),
     People(oneshot::Sender<Vec<Principal>>),
     /// Everybody who has been here.
     Register(oneshot::Sender<Register>),
@@ -191,6 +194,13 @@ impl SessionHandle {
     pub async fn parameters(&self) -> Result<ParameterValues, Ended> {
         let (answer, answered) = oneshot::channel();
         self.send(Request::Parameters(answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// The design in force, if there is one.
+    pub async fn design(&self) -> Result<Option<DesignInForce>, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Design(answer)).await?;
         answered.await.map_err(|_| Ended)
     }
 

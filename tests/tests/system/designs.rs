@@ -1,8 +1,13 @@
-//! `espalier grow --design`: plants that are designed, without a server.
+//! Plants that are designed: without a server by `espalier grow --design`, and by programs over HTTP.
 
 use std::fs;
 
-use espalier_tests::{program, scratch::Scratch};
+use espalier_tests::{
+    client::Client,
+    http::{self, Answer},
+    program,
+    scratch::Scratch,
+};
 use serde_json::{Value, json};
 
 fn grown(options: &[&str]) -> Value {
@@ -48,4 +53,39 @@ fn designs_are_planted_from_files_and_from_templates() {
         assert_eq!(refused.code, 2, "{design}: {}", refused.stderr);
         assert!(refused.stderr.contains(place), "{design}: {}", refused.stderr);
     }
+}
+
+#[tokio::test]
+async fn ds11_a_program_asks_for_the_design_and_puts_another_in_its_place() {
+    let (mut client, server, _scratch) = Client::alone(&[]).await;
+    let path = format!("/api/v1/sessions/{}/design", client.session);
+    let put = |body: Value| -> Answer {
+        http::send(server.port(), "PUT", &path, Some(&body)).expect("the server answers")
+    };
+    let get = || http::get(server.port(), &path).expect("the server answers");
+    let height = |answer: &Answer| answer.json()["graph"]["nodes"]["/"]["values"]["height"]["own"].as_f64();
+    let graph = |height: u32| json!({ "version": 1, "nodes": { "/": { "values": { "height": { "own": height } } } } });
+    assert_eq!(get().status, 404);
+    let refused = put(json!({ "graph": graph(20) }));
+    assert_eq!(
+        (refused.status, refused.json()["reason"].clone()),
+        (404, json!("design-gone")),
+        "{}",
+        refused.text()
+    );
+    assert_eq!(put(json!({ "graph": graph(20), "position": [0, 0, 0] })).status, 204);
+    let found = get();
+    assert_eq!((found.status, height(&found)), (200, Some(20.0)));
+    assert_eq!(found.json()["at"], json!([0.0, 0.0, 0.0]));
+    // It takes the place of the one in force, is told to whoever looks on, and is undone like any other deed.
+    assert_eq!(put(json!({ "graph": graph(30) })).status, 204);
+    assert_eq!(height(&get()), Some(30.0));
+    client.send(json!({ "kind": "undo" })).await;
+    client.until_settled().await;
+    assert_eq!(height(&get()), Some(20.0));
+    let wrong = put(json!({ "graph": graph(4000) }));
+    assert_eq!(wrong.status, 400);
+    assert_eq!(wrong.json()["field"], json!("graph.nodes./.values.height.own"), "{}", wrong.text());
+    assert_eq!(put(json!({})).status, 400);
+    assert_eq!(height(&get()), Some(20.0), "nothing of it is done");
 }

@@ -15,8 +15,19 @@ export const CHIPS = {
   "tools.widened.back": ["Back to my view", "Zurück zu meiner Ansicht"],
   "tools.growing": ["Growing…", "Wächst…"],
   "tools.growing.steps": ["Growing… {count} steps to go", "Wächst… noch {count} Schritte"],
-  "tools.fitting": ["Describing the tree… {count} tries to go", "Beschreibt den Baum… noch {count} Versuche"],
-  "tools.fitting.stop.title": ["Stop, and leave the tree as it is", "Aufhören und den Baum lassen, wie er ist"],
+  "tools.fitting": ["Describing the tree…", "Beschreibt den Baum…"],
+  "tools.fitting.trials": [
+    "Describing the tree… up to {count} tries to go",
+    "Beschreibt den Baum… noch bis zu {count} Versuche",
+  ],
+  "tools.fitting.stop.title": [
+    "Stop, and leave the tree as it is (Esc)",
+    "Aufhören und den Baum lassen, wie er ist (Esc)",
+  ],
+  "chips.paused.fitting": [
+    "The description of the tree waits for memory on the server, then goes on",
+    "Die Beschreibung des Baums wartet auf Speicher im Server und geht dann weiter",
+  ],
   "tools.growing.outline": ["Growing into the outline…", "Wächst in den Umriss…"],
   "chips.paused.memory": [
     "Growth waits for memory on the server, then goes on",

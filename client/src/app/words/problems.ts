@@ -138,6 +138,7 @@ export const REFUSALS = {
     "The design does not take this. Most often it would have too many branches: try a lower density, or fewer orders.",
     "Der Entwurf lässt das nicht zu. Meist hätte er zu viele Äste: versuche es mit geringerer Dichte oder weniger Ordnungen.",
   ],
+  "problems.fit-stopped": ["Stopped: the tree is as it was.", "Angehalten: Der Baum ist, wie er war."],
   "problems.being-drawn": [
     "Someone is drawing; wait until the brush is lifted.",
     "Jemand zeichnet gerade; warte, bis der Pinsel abgehoben ist.",

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::envelope::{Envelope, FARTHEST, RADII};
+use crate::envelope::{self, Envelope, FARTHEST, RADII};
 
 /// Share of the nodes below the bottom, and above the top.
 const ENDS: f32 = 0.02;
@@ -98,11 +98,11 @@ pub(super) fn reach_around(envelope: &mut Envelope, inner: &[Vec3]) {
         }
         let room = 0.02 * (envelope.top.y - envelope.bottom.y);
         if higher {
-            envelope.upper = (envelope.upper * WIDER).min(SHAPES.1);
+            envelope.upper = (envelope.upper * WIDER).min(envelope::SHAPES.1);
             envelope.top.y = (envelope.top.y + room).min(FARTHEST);
         }
         if lower {
-            envelope.lower = (envelope.lower * WIDER).min(SHAPES.1);
+            envelope.lower = (envelope.lower * WIDER).min(envelope::SHAPES.1);
             envelope.bottom.y = (envelope.bottom.y - room).max(-FARTHEST);
         }
     }

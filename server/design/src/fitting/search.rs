@@ -13,7 +13,7 @@ const FIRST_ROUND: usize = 4;
 /// Most values of a kind tried together: siblings are compared with each other.
 const MOST_OF_ROUND: usize = 128;
 /// Most designs in which something more is said, and most in which something is said no longer.
-const MOST_WITH: u32 = 120;
+const MOST_WITH: u32 = 150;
 const MOST_WITHOUT: u32 = 100;
 /// Values that are tried without at first, all together.
 const FIRST_WITHOUT: usize = 16;
@@ -84,20 +84,27 @@ impl Search {
         search
     }
 
-    /// The best design so far, what its limbs say, and what they might still say of their form.
+    /// The best design so far.
+    pub(super) fn best(&self) -> &Fitted {
+        &self.best
+    }
+
+    /// The best design, what its limbs say, and what they might still say of their form.
     pub(super) fn found(self) -> (Fitted, Said, Vec<Wish>) {
         (self.best, self.said, self.forms)
     }
 
     /// Designs that are still to be tried, at most.
     pub(super) fn left(&self) -> u32 {
+        let without = MOST_WITHOUT.saturating_sub(self.without);
         match self.stage {
             Stage::Over => 0,
-            _ => (MOST_WITH + MOST_WITHOUT).saturating_sub(self.with + self.without).max(1),
+            Stage::Without { .. } => without.max(1),
+            _ => MOST_WITH.saturating_sub(self.with) + without,
         }
     }
 
-    /// Tries one more design; false when there is none.
+    /// Tries one more design, or decides what is tried next; false when there is nothing more.
     pub(super) fn step(&mut self, tried: impl Fn(&Said) -> Result<Tried, Unfit>) -> bool {
         let stage = std::mem::replace(&mut self.stage, Stage::Over);
         self.stage = match stage {
@@ -125,7 +132,7 @@ impl Search {
                 }
             },
             Stage::Together { mut sets } => match sets.pop() {
-                Some(set) => {
+                Some(set) if self.with < MOST_WITH => {
                     self.with += 1;
                     if let Some((fitted, wishes)) = self.tried_with(&set, tried)
                         && score(&fitted) > score(&self.best)
@@ -136,7 +143,7 @@ impl Search {
                     }
                     Stage::Together { sets }
                 }
-                None => self.round(),
+                _ => self.round(),
             },
             Stage::Without { size, mut parts, mut is_worse } => match parts.pop() {
                 Some(part) if self.without < MOST_WITHOUT => {

@@ -60,7 +60,10 @@ impl Said {
     /// These limbs say these things as well.
     pub(super) fn add(&mut self, wishes: &[Wish]) {
         for wish in wishes {
-            self.0.entry(wish.limb).or_default().push(wish.key);
+            let keys = self.0.entry(wish.limb).or_default();
+            if !keys.contains(&wish.key) {
+                keys.push(wish.key);
+            }
         }
     }
 

@@ -1,8 +1,8 @@
 //! Designs are fitted to plants that grew.
 
 use espalier_design::{
-    Design, Fitted, Fitting, Generator, MAX_INTERNODES, MOST_ORDERS, NodeId, Owner, Source, TEMPLATES, Unfit,
-    fit,
+    Design, Fitted, Fitting, Generator, Limits, MAX_INTERNODES, MOST_ORDERS, NodeId, Owner, Source,
+    TEMPLATES, Unfit, fit,
 };
 use espalier_growth::{NoObserver, Parameters, Simulation, StepInput, species, transplant};
 use espalier_plant::{AxisId, Girth, MetamerId, Plant};
@@ -63,19 +63,21 @@ fn grown(slug: &str, metamers: u32) -> Plant {
 #[test]
 fn fitting_finds_templates_again_in_few_values() {
     assert_eq!(FOUND.map(|(name, ..)| name), TEMPLATES.map(|template| template.name));
-    for (template, (name, most, least)) in TEMPLATES.iter().zip(FOUND) {
-        let fitted = fitted(&planted(&template.design()));
-        assert!(fitted.records <= most, "{name}: {} values", fitted.records);
-        assert!(fitted.overlap >= least, "{name}: an overlap of {}", fitted.overlap);
-    }
+    let all = TEMPLATES.iter().zip(FOUND).map(|(template, (name, most, least))| {
+        let Fitted { records, overlap, .. } = fitted(&planted(&template.design()));
+        (format!("{name}: {records} values, overlap {overlap}"), records <= most && overlap >= least)
+    });
+    let all: Vec<_> = all.collect();
+    assert!(all.iter().all(|(_, is_met)| *is_met), "{all:#?}");
 }
 
 #[test]
 fn fitting_keeps_the_crowns_of_species() {
-    for (slug, least) in SPECIES {
-        let fitted = fitted(&grown(slug, 3_000));
-        assert!(fitted.overlap >= least, "{slug}: an overlap of {}", fitted.overlap);
-    }
+    let all = SPECIES.map(|(slug, least)| {
+        let Fitted { records, overlap, .. } = fitted(&grown(slug, 3_000));
+        (format!("{slug}: {records} values, overlap {overlap}"), overlap >= least)
+    });
+    assert!(all.iter().all(|(_, is_met)| *is_met), "{all:#?}");
 }
 
 #[test]
@@ -143,9 +145,24 @@ fn what_no_design_fits_is_refused() {
 }
 
 #[test]
+fn fitted_designs_keep_to_limits() {
+    let plant = grown("oak", 1_500);
+    let fitting =
+        |internodes, bytes| Fitting::new(&plant, &girth(), seed(), MOST_ORDERS, Limits { internodes, bytes });
+    assert!(matches!(fitting(100, usize::MAX), Err(Unfit::NoRoom { allowed: 100, .. })));
+    assert!(matches!(fitting(MAX_INTERNODES, 500), Err(Unfit::TooLong { allowed: 500, .. })));
+    let least = fitting(MAX_INTERNODES, usize::MAX).expect("it has wood").best().design.to_json().len();
+    let bytes = least + 2_000;
+    let mut fitting = fitting(MAX_INTERNODES, bytes).expect("the first design is no larger");
+    while fitting.step() {}
+    assert!((least..=bytes).contains(&fitting.found().design.to_json().len()));
+}
+
+#[test]
 fn fitting_is_done_one_trial_at_a_time() {
     let plant = planted(&designed(&plain(5)));
-    let mut fitting = Fitting::new(&plant, &girth(), seed(), MOST_ORDERS).expect("it has wood");
+    let mut fitting =
+        Fitting::new(&plant, &girth(), seed(), MOST_ORDERS, Limits::default()).expect("it has wood");
     let (mut left, mut trials) = (fitting.left(), 0);
     let first = fitting.clone().found();
     while fitting.step() {

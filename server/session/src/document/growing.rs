@@ -150,7 +150,7 @@ impl Document {
         let steps = |pending: &Pending| match pending {
             Pending::Brush(_) | Pending::Lasso { .. } | Pending::Settle { .. } => 1,
             Pending::Write => self.underway.as_ref().map_or(0, |underway| underway.steps()),
-            Pending::Fit(underway) => underway.left(),
+            Pending::Fit(_) => self.trials(),
             Pending::Steps { left, .. } => *left,
         };
         self.pending.iter().map(steps).sum()

@@ -1,5 +1,6 @@
 //! `ST`: growth that somebody ends.
 
+use espalier_proto::Reason;
 use espalier_session::{Input, ReadId, Tail};
 use serde_json::{Value, json};
 
@@ -181,7 +182,7 @@ fn st1_a_long_step_of_a_grammar_can_be_stopped() {
 
 #[test]
 fn st1_a_design_that_is_fitted_can_be_stopped() {
-    for passes in [1, 3, 8] {
+    for passes in [2, 4, 9] {
         let mut world = World::new();
         let client = world.join("birch-01");
         world.command(client, 1, grow(8));
@@ -191,13 +192,16 @@ fn st1_a_design_that_is_fitted_can_be_stopped() {
         world.command(client, 2, json!({ "kind": "fit_design" }));
         world.pass(passes * 60);
         let state = world.peer(client).last_state().unwrap();
-        assert!(state.fits_design && state.pending_steps > 1, "{state:?}");
+        assert!(state.trials > 1 && state.pending_steps >= state.trials, "{state:?}");
         world.command(client, 3, stop());
         world.settle();
         assert_eq!(world.peer(client).acknowledged().last(), Some(&3));
         let state = world.peer(client).last_state().unwrap();
-        assert!(!state.fits_design && state.pending_steps == 0, "{state:?}");
+        assert!(state.trials == 0 && state.pending_steps == 0, "{state:?}");
         assert_eq!(world.document().plant().hash(), before, "nothing of it is there");
+        let refused = world.peer(client).refused();
+        let reasons: Vec<_> = refused.iter().map(|(id, problem)| (*id, problem.reason)).collect();
+        assert_eq!(reasons, [(2, Reason::FitStopped)], "who asked for it is told");
         world.command(client, 4, grow(2));
         world.settle();
         check_replays(&mut world);

@@ -56,6 +56,11 @@ pub(super) fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
             names(&["role"]),
             json!({ "role": "viewer", "hours": 1, "name": "Ada's tablet" }),
         ),
+        (
+            "PUT /api/v1/sessions/{session}/design",
+            names(&["graph"]),
+            json!({ "graph": { "version": 1 }, "position": [0, 0, 0] }),
+        ),
         ("PUT /api/v1/sessions/{session}/owner", names(&["person"]), json!({ "person": 1 })),
         ("PATCH /api/v1/trees/{tree}/links/{link}", names(&["role"]), json!({ "role": "editor" })),
         (

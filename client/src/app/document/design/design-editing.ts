@@ -63,6 +63,8 @@ export class DesignEditing {
   #options: DesignEditingOptions;
   #scope = signal<Scope>("branch");
   #gesture: number | undefined;
+  /** The row of the design in force, or none, as the page asked for that of a tree that stands. */
+  #described: number | null | undefined;
   #sentAt = Number.NEGATIVE_INFINITY;
   /** What moved while the server was busy, to be sent once it is not. */
   #waiting: readonly DesignEdit[] | null = null;
@@ -102,8 +104,23 @@ export class DesignEditing {
 
   /** Begins with a design of the largest tree as it stands, or of the one of a row; what grew gives its place to it. */
   describe(row?: number): void {
-    this.begun.value += 1;
+    this.#described = this.#options.design.inForce.peek()?.row ?? null;
     this.#options.submit({ kind: "fit_design", ...(row === undefined ? {} : { row }) });
+  }
+
+  /** Whether what was asked for by `describe` stands now; it says so once. */
+  isDescribed(): boolean {
+    const told = this.#options.design.inForce.value;
+    const stands = this.#described !== undefined && told?.overlap !== undefined && told.row !== this.#described;
+    if (stands) {
+      this.#described = undefined;
+    }
+    return stands;
+  }
+
+  /** Shows the design that `describe` asked for as a tree that begins. */
+  showDescribed(): void {
+    this.begun.value += 1;
     this.chosen.value = ROOT;
   }
 

@@ -95,9 +95,10 @@ function GrowthChip({ studio }: { studio: Studio }) {
   if (!shown || studio.document.value?.paused !== undefined) {
     return null;
   }
-  const fits = studio.document.value?.fits_design === true;
+  const trials = studio.document.value?.trials ?? 0;
   const growth = outline ? "tools.growing.outline" : pending > 1 ? "tools.growing.steps" : "tools.growing";
-  const text = say(fits ? "tools.fitting" : growth, { count: pending });
+  const fitting = trials > 1 ? "tools.fitting.trials" : "tools.fitting";
+  const text = trials > 0 ? say(fitting, { count: trials }) : say(growth, { count: pending });
   return (
     <p class="chip">
       {share === null || outline ? (
@@ -110,7 +111,7 @@ function GrowthChip({ studio }: { studio: Studio }) {
         <button
           type="button"
           class="chip-stop"
-          title={say(fits ? "tools.fitting.stop.title" : "tools.growing.stop.title")}
+          title={say(trials > 0 ? "tools.fitting.stop.title" : "tools.growing.stop.title")}
           onClick={() => stopGrowth(studio)}
         >
           <StopIcon />

@@ -11,16 +11,17 @@ export function PausedChip({ studio }: { studio: Studio }) {
     return null;
   }
   const mayResume = paused === "crashes" && studio.rights.mayResume;
+  const fits = (studio.document.value?.trials ?? 0) > 0;
   return (
     <p class="chip" data-paused={paused}>
-      {say(paused === "memory" ? "chips.paused.memory" : "chips.paused.crashes")}
+      {say(paused === "crashes" ? "chips.paused.crashes" : fits ? "chips.paused.fitting" : "chips.paused.memory")}
       {paused === "crashes" && !mayResume && say("chips.paused.owner")}
       {mayResume && <GoOn studio={studio} />}
       {studio.rights.mayChange.value && (
         <button
           type="button"
           class="chip-stop"
-          title={say("tools.growing.stop.title")}
+          title={say(fits ? "tools.fitting.stop.title" : "tools.growing.stop.title")}
           onClick={() => stopGrowth(studio)}
         >
           <StopIcon />

@@ -16,6 +16,7 @@ export function StructurePanel({ studio }: { studio: Studio }) {
   const editing = designOf(studio);
   const model = editing.model.value;
   const onTop = model?.told.steps_on_top ?? 0;
+  const fits = (studio.document.value?.trials ?? 0) > 0;
   const shaping = shapingOf(studio);
   const { bark, leaves } = studio.appearance.value;
   const colours = { bark: bark.tint, leaves: leaves.tint };
@@ -50,7 +51,12 @@ export function StructurePanel({ studio }: { studio: Studio }) {
               onChange={(event) => openGraph(event.currentTarget, editing, (text) => studio.toasts.show(text))}
             />
           </label>
-          <button type="button" title={say("structure.describe.help")} onClick={() => editing.describe()}>
+          <button
+            type="button"
+            title={say("structure.describe.help")}
+            disabled={fits}
+            onClick={() => editing.describe()}
+          >
             {say("structure.describe")}
           </button>
           <button type="button" disabled={!model} onClick={() => model && downloadGraph(model)}>
@@ -68,6 +74,7 @@ export function StructurePanel({ studio }: { studio: Studio }) {
             <button
               type="button"
               title={say("structure.sealed.keep.help")}
+              disabled={fits}
               onClick={() => editing.describe(model.told.row)}
             >
               {say("structure.sealed.keep")}

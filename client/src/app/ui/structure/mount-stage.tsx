@@ -31,6 +31,11 @@ export function mountStage(studio: Studio): void {
   });
   // A tree that somebody begins here stands in sight above the bar.
   const editing = designOf(studio);
+  effect(() => {
+    if (editing.isDescribed()) {
+      editing.showDescribed();
+    }
+  });
   let begun = editing.begun.peek();
   let former = studio.design.placed.peek();
   effect(() => {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use espalier_design::{Design, Fitted, Fitting, MOST_ORDERS, Unfit};
+use espalier_design::{Design, Fitted, Fitting, Limits, MOST_ORDERS, Unfit};
 use espalier_plant::{MetamerId, Plant};
 use espalier_proto::{LimbOrders, MAX_DESIGN_BYTES, Problem, Reason, version::MAX_LIMB_ORDERS};
 
@@ -17,7 +17,7 @@ const USUAL_ORDERS: u8 = MOST_ORDERS;
 const _: () = assert!(MAX_LIMB_ORDERS == MOST_ORDERS as u32);
 
 impl Document {
-    /// Begins to fit a design; what would be refused at once is.
+    /// Begins to fit a design, if the first one that is tried could be planted.
     pub(in crate::document) fn fit_design(
         &mut self,
         cause: Cause<'_>,
@@ -33,41 +33,39 @@ impl Document {
             None => largest(plant).ok_or_else(nothing_grew)?,
         };
         let orders = orders.map_or(USUAL_ORDERS, |orders| orders.get() as u8);
-        let fitting = Fitting::new(plant, &self.girth(), seed, orders).map_err(unfit)?;
+        let budget = self.simulation.scene().metamer_budget() as usize;
+        let limits =
+            Limits { internodes: budget.saturating_sub(plant.metamer_count() + 1), bytes: MAX_DESIGN_BYTES };
+        let fitting = Fitting::new(plant, &self.girth(), seed, orders, limits).map_err(unfit)?;
+        self.require_design_bytes(fitting.best().design.to_json().len())?;
         let (author, gesture) = (cause.author.clone(), cause.gesture);
-        self.pending.push_back(Pending::Fit(Box::new(Underway {
-            fitting,
-            seed,
-            author,
-            gesture,
-            trials: 0,
-        })));
+        self.pending.push_back(Pending::Fit(Box::new(Underway { fitting, seed, author, gesture })));
         Ok(())
     }
 
-    /// Whether a design is being fitted.
-    pub(in crate::document) fn is_fitting(&self) -> bool {
-        matches!(self.pending.front(), Some(Pending::Fit(_)))
+    /// Designs that are still to be tried, at most, while one is fitted; otherwise 0.
+    pub(in crate::document) fn trials(&self) -> u32 {
+        match self.pending.front() {
+            Some(Pending::Fit(underway)) => underway.fitting.left(),
+            _ => 0,
+        }
     }
 
     /// Tries one more design, and plants the best one after the last. A stop ends it, and nothing has happened.
     pub(in crate::document) fn go_on_fitting(&mut self, mut underway: Box<Underway>) {
         if self.is_stopped() {
-            self.outcome = Some(Ok(()));
+            self.outcome = Some(Err(stopped()));
             return;
         }
         // They count, so that a stop is where it was when this is done again (ST1).
         self.steps_begun = self.steps_begun.wrapping_add(1);
-        underway.trials += 1;
         if underway.fitting.step() {
             self.pending.push_front(Pending::Fit(underway));
             return;
         }
-        let trials = underway.trials;
         let planted = self.plant_fitted(*underway);
-        match planted {
-            Ok(()) => self.forget_futures(),
-            Err(_) => self.steps_begun = self.steps_begun.wrapping_sub(trials),
+        if planted.is_ok() {
+            self.forget_futures();
         }
         self.outcome = Some(planted);
     }
@@ -95,15 +93,6 @@ pub(in crate::document) struct Underway {
     seed: MetamerId,
     author: Principal,
     gesture: Option<u32>,
-    /// Trials up to now.
-    trials: u32,
-}
-
-impl Underway {
-    /// Trials that are left, at most.
-    pub(in crate::document) fn left(&self) -> u32 {
-        self.fitting.left()
-    }
 }
 
 /// A design as it comes back from what documents and files keep of it.
@@ -149,12 +138,21 @@ fn nothing_grew() -> Problem {
         .at("kind", "a design of a plant with wood")
 }
 
+fn stopped() -> Problem {
+    Problem::new(Reason::FitStopped, "somebody has stopped it; the plant is as it was")
+        .at("kind", "a design that is fitted to its end")
+}
+
 fn unfit(unfit: Unfit) -> Problem {
     match &unfit {
         Unfit::NoSeed(_) | Unfit::Dead(_) | Unfit::NoWood(_) => {
             Problem::new(Reason::DesignRefused, unfit.to_string()).at("row", "a plant with wood")
         }
-        Unfit::Orders { .. } | Unfit::Refused(_) => Problem::new(Reason::DesignRefused, unfit.to_string())
-            .at("kind", "a plant that a design can describe"),
+        Unfit::NoRoom { allowed, .. } => Problem::new(Reason::TreeFull, unfit.to_string())
+            .at("kind", format!("a plant whose design has {allowed} internodes at most")),
+        Unfit::Orders { .. } | Unfit::Refused(_) | Unfit::TooLong { .. } => {
+            Problem::new(Reason::DesignRefused, unfit.to_string())
+                .at("kind", "a plant that a design can describe")
+        }
     }
 }

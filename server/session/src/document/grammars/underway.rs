@@ -73,7 +73,7 @@ impl Document {
 
     /// Whether it is still open what becomes of the command taken on last.
     pub(crate) fn is_undecided(&self) -> bool {
-        self.underway.is_some() || self.is_fitting()
+        self.underway.is_some() || self.trials() > 0
     }
 
     /// What became of the command taken on last, where that was not known when it was taken on.
