@@ -138,9 +138,10 @@ export const STRUCTURE = {
     "{parameter} entlang der Achse: Punkte ziehen, tippen für einen weiteren, herausziehen zum Entfernen",
   ],
   "structure.function.relative": [
-    "Thin: inherited. Dashed: what is said here. Bold: what comes of both.",
-    "Dünn: geerbt. Gestrichelt: hier gesagt. Fett: was daraus wird.",
+    "Dashed, on the left: what is said here. On the right, thin what is inherited, bold what comes of both.",
+    "Gestrichelt, links: hier gesagt. Rechts dünn, was geerbt ist, und fett, was daraus wird.",
   ],
+  "structure.function.at": ["at {percent} %: {value}", "bei {percent} %: {value}"],
   "structure.function.even": ["Even", "Gleichmäßig"],
   "structure.mirror": ["Mirror", "Spiegeln"],
   "structure.point": ["Point {number}: arrow keys move it", "Punkt {number}: Pfeiltasten bewegen ihn"],

@@ -16,6 +16,7 @@ import {
   wayTo,
 } from "./design-model";
 import type { DesignSignal } from "./design-signal";
+import { isRelation, relativeTo } from "./relative-values";
 
 export type TemplateName = (typeof DESIGN_TEMPLATES)[number];
 
@@ -232,23 +233,20 @@ export class DesignEditing {
       return;
     }
     const of = this.#of();
-    const { value, isPrivate } = model.resolve(path, key, this.scope.peek());
+    const { value, inherited, isPrivate, setting: former, ...has } = model.resolve(path, key, this.scope.peek());
+    if (status === has.status && of === has.origin) {
+      return;
+    }
     const rest = isPrivate ? { private: true } : {};
     if (status === "inherited") {
       this.#edit([{ edit: "clear", of, key: key.name }]);
     } else if (status === "own") {
       this.#edit([{ edit: "set", of, key: key.name, value: { own: value, ...rest } }]);
-    } else if (status === "offset" || status === "factor") {
-      const neutral = status === "offset" ? 0 : 1;
-      const none =
-        key.kind === "function"
-          ? [
-              [0, neutral],
-              [1, neutral],
-            ]
-          : neutral;
-      const setting = status === "offset" ? { add: none } : { multiply: none };
-      this.#edit([{ edit: "set", of, key: key.name, value: { ...setting, ...rest } }]);
+    } else if (isRelation(status)) {
+      const said = relativeTo(inherited, value, key, status);
+      const setting = status === "offset" ? { add: said } : { multiply: said };
+      const from = former?.below ? { below: true } : {};
+      this.#edit([{ edit: "set", of, key: key.name, value: { ...setting, ...rest, ...from } }]);
     } else {
       this.#share(key, value);
     }

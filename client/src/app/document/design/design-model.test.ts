@@ -131,6 +131,29 @@ describe("editing a design", () => {
     ]);
   });
 
+  it("says a value in another way as near to what it was as can be, and not the same way twice", () => {
+    const { of, sent } = editing();
+    of.choose("/1/0");
+    // It has 15, of which 10 are inherited.
+    of.say(keyOf("roll"), "offset");
+    of.say(keyOf("roll"), "factor");
+    of.say(keyOf("density"), "factor");
+    of.say(keyOf("density"), "offset");
+    of.choose("/1");
+    of.say(keyOf("roll"), "offset");
+    of.say(keyOf("density"), "factor");
+    const line = (base: number, tip: number) => [
+      [0, base],
+      [1, tip],
+    ];
+    expect(sent.map((command) => (command.kind === "edit_design" ? command.edits[0] : null))).toEqual([
+      { edit: "set", of: "/1/0", key: "roll", value: { multiply: 1.5 } },
+      { edit: "set", of: "/1/0", key: "density", value: { add: line(-2, -4) } },
+      { edit: "set", of: "/1", key: "roll", value: { add: 20, private: true } },
+      { edit: "set", of: "/1", key: "density", value: { multiply: line(1, 1) } },
+    ]);
+  });
+
   it("gives a value to the bearer, and shares one among siblings", () => {
     const { of, sent } = editing();
     of.choose("/1");

@@ -1,10 +1,9 @@
 import type { DesignInForce, DesignSetting } from "../../../wire/generated";
 import { DESIGN_KEYS } from "./design-keys";
-import { valuesOf } from "./function-course";
+import { combined } from "./relative-values";
 
 export type DesignKey = (typeof DESIGN_KEYS)[number];
 export type KeyName = DesignKey["name"];
-export type Points = readonly (readonly [number, number])[];
 
 /** How a branch has a value. */
 export type Status = "own" | "inherited" | "offset" | "factor" | "shared";
@@ -144,11 +143,11 @@ export class DesignModel {
       return { value, inherited, status: "shared", isPrivate, origin: by, setting };
     }
     if (setting?.add !== undefined) {
-      const value = combined(inherited, setting.add, key, (a, b) => a + b);
+      const value = combined(inherited, setting.add, key, "offset");
       return { value, inherited, status: "offset", isPrivate, origin: by, setting };
     }
     if (setting?.multiply !== undefined) {
-      const value = combined(inherited, setting.multiply, key, (a, b) => a * b);
+      const value = combined(inherited, setting.multiply, key, "factor");
       return { value, inherited, status: "factor", isPrivate, origin: by, setting };
     }
     return { value: inherited, inherited, status: "inherited", isPrivate, origin: below?.origin ?? null, setting };
@@ -221,22 +220,4 @@ const GROUP_OF: Readonly<Record<KeyName, Exclude<KeyGroup, "all">>> = {
 export function keysOf(path: string, group: KeyGroup = "all"): readonly DesignKey[] {
   const isIn = (key: DesignKey) => group === "all" || GROUP_OF[key.name] === group;
   return DESIGN_KEYS.filter((key) => (path === ROOT || !key.ofRoot) && isIn(key));
-}
-
-export function isPoints(value: unknown): value is Points {
-  return Array.isArray(value) && value.every((point) => Array.isArray(point) && point.length === 2);
-}
-
-function combined(inherited: unknown, own: unknown, key: DesignKey, join: (a: number, b: number) => number): unknown {
-  const within = (value: number) => Math.min(Math.max(value, key.least), key.most);
-  if (typeof inherited === "number" && typeof own === "number") {
-    return within(join(inherited, own));
-  }
-  if (isPoints(inherited) && isPoints(own)) {
-    const all = [...inherited, ...own].map(([t]) => t);
-    const places = [...new Set(all)].sort((a, b) => a - b);
-    const [below, said] = [valuesOf(inherited, places), valuesOf(own, places)];
-    return places.map((t, at) => [t, within(join(below[at] ?? 0, said[at] ?? 0))]);
-  }
-  return inherited;
 }

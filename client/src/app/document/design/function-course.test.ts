@@ -1,6 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { Points } from "./design-model";
-import { valueAt, valuesOf } from "./function-course";
+import { type Points, valueAt, valuesOf } from "./function-course";
 
 describe("the course of a function", () => {
   it("goes through its points, and a line is straight", () => {

@@ -1,4 +1,17 @@
-import type { Points } from "./design-model";
+/** A function of the place along an axis: places from 0 to 1, and its values there. */
+export type Points = readonly (readonly [number, number])[];
+
+/** So many points a function has at most (`server/design/src/function.rs`). */
+export const MOST_POINTS = 16;
+
+export function isPoints(value: unknown): value is Points {
+  return Array.isArray(value) && value.every((point) => Array.isArray(point) && point.length === 2);
+}
+
+/** So finely functions are combined, before points are left out. */
+const EVENLY = Array.from({ length: 49 }, (_, step) => step / 48);
+/** A point this near to the line between its neighbours, as a share of all values, is left out. */
+const STRAIGHT = 1e-4;
 
 /**
  * The value of a function at a place along an axis, as the server has it (`server/design/src/function.rs`): a monotone
@@ -24,6 +37,33 @@ export function valuesOf(points: Points, places: readonly number[]): readonly nu
     const value = y0 + s * (d0 + s * (3 * (y1 - y0) - 2 * d0 - d1 + s * (d0 + d1 - 2 * (y1 - y0))));
     return Math.min(Math.max(value, Math.min(y0, y1)), Math.max(y0, y1));
   });
+}
+
+/** Two functions combined place by place, by no more points than it takes. */
+export function combinedCourse(a: Points, b: Points, join: (a: number, b: number) => number): Points {
+  const own = [...a, ...b].map(([t]) => t);
+  const places = [...new Set([...own, ...EVENLY])].sort((a, b) => a - b);
+  const [first, second] = [valuesOf(a, places), valuesOf(b, places)];
+  return thinned(places.map((t, at) => [t, join(first[at] ?? 0, second[at] ?? 0)] as const));
+}
+
+/** Leaves out the points that change least, as long as they change nothing or are too many. */
+function thinned(points: Points): Points {
+  const kept = [...points];
+  const values = kept.map(([, value]) => value);
+  const nothing = STRAIGHT * (Math.max(...values) - Math.min(...values)) + 1e-9;
+  while (kept.length > 2) {
+    const off = kept.slice(1, -1).map(([t, value], before) => {
+      const [[t0, y0], [t1, y1]] = [pointAt(kept, before), pointAt(kept, before + 2)];
+      return Math.abs(value - y0 - ((t - t0) / (t1 - t0)) * (y1 - y0));
+    });
+    const least = Math.min(...off);
+    if (least > nothing && kept.length <= MOST_POINTS) {
+      break;
+    }
+    kept.splice(off.indexOf(least) + 1, 1);
+  }
+  return kept;
 }
 
 function slopesOf(points: Points): readonly number[] {

@@ -37,8 +37,8 @@ interface PointFieldProps<Value> {
   readonly onCancel: () => void;
   /** Tells when a finger comes down, and when it has gone. */
   readonly onHold?: (holds: boolean) => void;
-  /** What is drawn beneath the points. */
-  readonly children: (shown: Value) => ComponentChildren;
+  /** What is drawn beneath the points; `at` is the point that is held or was picked last. */
+  readonly children: (shown: Value, at: number | null) => ComponentChildren;
 }
 
 /** A finger on the drawing. */
@@ -194,7 +194,7 @@ export function PointField<Value>(props: PointFieldProps<Value>) {
           }
         }}
       >
-        {props.children(shown)}
+        {props.children(shown, isPicked ? picked : null)}
         {points.map((place, at) => (
           // biome-ignore lint/a11y/useSemanticElements: there are no buttons in drawings.
           <circle

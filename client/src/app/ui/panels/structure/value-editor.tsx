@@ -1,13 +1,9 @@
 import type { ComponentChildren } from "preact";
 import type { Curve } from "../../../document/design/curve-points";
 import type { DesignEditing } from "../../../document/design/design-editing";
-import {
-  type DesignKey,
-  isPoints,
-  type KeyName,
-  type Resolved,
-  type Status,
-} from "../../../document/design/design-model";
+import type { DesignKey, KeyName, Resolved, Status } from "../../../document/design/design-model";
+import { isPoints } from "../../../document/design/function-course";
+import { isRelation, relativeRange } from "../../../document/design/relative-values";
 import { type Key, say } from "../../../words/say";
 import { Slider } from "../../controls/slider";
 import { Switch } from "../../controls/switch";
@@ -49,13 +45,10 @@ function ownOf({ status, setting, value }: Resolved): unknown {
 }
 
 function rangeOf(of: DesignKey, status: Status): Omit<Scale, "step"> {
-  const travel = TRAVEL[of.name];
-  if (status === "offset") {
-    const half = travel && travel[1] / 2;
-    const range = { least: of.least - of.most, most: of.most - of.least };
-    return half === undefined || of.kind !== "function" ? range : { ...range, travel: [-half, half] };
+  if (!isRelation(status)) {
+    return { least: of.least, most: of.most, travel: TRAVEL[of.name] };
   }
-  return status === "factor" ? { least: 0, most: 10, travel: [0, 2] } : { least: of.least, most: of.most, travel };
+  return { ...relativeRange(of, status), ...(status === "factor" ? { travel: [0, 2] } : {}) };
 }
 
 /** What changes one value of a branch, by its kind. */
@@ -64,7 +57,6 @@ export function ValueEditor({ editing, of, resolved, colours }: ValueProps) {
   const help = say(`structure.key.${of.name}.help`);
   const own = ownOf(resolved);
   const range = rangeOf(of, resolved.status);
-  const isRelative = resolved.status === "offset" || resolved.status === "factor";
   const back = () => editing.say(of, "inherited");
   const slider = (props: Part): ComponentChildren => (
     <Slider
@@ -97,17 +89,17 @@ export function ValueEditor({ editing, of, resolved, colours }: ValueProps) {
     return slider({ label, value: own, standard, whole: (value) => value });
   }
   if (of.kind === "function" && isPoints(own)) {
+    const { inherited, status } = resolved;
+    const relation = isRelation(status) ? status : null;
+    const [least, most] = TRAVEL[of.name] ?? [0, 0];
+    const usual = { least, most };
     return (
       <FunctionEditor
         label={label}
         help={help}
-        points={own}
-        inherited={isRelative && isPoints(resolved.inherited) ? resolved.inherited : null}
-        isFactor={resolved.status === "factor"}
-        result={isPoints(resolved.value) ? resolved.value : own}
-        least={range.least}
-        most={range.most}
-        usual={range.travel ?? [0, 0]}
+        unit={unitOf(of)}
+        own={{ points: own, range, usual }}
+        relative={relation && isPoints(inherited) ? { relation, inherited, of: { range: of, usual } } : null}
         onDrag={(points) => editing.drag(of, points)}
         onCommit={(points) => editing.commit(of, points)}
         onCancel={() => editing.undrag(of)}
