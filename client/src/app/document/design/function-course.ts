@@ -10,8 +10,8 @@ export function isPoints(value: unknown): value is Points {
 
 /** So finely functions are combined, before points are left out. */
 const EVENLY = Array.from({ length: 49 }, (_, step) => step / 48);
-/** A point this near to the line between its neighbours, as a share of all values, is left out. */
-const STRAIGHT = 1e-4;
+/** Nobody sees a difference that is this share of the span of all values. */
+const UNSEEN = 1e-4;
 
 /**
  * The value of a function at a place along an axis, as the server has it (`server/design/src/function.rs`): a monotone
@@ -39,31 +39,30 @@ export function valuesOf(points: Points, places: readonly number[]): readonly nu
   });
 }
 
-/** Two functions combined place by place, by no more points than it takes. */
-export function combinedCourse(a: Points, b: Points, join: (a: number, b: number) => number): Points {
+/** Two functions combined place by place, by no more points than it takes to come within a share of the span of values. */
+export function combinedCourse(
+  a: Points,
+  b: Points,
+  join: (a: number, b: number) => number,
+  tolerance = UNSEEN,
+): Points {
   const own = [...a, ...b].map(([t]) => t);
   const places = [...new Set([...own, ...EVENLY])].sort((a, b) => a - b);
   const [first, second] = [valuesOf(a, places), valuesOf(b, places)];
-  return thinned(places.map((t, at) => [t, join(first[at] ?? 0, second[at] ?? 0)] as const));
-}
-
-/** Leaves out the points that change least, as long as they change nothing or are too many. */
-function thinned(points: Points): Points {
-  const kept = [...points];
-  const values = kept.map(([, value]) => value);
-  const nothing = STRAIGHT * (Math.max(...values) - Math.min(...values)) + 1e-9;
-  while (kept.length > 2) {
-    const off = kept.slice(1, -1).map(([t, value], before) => {
-      const [[t0, y0], [t1, y1]] = [pointAt(kept, before), pointAt(kept, before + 2)];
-      return Math.abs(value - y0 - ((t - t0) / (t1 - t0)) * (y1 - y0));
-    });
-    const least = Math.min(...off);
-    if (least > nothing && kept.length <= MOST_POINTS) {
+  const wanted = places.map((_, at) => join(first[at] ?? 0, second[at] ?? 0));
+  const span = Math.max(...wanted) - Math.min(...wanted);
+  const kept = new Set([0, places.length - 1]);
+  const points = () => places.flatMap((t, at) => (kept.has(at) ? [[t, wanted[at] ?? 0] as const] : []));
+  // The place where it is farthest off becomes a point, again and again.
+  while (kept.size < MOST_POINTS) {
+    const off = valuesOf(points(), places).map((value, at) => Math.abs(value - (wanted[at] ?? 0)));
+    const most = Math.max(...off);
+    if (most <= tolerance * span + 1e-9) {
       break;
     }
-    kept.splice(off.indexOf(least) + 1, 1);
+    kept.add(off.indexOf(most));
   }
-  return kept;
+  return points();
 }
 
 function slopesOf(points: Points): readonly number[] {

@@ -15,6 +15,8 @@ export const NEUTRAL: Readonly<Record<Relation, number>> = { offset: 0, factor: 
 
 /** Values nearer to nothing have no share of anything. */
 const NOTHING = 1e-6;
+/** What is said relative to a function has few points, which fingers can tell apart: it may be off by this share. */
+const FEW_POINTS = 0.02;
 
 export function isRelation(status: string): status is Relation {
   return status === "offset" || status === "factor";
@@ -51,7 +53,7 @@ export function relativeTo(inherited: unknown, value: unknown, of: DesignKey, re
   }
   const [neutral, hasFunctions] = [NEUTRAL[relation], of.kind === "function"];
   if (isPoints(inherited) && isPoints(value)) {
-    return combinedCourse(inherited, value, apart).map(([t, one]) => [round(t), one]);
+    return combinedCourse(inherited, value, apart, FEW_POINTS).map(([t, one]) => [round(t), one]);
   }
   return hasFunctions
     ? [
