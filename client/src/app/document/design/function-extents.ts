@@ -28,7 +28,7 @@ const ROUND = [1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10];
 export function extentOf({ points, range, usual }: Drawn): Extent {
   const values = points.map(([, value]) => value);
   return {
-    bottom: Math.max(range.least, Math.min(usual.least, 0, -above(-Math.min(...values)))),
+    bottom: Math.min(usual.least, 0, Math.max(range.least, -above(-Math.min(...values)))),
     top: Math.min(range.most, Math.max(usual.most, above(Math.max(...values)))),
   };
 }

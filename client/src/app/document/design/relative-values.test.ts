@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { keyNamed } from "./design-model";
 import { MOST_POINTS, type Points, valueAt } from "./function-course";
-import { relativeExtents } from "./function-extents";
+import { extentOf, relativeExtents } from "./function-extents";
 import { combined, relativeTo } from "./relative-values";
 
 const ANGLE = keyNamed("branching_angle");
@@ -71,10 +71,11 @@ describe("values said relative to others", () => {
 });
 
 describe("what is drawn of a relative function", () => {
+  const usual = { least: 0, most: 0 };
   const drawn = (points: Points, least: number, most: number) => ({
     points,
     range: { least, most },
-    usual: { least: 0, most: 0 },
+    usual,
   });
   const result = { ...drawn(FALLING, 0, 180), usual: { least: 0, most: 120 } };
 
@@ -89,6 +90,11 @@ describe("what is drawn of a relative function", () => {
       { bottom: -150, top: 150 },
       { bottom: 0, top: 300 },
     ]);
+  });
+
+  it("begins at nothing, even where values cannot", () => {
+    const taper = extentOf({ points: FALLING.map(([t, value]) => [t, value / 80]), range: keyNamed("taper"), usual });
+    expect(taper).toEqual({ bottom: 0, top: 1.5 });
   });
 
   it("has the factor 1 in its middle as long as there is room", () => {

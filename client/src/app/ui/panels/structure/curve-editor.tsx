@@ -73,6 +73,16 @@ export function CurveEditor(props: CurveEditorProps) {
         onDrag={props.onDrag}
         onCommit={props.onCommit}
         onCancel={props.onCancel}
+        buttons={
+          <>
+            <button type="button" onClick={() => props.onCommit(STRAIGHT)}>
+              {say("structure.curve.straight")}
+            </button>
+            <button type="button" onClick={() => props.onCommit(mirrored(value, side))}>
+              {say("structure.mirror")}
+            </button>
+          </>
+        }
         onHold={(isHeld) => {
           view.current = view.current && { ...view.current, isHeld };
         }}
@@ -91,14 +101,6 @@ export function CurveEditor(props: CurveEditorProps) {
           </>
         )}
       </PointField>
-      <div class="structure-row">
-        <button type="button" onClick={() => props.onCommit(STRAIGHT)}>
-          {say("structure.curve.straight")}
-        </button>
-        <button type="button" onClick={() => props.onCommit(mirrored(value, side))}>
-          {say("structure.mirror")}
-        </button>
-      </div>
     </div>
   );
 }

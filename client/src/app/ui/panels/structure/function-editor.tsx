@@ -14,7 +14,9 @@ import { type Place, PointField } from "./point-field";
 
 const [WIDTH, HEIGHT] = [240, 132];
 /** Around what is drawn: numbers stand beside it, and what a point says above it. */
-const [ABOVE, BELOW, BESIDE] = [20, 14, 30];
+const [ABOVE, BELOW, BESIDE] = [20, 14, 38];
+/** A point at an end of the axis covers none of them. */
+const PAST_POINT = 9;
 /** Two points are at least so far apart along the axis. */
 const APART = 0.02;
 const STEPS = 48;
@@ -68,7 +70,7 @@ export function FunctionEditor({ label, help, unit, own, relative, onDrag, onCom
     relative && said.map((one, at) => withRelative(inherited?.[at] ?? 0, one, relative.of.range, relative.relation));
   const written = (value: number, of: keyof Extents) => {
     const { bottom, top } = extents[of];
-    const text = numberText(value, stepOf(top - bottom));
+    const text = numberText(value, Number.isInteger(value) ? 1 : stepOf(top - bottom));
     if (of === "own" && relative?.relation === "factor") {
       return `×${text}`;
     }
@@ -101,6 +103,27 @@ export function FunctionEditor({ label, help, unit, own, relative, onDrag, onCom
         onDrag={onDrag}
         onCommit={onCommit}
         onCancel={onCancel}
+        buttons={
+          <>
+            <button
+              type="button"
+              onClick={() =>
+                onCommit([
+                  [0, middle],
+                  [1, middle],
+                ])
+              }
+            >
+              {say("structure.function.even")}
+            </button>
+            <button
+              type="button"
+              onClick={() => onCommit([...own.points].reverse().map(([t, value]) => [round(1 - t), value]))}
+            >
+              {say("structure.mirror")}
+            </button>
+          </>
+        }
         onHold={(holds) => {
           held.current = holds ? extents : null;
         }}
@@ -112,7 +135,7 @@ export function FunctionEditor({ label, help, unit, own, relative, onDrag, onCom
             <>
               <rect x={x(0)} y={ABOVE} width={right - BESIDE} height={HEIGHT - ABOVE - BELOW} class="structure-grid" />
               <Scale
-                at={x(0) - 3}
+                at={x(0) - PAST_POINT}
                 anchor="end"
                 extent={extents.own}
                 neutral={relative ? NEUTRAL[relative.relation] : undefined}
@@ -129,7 +152,7 @@ export function FunctionEditor({ label, help, unit, own, relative, onDrag, onCom
                     class="structure-chord"
                   />
                   <Scale
-                    at={right + 3}
+                    at={right + PAST_POINT}
                     anchor="start"
                     extent={extents.result}
                     up={(value) => up(value, "result")}
@@ -150,25 +173,6 @@ export function FunctionEditor({ label, help, unit, own, relative, onDrag, onCom
         }}
       </PointField>
       {relative && <p class="structure-legend">{say("structure.function.relative")}</p>}
-      <div class="structure-row">
-        <button
-          type="button"
-          onClick={() =>
-            onCommit([
-              [0, middle],
-              [1, middle],
-            ])
-          }
-        >
-          {say("structure.function.even")}
-        </button>
-        <button
-          type="button"
-          onClick={() => onCommit([...own.points].reverse().map(([t, value]) => [round(1 - t), value]))}
-        >
-          {say("structure.mirror")}
-        </button>
-      </div>
     </div>
   );
 }

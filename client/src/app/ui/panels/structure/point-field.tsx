@@ -37,6 +37,8 @@ interface PointFieldProps<Value> {
   readonly onCancel: () => void;
   /** Tells when a finger comes down, and when it has gone. */
   readonly onHold?: (holds: boolean) => void;
+  /** What changes all points at once. */
+  readonly buttons: ComponentChildren;
   /** What is drawn beneath the points; `at` is the point that is held or was picked last. */
   readonly children: (shown: Value, at: number | null) => ComponentChildren;
 }
@@ -207,18 +209,21 @@ export function PointField<Value>(props: PointFieldProps<Value>) {
             role="button"
             tabIndex={0}
             aria-label={say("structure.point", { number: at + 1 })}
+            onFocus={() => setPicked(at)}
             onKeyDown={(event) => key(event, at, place)}
           />
         ))}
       </svg>
-      <button
-        type="button"
-        class="structure-small"
-        disabled={!isPicked || without(value, picked) === null || held !== null}
-        onClick={() => picked !== null && remove(picked)}
-      >
-        {say("structure.point.without")}
-      </button>
+      <div class="structure-row">
+        {props.buttons}
+        <button
+          type="button"
+          disabled={!isPicked || without(value, picked) === null || held !== null}
+          onClick={() => picked !== null && remove(picked)}
+        >
+          {say("structure.point.without")}
+        </button>
+      </div>
     </>
   );
 }
