@@ -86,6 +86,10 @@ impl Problem {
             let inner = field.clone();
             *field = format!("{outer}.{inner}");
             self.message = self.message.replacen(&inner, field, 1);
+        } else {
+            // It is about all of that part.
+            self.message = self.message.replacen("the message", outer, 1);
+            self.field = Some(outer.to_owned());
         }
         self
     }
