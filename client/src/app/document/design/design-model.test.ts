@@ -119,6 +119,20 @@ describe("editing a design", () => {
     });
   });
 
+  it("DS10: shows a tree that was described once its design stands, and not before", () => {
+    const { of, sent, design } = editing(GRAPH, 3);
+    of.choose("/1");
+    of.describe(0);
+    expect(sent).toEqual([{ kind: "fit_design", row: 0 }]);
+    // The one in force is told again meanwhile; perhaps it was fitted as well.
+    design.receive({ ...told(GRAPH, 3), overlap: 0.9 });
+    expect([of.isDescribed(), of.begun.value, of.chosen.value]).toEqual([false, 0, "/1"]);
+    design.receive({ ...told(GRAPH), overlap: 0.9, row: 40 });
+    expect(of.isDescribed()).toBe(true);
+    of.showDescribed();
+    expect([of.isDescribed(), of.begun.value, of.chosen.value]).toEqual([false, 1, "/"]);
+  });
+
   it("keeps relative values relative and shared ones shared", () => {
     const { of, sent } = editing();
     of.choose("/1/0");
