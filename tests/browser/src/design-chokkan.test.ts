@@ -61,7 +61,10 @@ class Hand {
     const drawing = this.tablet.page.getByRole("group", { name: label });
     await this.#reach(drawing);
     const frame = await this.tablet.boxOf(drawing.locator("rect"));
-    const [top = 0, bottom = 0] = (await drawing.locator("text").allTextContents()).map(Number);
+    // The axis has its unit beside each number.
+    const numbers = await drawing.locator("text:not(.structure-said)").allTextContents();
+    const marks = numbers.map((text) => Number.parseFloat(text.replace("−", "-")));
+    const [top, bottom] = [Math.max(...marks), Math.min(...marks)];
     const circle = drawing.locator("circle").nth(index < 0 ? (await drawing.locator("circle").count()) - 1 : index);
     const from = await this.tablet.boxOf(circle);
     const begin = { x: from.x + from.width / 2, y: from.y + from.height / 2 };
