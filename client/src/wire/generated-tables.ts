@@ -48,6 +48,7 @@ export const LOOKS = {
   leaves: {
     shape: {"kind":"choice","choices":["ovate","round","lanceolate","lobed","palmate","fan","compound","needle","scale"]},
     tint: {"kind":"colour"},
+    blades: {"kind":"number","least":1.0,"most":12.0,"step":1.0},
     vigor_shift: {"kind":"number","least":0.0,"most":1.0,"step":0.01},
     season: {"kind":"number","least":0.0,"most":3.0,"step":0.02},
     orientation: {"kind":"number","least":-1.0,"most":1.0,"step":0.02},

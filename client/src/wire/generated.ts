@@ -175,7 +175,7 @@ export const GUST_SEED = 7 as const;
 
 export const DEFAULT_PARAMETERS: Parameters = {"internode_length":0.1,"occupancy_radius":1.5,"perception_depth":3.0,"perception_angle":90.0,"phyllotactic_angle":137.5,"buds_per_node":1,"branching_angle":50.0,"deflection_angle":5.0,"apical_control":0.52,"mature_apical_control":0.52,"maturity_start":0,"maturity_steps":0,"light_sensitivity":1.0,"max_shoot_length":4,"shedding_threshold":0.0,"vigor_gain":2.0,"vigor_model":"borchert_honda","priority_least_weight":0.006,"priority_decline":0.5,"heading_weight":0.5,"tropism_weight":0.25,"space_weight":0.25,"phototropism":0.0,"setpoint_angle":0.0,"trunk_upward":true,"tropism_from_stroke":false,"gravimorphism_vertical":1.0,"gravimorphism_horizontal":1.0,"gravimorphism_shift":0.0,"marker_density":0.15,"markers_per_bud":6,"marker_max_age":8,"shadow_strength":0.12,"shadow_decay":2.0,"shadow_depth":6,"girth_exponent":2.5,"twig_diameter":0.07,"leaves_per_node":4,"leaf_size":1.0};
 
-export const DEFAULT_APPEARANCE: Appearance = {"leaves":{"shape":"ovate","tint":[88,128,52],"vigor_shift":0.4,"season":1.0,"orientation":0.0},"flowers":{"kind":"none","tint":[246,236,240],"size":0.5,"share":0.5,"place":"twigs","vigor":0.0},"fruits":{"kind":"none","tint":[178,44,34],"size":0.4,"share":0.2,"place":"twigs","vigor":0.0},"bark":{"kind":"furrowed","tint":[121,110,97],"relief":1.0,"root_flare":1.0,"collar":1.0,"smoothing":1.0},"background":{"sky":"meadow","ground":"grass","backdrop":[226,222,214],"sun_azimuth":310.0,"sun_elevation":48.0},"wind":{"speed":0.0,"direction":0.0,"rise":0.0,"turbulence":0.6,"flutter":1.0,"sag":0.0,"suppleness":1.0,"damping":1.0,"snow":0.0,"rain":0.0}};
+export const DEFAULT_APPEARANCE: Appearance = {"leaves":{"shape":"ovate","tint":[88,128,52],"blades":1,"vigor_shift":0.4,"season":1.0,"orientation":0.0},"flowers":{"kind":"none","tint":[246,236,240],"size":0.5,"share":0.5,"place":"twigs","vigor":0.0},"fruits":{"kind":"none","tint":[178,44,34],"size":0.4,"share":0.2,"place":"twigs","vigor":0.0},"bark":{"kind":"furrowed","tint":[121,110,97],"relief":1.0,"root_flare":1.0,"collar":1.0,"smoothing":1.0},"background":{"sky":"meadow","ground":"grass","backdrop":[226,222,214],"sun_azimuth":310.0,"sun_elevation":48.0},"wind":{"speed":0.0,"direction":0.0,"rise":0.0,"turbulence":0.6,"flutter":1.0,"sag":0.0,"suppleness":1.0,"damping":1.0,"snow":0.0,"rain":0.0}};
 
 export type StrokeSample = { 
 /**
@@ -1003,6 +1003,10 @@ shape: LeafKind,
  */
 tint: [number, number, number], 
 /**
+ * Into how many blades each leaf is divided (`LF6`), which together cover as much.
+ */
+blades: number, 
+/**
  * How far the hue shifts towards yellow and red on shoots of little vigor.
  */
 vigor_shift: number, 
@@ -1024,6 +1028,10 @@ shape?: LeafKind,
  * Their colour in summer.
  */
 tint?: [number, number, number], 
+/**
+ * Into how many blades each leaf is divided (`LF6`), which together cover as much.
+ */
+blades?: number, 
 /**
  * How far the hue shifts towards yellow and red on shoots of little vigor.
  */

@@ -129,6 +129,8 @@ settings! {
         shape: LeafKind = LeafKind::Ovate;
         /// Their colour in summer.
         tint: Tint = [88, 128, 52];
+        /// Into how many blades each leaf is divided (`LF6`), which together cover as much.
+        blades: u32 = 1, range(1.0, 12.0);
         /// How far the hue shifts towards yellow and red on shoots of little vigor.
         vigor_shift: f32 = 0.4, range(0.0, 1.0);
         /// 0 bud burst, 1 summer, 2 autumn, 3 winter, and anything between; evergreen leaves hardly change.

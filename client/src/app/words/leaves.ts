@@ -20,6 +20,11 @@ export const LEAVES = {
     "The colour of a healthy leaf in summer; spring and autumn are made from it.",
     "Die Farbe eines gesunden Blatts im Sommer; Frühling und Herbst werden daraus gemischt.",
   ],
+  "leaves.blades": ["Blades per leaf", "Spreiten je Blatt"],
+  "leaves.blades.help": [
+    "Into how many smaller blades each leaf is divided; together they cover as much.",
+    "In wie viele kleinere Spreiten jedes Blatt geteilt ist; zusammen bedecken sie gleich viel.",
+  ],
   "leaves.vigor_shift": ["Hue by vigor", "Farbton nach Wuchskraft"],
   "leaves.vigor_shift.help": [
     "How far leaves on weak shoots turn yellow and red.",

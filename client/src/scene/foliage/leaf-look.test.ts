@@ -28,6 +28,32 @@ interface Shape {
   pointing: number[];
 }
 
+/** A blade of a leaf that is divided into so many (LF6). */
+interface Blade {
+  direction: number[];
+  normal: number[];
+  random: number;
+  count: number;
+  number: number;
+  bend: number;
+  base: number[];
+  way: number[];
+  up: number[];
+  size: number[];
+  own: number[];
+}
+
+interface BladeFunctions {
+  bladeOf(
+    d: number[],
+    n: number[],
+    random: number,
+    count: number,
+    number: number,
+    bend: number,
+  ): { base: number[]; direction: number[]; normal: number[]; size: number; own: number };
+}
+
 interface ColourFunctions {
   leafHues(vigor: number, light: number, own: readonly number[]): { middle: number[]; margin: number[] };
 }
@@ -41,7 +67,7 @@ interface ShapeFunctions {
 }
 
 const file = new URL("../../../../server/export/golden/leaf-look.json", import.meta.url);
-const samples: { looks: Look[]; shapes: Shape[] } = JSON.parse(readFileSync(file, "utf8"));
+const samples: { looks: Look[]; shapes: Shape[]; blades: Blade[] } = JSON.parse(readFileSync(file, "utf8"));
 
 function expectNear(found: ArrayLike<number>, wanted: readonly number[], tolerance: number) {
   expect(found.length).toBe(wanted.length);
@@ -85,5 +111,17 @@ it("leaves have the size and direction of those in exports", () => {
     expectNear([shader.unfolding(share, own[1]!)], wanted.unfolding, 2e-5);
     expectNear(shader.bending(random, own[3]!), wanted.bending, 5e-4);
     expectNear(shader.pointing(direction, heading, [0, 0, 0], lean, orientation), wanted.pointing, 2e-5);
+  }
+});
+
+it("LF6: leaves are divided into the blades of exports", () => {
+  const { bladeOf } = shaderFunctions<BladeFunctions>(LEAF_SHAPE, ["bladeOf"]);
+  expect(samples.blades.length).toBeGreaterThan(20);
+  for (const { direction, normal, random, count, number, bend, ...wanted } of samples.blades) {
+    const found = bladeOf(direction, normal, random, count, number, bend);
+    expectNear(found.base, wanted.base, 2e-4);
+    expectNear(found.direction, wanted.way, 2e-4);
+    expectNear(found.normal, wanted.up, 2e-4);
+    expectNear([found.size, found.own], [wanted.size[0]!, wanted.own[0]!], 2e-4);
   }
 });

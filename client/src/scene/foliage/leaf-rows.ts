@@ -1,10 +1,10 @@
-import { Mesh, type ShaderMaterial, type Vector2, type Vector4 } from "three";
+import { Mesh, type ShaderMaterial, type Vector3, type Vector4 } from "three";
 import type { Box } from "../camera/camera-view";
 import type { Uniforms } from "../materials";
 import type { Fineness } from "../rendering/fineness";
 import type { TreeTable } from "../table/tree-table";
 import { GivenLengths } from "./given-lengths";
-import { BLADE_CARDS, levelFor, SPRAY_CARDS } from "./leaf-cards";
+import { BLADE_CARDS, bladesFor, divided, levelFor, SPRAY_CARDS } from "./leaf-cards";
 import { leafRandom, SHOOT, shootOf } from "./leaves";
 import { reachFrom } from "./nearness";
 import { OrganKind, organsOf, standingOf } from "./organs";
@@ -13,6 +13,10 @@ import { RowInstances } from "./row-instances";
 /** The largest leaf is this much longer than the leaf size (LF2). */
 const LARGEST = 1.25;
 const FAR = 2;
+/** Where there are triangles for less than this share of the blades, a leaf shows the picture of a twig instead, ... */
+const TOO_FEW = 0.6;
+/** ... unless it is longer than this in pixels, for the picture is no finer. */
+const TWIG_PIXELS = 80;
 
 /** What a leaf is drawn with, and what draws its shadow. */
 export interface LeafMaterials {
@@ -20,7 +24,7 @@ export interface LeafMaterials {
   readonly leafDepth: ShaderMaterial;
 }
 
-/** All leaves as instances of one card, placed by the rules LF1 to LF5. */
+/** All leaves as instances of one card, placed by the rules LF1 to LF6. */
 export class LeafRows {
   /** Drawn into the picture. */
   readonly mesh: Mesh;
@@ -29,6 +33,8 @@ export class LeafRows {
   private readonly instances: RowInstances;
   private readonly lengths = new GivenLengths();
   private spray = false;
+  /** Blades that each leaf is drawn as. */
+  private blades = 1;
 
   /** The uniforms are the materials' own. */
   constructor(
@@ -81,13 +87,16 @@ export class LeafRows {
   /** Chooses triangles by how large the nearest leaf in the box may be on the screen, and how many leaves may be drawn. */
   detail({ eye, pixels, detailed, leaves }: Fineness, box: Box): void {
     const { filled, geometries } = this.instances;
-    this.follow();
+    const share = Math.min(1, leaves / Math.max(1, filled));
+    const drawn = filled * share;
     const size = LARGEST * this.sizes[1];
     const longest = (size * pixels) / Math.max(0.5, reachFrom(eye, box).nearest - size);
-    const level = levelFor(this.spray ? SPRAY_CARDS : BLADE_CARDS, filled, longest, detailed);
+    const twig = this.follow(drawn, longest, detailed);
+    const { cards, blades } = this;
+    const level = twig ? FAR : levelFor(cards, drawn * blades, longest / Math.sqrt(blades), detailed);
     this.mesh.geometry = geometries[level]!;
-    const share = Math.min(1, leaves / Math.max(1, filled));
-    (this.uniforms.uLeafLevel!.value as Vector2).set(level, share);
+    (this.uniforms.uLeafLevel!.value as Vector3).set(level, share, blades);
+    this.uniforms.uLeafTwig!.value = twig ? 1 : 0;
     this.instances.thin(Math.floor(1 / share));
   }
 
@@ -112,11 +121,25 @@ export class LeafRows {
     this.instances.dispose();
   }
 
-  /** Sprays stand on crossed cards, but for the one that all are far off. */
-  private follow(): void {
+  private get cards() {
+    return this.spray ? SPRAY_CARDS : BLADE_CARDS;
+  }
+
+  /**
+   * Sprays stand on crossed cards, but for the one that all are far off; and so many leaves, so long on the screen, are
+   * divided into blades. Says whether each shows the picture of a twig instead.
+   */
+  private follow(leaves: number, longest: number, detailed: boolean): boolean {
     const spray = (this.uniforms.uLeafForm!.value as Vector4).y > 0.5;
-    if (spray === this.spray) return;
-    this.spray = spray;
-    this.instances.shape(spray ? SPRAY_CARDS : BLADE_CARDS);
+    const wanted = this.uniforms.uLeafBlades!.value as number;
+    const most = bladesFor(spray ? SPRAY_CARDS : BLADE_CARDS, leaves, wanted, detailed);
+    const twig = most < TOO_FEW * wanted && longest < TWIG_PIXELS;
+    const blades = twig ? 1 : most;
+    if (spray !== this.spray || blades !== this.blades) {
+      this.spray = spray;
+      this.blades = blades;
+      this.instances.shape(divided(this.cards, blades));
+    }
+    return twig;
   }
 }

@@ -1,4 +1,4 @@
-import { Vector2, Vector3, Vector4 } from "three";
+import { Vector3, Vector4 } from "three";
 import { DEFAULT_APPEARANCE, LEAF_NATURES, type LeafLook } from "../../wire/generated";
 import { linear } from "../light/colours";
 import type { Uniforms } from "../materials";
@@ -12,6 +12,7 @@ export class LeafUniforms {
   private readonly form = { value: new Vector4() };
   private readonly season = { value: new Vector4() };
   private readonly traits = { value: new Vector4() };
+  private readonly blades = { value: 1 };
   private readonly tint = { value: new Vector3() };
   private readonly autumn = [{ value: new Vector3() }, { value: new Vector3() }, { value: new Vector3() }] as const;
   /** Single leaves, and sprigs of them. */
@@ -22,7 +23,9 @@ export class LeafUniforms {
     const [single, sprig] = this.textures.drawn;
     const { form } = this;
     Object.assign(uniforms, {
-      uLeafLevel: { value: new Vector2(2, 1) },
+      uLeafLevel: { value: new Vector3(2, 1, 1) },
+      uLeafBlades: this.blades,
+      uLeafTwig: { value: 0 },
       uLeafBand: { value: new Vector3(0, 0, 1) },
       uLeafForm: {
         get value() {
@@ -52,6 +55,7 @@ export class LeafUniforms {
     const { is_spray, lean, bend, autumn } = LEAF_NATURES[look.shape];
     this.form.value.set(1, is_spray ? 1 : 0, lean, bend);
     this.season.value.set(unfolded, present, fresh, turned);
+    this.blades.value = look.blades;
     this.traits.value.set(look.vigor_shift, look.orientation, withered, 0);
     this.tint.value.set(...linear(look.tint));
     for (const [i, { value }] of this.autumn.entries()) value.set(...linear(autumn[i]!));

@@ -1,4 +1,4 @@
-import { ShaderMaterial, Vector2, Vector3, Vector4 } from "three";
+import { ShaderMaterial, Vector3, Vector4 } from "three";
 import { beforeEach, describe, expect, it } from "vitest";
 import { countOf } from "../../../test/items";
 import { sampleTree } from "../../../test/sample-tree";
@@ -68,7 +68,9 @@ describe("sprigs", () => {
     uniforms = {
       uLeafSize: { value: 0.7 },
       uLeafForm: { value: new Vector4() },
-      uLeafLevel: { value: new Vector2() },
+      uLeafLevel: { value: new Vector3() },
+      uLeafBlades: { value: 1 },
+      uLeafTwig: { value: 0 },
       uLeafBand: { value: new Vector3() },
     };
     leaves = new LeafRows({ leaf: material(), leafDepth: material() }, uniforms);

@@ -1,4 +1,5 @@
-import { SPRIG_REACH, TILE_MARGIN } from "../painting/measures";
+import { BLADE_STEP } from "../foliage/leaf-cards";
+import { SPRIG_LEAVES, SPRIG_REACH, TILE_MARGIN } from "../painting/measures";
 import { COVER, HEAD, LIGHT, NODES } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
 import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";
@@ -52,12 +53,25 @@ vec3 pointing(vec3 d, vec3 h, vec3 side, float lean, float turn) {
   vec3 lying = mix(d, h, lean);
   return normalize(mix(lying, vec3(0.0, sign(turn), 0.0), 0.92 * abs(turn)) + 1e-4 * side);
 }
+struct Blade { vec3 base; vec3 direction; vec3 normal; float size; float own; };
+/** One of the blades that a leaf is divided into (LF6), in the leaf's length; it bends so far. */
+Blade bladeOf(vec3 d, vec3 n, float random, float count, float number, float bend) {
+  if (count < 1.5) return Blade(vec3(0.0, 0.0, 0.0), d, n, 1.0, random);
+  float own = fract(random + 0.618034 * number);
+  float open = number + 1.5 > count ? 0.25 : 1.15;
+  float angle = 2.399963 * number + 6.2831853 * random;
+  vec3 aside = cos(angle) * cross(d, n) + 0.55 * sin(angle) * n;
+  vec3 way = normalize(d + open * aside - vec3(0.0, 0.4 * bend * own, 0.0));
+  vec3 base = d * (0.05 + 0.8 * (number + 0.5) / count);
+  return Blade(base, way, normalize(n - dot(n, way) * way), (0.82 + 0.36 * own) * inversesqrt(count), own);
+}
 `;
 
 /** Cards that show a tile of an atlas: how they turn to the eye, and which part of the picture they show. */
 export const CARD = /* glsl */ `
 const float MARGIN = ${TILE_MARGIN.toFixed(4)};
 const float SPRIG_REACH = ${SPRIG_REACH.toFixed(4)};
+const float SPRIG_LEAVES = ${SPRIG_LEAVES.toFixed(1)};
 /** Towards the viewer: the eye, or the sun while shadows are drawn. */
 vec3 towardsEye(vec3 place) {
 #ifdef CASTER
@@ -75,21 +89,21 @@ vec2 tileAt(vec2 at, float random, float mirror) {
 
 /** Pictures of single leaves, or of sprigs. */
 const LEAF_SAMPLERS = /* glsl */ `
+uniform vec4 uLeafForm;
 #ifdef SPRIG
 uniform sampler2D uSprigColour;
 uniform sampler2D uSprigRelief;
-#define PAINTED uSprigColour
-#define RELIEF uSprigRelief
 // Leaves of a pixel or two stay apart, or a sprig would be a blot.
-#define SHARPER -1.0
-#define FINER -1.0
+#define paintedAt(at) texture(uSprigColour, at, -1.0)
+#define reliefAt(at) texture(uSprigRelief, at, -1.0)
 #else
 uniform sampler2D uLeafColour; // half the brightness, second hue, sheerness, coverage
 uniform sampler2D uLeafRelief; // normal across and along, wood, margin
-#define PAINTED uLeafColour
-#define RELIEF uLeafRelief
-#define SHARPER (-0.35 * uLeafForm.y)
-#define FINER 0.0
+uniform sampler2D uSprigColour;
+uniform sampler2D uSprigRelief;
+uniform float uLeafTwig; // 1 where a leaf shows the picture of a twig
+vec4 paintedAt(vec2 at) { return uLeafTwig > 0.5 ? texture(uSprigColour, at, -1.0) : texture(uLeafColour, at, -0.35 * uLeafForm.y); }
+vec4 reliefAt(vec2 at) { return uLeafTwig > 0.5 ? texture(uSprigRelief, at, -1.0) : texture(uLeafRelief, at); }
 #endif
 `;
 
@@ -167,12 +181,13 @@ export const leafVertex = ({
 } = NO_CROWN) => /* glsl */ `${HEAD}${BORNE}${NODES}${TRAITS}${GHOST_PLACE}${LEAF_PLACE}
 uniform vec3 uSun;
 uniform float uLeafSize;
-uniform vec2 uLeafLevel; // 0 near to 2 far, share of the leaves that are drawn
+uniform vec3 uLeafLevel; // 0 near to 2 far, share of the leaves that are drawn, blades that each is divided into
 uniform vec3 uLeafBand; // length of a leaf in pixels up to which all give way to sprigs, and from which none; how much sprigs swell
-#ifdef SPRIG
 uniform float uSprigSpan; // leaves that a sprig is long
+#ifndef SPRIG
+uniform float uLeafTwig;
 #endif
-in vec3 card; // across −1 to 1, along 0 to 1, which of the crossed ones
+in vec3 card; // across −1 to 1, along 0 to 1, which of the crossed ones and which blade
 out vec3 vWorld;
 out vec3 vNormal;
 out vec4 vSide; // across the blade, and ±1 where the picture is mirrored
@@ -182,6 +197,7 @@ out vec3 vMargin;
 out vec2 vLight; // below 0 for what is marked; how open to the sky it is
 out float vTrait;
 const float SECONDS = 0.35;
+const float BLADE_STEP = ${BLADE_STEP.toFixed(1)};
 ${CARD}${LEAF_SHAPE}${LEAF_COLOUR}${declared}
 void main() {
   Borne own = borne();
@@ -206,19 +222,32 @@ void main() {
   float share = single;
   float haste = uLeafLevel.y;
 #endif
-  float there = presence(uLeafSeason.y, more.z) * presence(min(1.0, haste * float(uItemsDrawn[1])), more.w) * presence(share, fract(random * 1531.7));
+  float there = presence(min(1.0, haste * float(uItemsDrawn[1])), more.w) * presence(share, fract(random * 1531.7));
   if (there <= 0.0 || node.look == HIDDEN || distance(node.position, from.position) < 1e-6) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     return;
   }
   float vigor = floor(tint) / 15.0;
   float grown = eased(uTime - node.birth - node.growing * 0.6, SECONDS);
-  float size = (own.length_ > 0.0 ? usual : (0.75 + 0.5 * random) * usual) * grown * unfolding(uLeafSeason.x, more.y) * there * inversesqrt(max(haste, 0.2));
+  float size = (own.length_ > 0.0 ? usual : (0.75 + 0.5 * random) * usual) * grown * there * inversesqrt(max(haste, 0.2));
   Leaf place = leafAt(from.position, node.position, leaf.z, leaf.w, own.stance);
   vec3 h = normalize(node.position - from.position);
   vec3 side = cross(place.direction, place.normal);
   vec3 d = pointing(place.direction, h, side, uLeafForm.z, uLeafTraits.y);
   side = normalize(side - dot(side, d) * d);
+  float which = card.z;
+#ifndef SPRIG
+  float number = floor(which / BLADE_STEP);
+  which -= BLADE_STEP * number;
+  Blade blade = bladeOf(d, cross(side, d), random, uLeafLevel.z, number, uLeafForm.w);
+  place.base += size * blade.base;
+  d = blade.direction;
+  side = cross(d, blade.normal);
+  size *= blade.size;
+  random = blade.own;
+  more = ownNumbers(random);
+#endif
+  size *= presence(uLeafSeason.y, more.z) * unfolding(uLeafSeason.x, more.y);
   vec3 n = cross(side, d);
   float mirror = more.x > 0.5 ? 1.0 : -1.0;
   float across = card.x * uLeafForm.x * (1.0 + 2.0 * MARGIN);
@@ -230,6 +259,13 @@ void main() {
   float span = uSprigSpan * uLeafBand.z * mix(1.35, 1.0, smoothstep(1.0, 3.8, length_)) * (1.0 + 2.0 * MARGIN);
   along = (card.y - 0.5) * span + 0.5;
   across = card.x * SPRIG_REACH * span;
+#else
+  // A twig with the picture of a sprig covers as much as one leaf.
+  if (uLeafTwig > 0.5) {
+    float span = uSprigSpan * inversesqrt(SPRIG_LEAVES) * (1.0 + 2.0 * MARGIN);
+    along = (card.y - 0.5) * span + 0.5;
+    across = card.x * SPRIG_REACH * span;
+  }
 #endif
   vec3 world = place.base;
   vec3 lengthwise = d;
@@ -240,11 +276,11 @@ void main() {
 #if defined(CASTER) || defined(SPRIG)
     far = 1.0;
 #endif
-    float angle = 1.0472 * card.z + 6.2832 * more.y;
+    float angle = 1.0472 * which + 6.2832 * more.y;
     vec3 fixed_ = cos(angle) * side + sin(angle) * n;
     facing *= dot(facing, fixed_) < 0.0 ? -1.0 : 1.0;
-    side = card.z < 0.5 ? normalize(mix(fixed_, facing, far)) : fixed_;
-    across *= card.z < 0.5 ? 1.0 : 1.0 - far;
+    side = which < 0.5 ? normalize(mix(fixed_, facing, far)) : fixed_;
+    across *= which < 0.5 ? 1.0 : 1.0 - far;
     // Needles stand all around: the further out, the more they look to the side.
     n = cross(side, d);
     n = normalize((dot(n, eye) < 0.0 ? -n : n) + side * card.x * 0.9);
@@ -324,7 +360,7 @@ ${LEAF_SAMPLERS}
 in vec2 vPicture;
 out vec4 colour;
 void main() {
-  if (texture(PAINTED, vPicture).a < 0.5) discard;
+  if (paintedAt(vPicture).a < 0.5) discard;
   colour = depthColour();
 }
 `;
@@ -350,7 +386,6 @@ vec3 thinLit(vec3 albedo, vec3 normal, vec3 sight, vec3 world, float sheer, floa
 /** A leaf as its picture shows it. */
 export const leafFragment = (light = THIN_LIGHT) => /* glsl */ `${HEAD}${LIGHT}${MODES}${GHOST_COLOUR}${CUT}${light}
 ${LEAF_SAMPLERS}
-uniform vec4 uLeafForm;
 in vec3 vWorld;
 in vec3 vNormal;
 in vec4 vSide;
@@ -364,7 +399,7 @@ const vec3 TWIG = vec3(0.150, 0.095, 0.055);
 const vec4 FLAT_BLADE = vec4(128.0 / 255.0, 128.0 / 255.0, 0.0, 0.0);
 
 void main() {
-  vec4 painted = texture(PAINTED, vPicture, SHARPER);
+  vec4 painted = paintedAt(vPicture);
   vec3 face = facet(vWorld, normalize(cameraPosition - vWorld));
 #ifdef SPRIG
   // Of a leaf that is hardly a pixel long there is no edge to be seen.
@@ -377,7 +412,7 @@ void main() {
 #else
   if (there < leastAt(vPicture, vWorld)) discard;
 #endif
-  vec4 relief = texture(RELIEF, vPicture, FINER);
+  vec4 relief = reliefAt(vPicture);
   if (uShown.z < 0.5) {
     painted = vec4(0.5, 0.0, painted.ba);
     relief = FLAT_BLADE;

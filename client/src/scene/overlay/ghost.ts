@@ -1,4 +1,4 @@
-import { FrontSide, GLSL3, Group, Quaternion, RawShaderMaterial, Vector2, Vector3, Vector4 } from "three";
+import { FrontSide, GLSL3, Group, Quaternion, RawShaderMaterial, Vector3, Vector4 } from "three";
 import type { Box } from "../camera/camera-view";
 import { LeafRows } from "../foliage/leaf-rows";
 import { BRANCH_VERTEX, branchFragment } from "../glsl/branch";
@@ -36,7 +36,8 @@ export class Ghost {
       // A ghost is always lit: draw modes have no numbers for its rows.
       uMode: { value: 0 },
       // Both passes must meet the very same leaves, however they are looked at.
-      uLeafLevel: { value: new Vector2(2, 1) },
+      uLeafLevel: { value: new Vector3(2, 1, 1) },
+      uLeafTwig: { value: 0 },
       uLeafBand: { value: new Vector3(0, 0, 1) },
       uGhostTurn: { value: this.placement.turn },
       uGhostFrom: { value: this.placement.from },

@@ -3,6 +3,8 @@
 //!
 //! After a deliberate change: `UPDATE_GOLDEN=1 cargo test -p espalier-export leaf_look`.
 
+use std::f32::consts::TAU;
+
 use espalier_mesh::leaves::Leaf;
 use espalier_plant::{MetamerId, Plant};
 use espalier_settings::LeafLook;
@@ -22,6 +24,8 @@ pub(crate) struct LeafPainter {
     spray: f32,
     lean: f32,
     orientation: f32,
+    bend: f32,
+    blades: u32,
     vigor_shift: f32,
     unfolded: f32,
     present: f32,
@@ -74,6 +78,8 @@ impl LeafPainter {
             spray: f32::from(u8::from(nature.is_spray)),
             lean: nature.lean,
             orientation: look.orientation,
+            bend: nature.bend,
+            blades: look.blades,
             vigor_shift: look.vigor_shift,
             unfolded: nature.unfolded.at(season),
             present: nature.present.at(season),
@@ -83,19 +89,20 @@ impl LeafPainter {
         }
     }
 
-    /// The leaf as it hangs in its season, and its colour; nothing of one that has fallen.
-    pub(crate) fn paint(&self, leaf: &Leaf, shoot: &Shoot) -> Option<(Leaf, Vec3)> {
-        let own = own_numbers(leaf.random);
-        let there = presence(self.present, own.z);
-        if there <= 0.0 {
-            return None;
-        }
-        let size = leaf.size * there * unfolding(self.unfolded, own.y);
+    /// The blades of a leaf as they hang in their season, and their colours; nothing of those that have fallen.
+    pub(crate) fn paint(&self, leaf: Leaf, shoot: Shoot) -> impl Iterator<Item = (Leaf, Vec3)> {
         let direction = pointing(leaf.direction, shoot.heading, self.lean, self.orientation);
         let side = leaf.direction.cross(leaf.normal).reject_from_normalized(direction);
         let normal = side.normalize_or(direction.any_orthonormal_vector()).cross(direction);
-        let hue = self.hues(shoot.vigor, shoot.light, Vec3::new(leaf.random, own.y, own.w)).middle;
-        Some((Leaf { size, direction, normal, ..*leaf }, hue))
+        let whole = Leaf { direction, normal, ..leaf };
+        (0..self.blades).filter_map(move |number| {
+            let blade = blade_of(&whole, self.blades, number, self.bend);
+            let own = own_numbers(blade.random);
+            let there = presence(self.present, own.z);
+            let size = blade.size * there * unfolding(self.unfolded, own.y);
+            let hue = self.hues(shoot.vigor, shoot.light, Vec3::new(blade.random, own.y, own.w)).middle;
+            (there > 0.0).then_some((Leaf { size, ..blade }, hue))
+        })
     }
 
     /// The colours of a leaf as most are.
@@ -160,6 +167,29 @@ fn unfolding(unfolded: f32, number: f32) -> f32 {
 fn pointing(direction: Vec3, heading: Vec3, lean: f32, orientation: f32) -> Vec3 {
     let way = if orientation < 0.0 { -Vec3::Y } else { Vec3::Y };
     direction.lerp(heading, lean).lerp(way, 0.92 * orientation.abs()).normalize_or(direction)
+}
+
+/// One of the blades that a leaf is divided into (LF6), which bends so far.
+fn blade_of(leaf: &Leaf, blades: u32, number: u32, bend: f32) -> Leaf {
+    let Leaf { base, direction, normal, size, random } = *leaf;
+    if blades < 2 {
+        return *leaf;
+    }
+    let (count, k) = (blades as f32, number as f32);
+    let random = (random + 0.618_034 * k).fract();
+    // A twig with one at its end and others around it, more of them to the sides than above and below.
+    let open = if number + 1 == blades { 0.25 } else { 1.15 };
+    let (sin, cos) = libm::sincosf(2.399_963 * k + TAU * leaf.random);
+    let aside = direction.cross(normal) * cos + normal * (0.55 * sin);
+    let way = direction + aside * open - Vec3::Y * (0.4 * bend * random);
+    let way = way.normalize_or(direction);
+    Leaf {
+        base: base + direction * (size * (0.05 + 0.8 * (k + 0.5) / count)),
+        direction: way,
+        normal: normal.reject_from_normalized(way).normalize_or(way.any_orthonormal_vector()),
+        size: size * (0.82 + 0.36 * random) / count.sqrt(),
+        random,
+    }
 }
 
 /// How far the tip of a blade bows and its halves rise from the midrib, each leaf by its own measure.
@@ -239,10 +269,35 @@ mod tests {
         shapes.collect()
     }
 
+    fn blades() -> Value {
+        let blades = (0..24).map(|i| {
+            let random = (i as f32 * 0.618_034 + 0.05).fract();
+            let direction = Vec3::new(random - 0.5, 0.6 - 0.06 * i as f32, 0.4).normalize();
+            let normal = Vec3::new(0.1, 1.0, -random).reject_from_normalized(direction).normalize();
+            let whole = Leaf { base: Vec3::ZERO, direction, normal, size: 1.0, random };
+            let (count, bend) = ([1, 2, 3, 5, 9, 12][i % 6], [1.0, 0.0, 0.5][i % 3]);
+            let blade = blade_of(&whole, count, (i as u32 / 2) % count, bend);
+            json!({
+                "direction": direction.to_array(),
+                "normal": normal.to_array(),
+                "random": random,
+                "count": count,
+                "number": (i as u32 / 2) % count,
+                "bend": bend,
+                "base": rounded(&blade.base.to_array()),
+                "way": rounded(&blade.direction.to_array()),
+                "up": rounded(&blade.normal.to_array()),
+                "size": rounded(&[blade.size]),
+                "own": rounded(&[blade.random]),
+            })
+        });
+        blades.collect()
+    }
+
     #[test]
     fn leaves_look_as_it_was_written_down() {
         let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden/leaf-look.json");
-        let samples = json!({ "looks": looks(), "shapes": shapes() });
+        let samples = json!({ "looks": looks(), "shapes": shapes(), "blades": blades() });
         if std::env::var_os("UPDATE_GOLDEN").is_some() {
             fs::write(&file, format!("{samples}\n")).expect("the samples can be written");
         }
@@ -257,7 +312,7 @@ mod tests {
     const SHOOT: Shoot = Shoot { heading: Vec3::Z, vigor: 1.0, light: 0.5 };
 
     fn in_season(shape: LeafKind, season: f32) -> Option<(Leaf, Vec3)> {
-        LeafPainter::new(&LeafLook { shape, season, ..LeafLook::default() }).paint(&LEAF, &SHOOT)
+        LeafPainter::new(&LeafLook { shape, season, ..LeafLook::default() }).paint(LEAF, SHOOT).next()
     }
 
     #[test]
@@ -278,7 +333,7 @@ mod tests {
     fn weak_shoots_have_warmer_leaves() {
         let painter = LeafPainter::new(&LeafLook { vigor_shift: 1.0, ..LeafLook::default() });
         let warmth = |vigor| {
-            let (_, colour) = painter.paint(&LEAF, &Shoot { vigor, ..SHOOT }).expect("it hangs");
+            let (_, colour) = painter.paint(LEAF, Shoot { vigor, ..SHOOT }).next().expect("it hangs");
             colour.x / colour.y
         };
         assert!(warmth(0.0) > warmth(0.2) && warmth(0.2) > warmth(1.0));
@@ -288,5 +343,25 @@ mod tests {
     fn orientation_lifts_and_lowers_leaves() {
         let tip = |orientation| pointing(Vec3::X, Vec3::Z, 0.0, orientation).y;
         assert!(tip(-1.0) < -0.9 && tip(0.0) == 0.0 && tip(1.0) > 0.9);
+    }
+
+    #[test]
+    fn lf6_blades_cover_as_much_as_their_leaf_and_stay_with_it() {
+        for blades in [1, 2, 3, 6, 9, 12] {
+            let look = LeafLook { blades, ..LeafLook::default() };
+            let painter = LeafPainter::new(&look);
+            let leaves = (0..400).map(|i| Leaf { random: (i as f32 * 0.618_034).fract(), ..LEAF });
+            let all: Vec<Leaf> =
+                leaves.flat_map(|leaf| painter.paint(leaf, SHOOT)).map(|(blade, _)| blade).collect();
+            assert_eq!(all.len(), 400 * blades as usize);
+            let covered: f32 = all.iter().map(|blade| blade.size * blade.size).sum();
+            assert!((covered / 400.0 - 1.0).abs() < 0.05, "{blades} cover {covered}");
+            for Leaf { base, direction, normal, size, .. } in all {
+                let tip = base + size * direction;
+                assert!(base.length() < 1.0 && tip.length() < 1.6, "from {base} to {tip}");
+                assert!(direction.is_normalized() && normal.is_normalized());
+                assert!(direction.dot(normal).abs() < 1e-4);
+            }
+        }
     }
 }

@@ -10,7 +10,7 @@ use espalier_mesh::{
     ring_table::told,
 };
 use espalier_plant::{MetamerId, Organ, OrganKind, Plant, Widths};
-use espalier_settings::Appearance;
+use espalier_settings::{Appearance, LeafLook};
 use glam::Vec3;
 
 use self::{
@@ -40,7 +40,9 @@ pub(crate) struct Foliage<'a> {
 impl<'a> Foliage<'a> {
     /// At a level of detail, from 0, the finest.
     pub(crate) fn of(plant: &'a Plant, style: &'a Style, look: &'a Appearance, level: usize) -> Self {
-        let count = living(plant).map(|id| usize::from(foliage::leaves(plant, id, style))).sum();
+        let leaves: usize = living(plant).map(|id| usize::from(foliage::leaves(plant, id, style))).sum();
+        // Coarser levels are seen from where blades of a leaf run together.
+        let blades = if level == 0 { look.leaves.blades } else { 1 };
         Self {
             plant,
             style,
@@ -48,8 +50,8 @@ impl<'a> Foliage<'a> {
             wood: None,
             widths: Widths::of(plant, style.girth()),
             goes_on: goes_on(plant),
-            painter: LeafPainter::new(&look.leaves),
-            form: LeafForm::new(look.leaves.shape, count, level),
+            painter: LeafPainter::new(&LeafLook { blades, ..look.leaves }),
+            form: LeafForm::new(look.leaves.shape, leaves * blades as usize, level),
             one_of: ONE_OF[level.min(ONE_OF.len() - 1)],
         }
     }
@@ -75,9 +77,8 @@ impl<'a> Foliage<'a> {
         let larger = (self.one_of as f32).sqrt();
         let leaves = leaves::of_between(self.plant, id, self.style, self.ends(id));
         let all = (id.raw()..).zip(leaves);
-        all.filter(|(number, _)| number % self.one_of == 0).filter_map(move |(_, leaf)| {
-            let (leaf, hue) = self.painter.paint(&leaf, &shoot)?;
-            Some((Leaf { size: larger * leaf.size, ..leaf }, hue))
+        all.filter(|(number, _)| number % self.one_of == 0).flat_map(move |(_, leaf)| {
+            self.painter.paint(Leaf { size: larger * leaf.size, ..leaf }, shoot)
         })
     }
 

@@ -88,6 +88,7 @@ export function LeavesPanel({ studio }: { studio: Studio }) {
             />
           }
         />
+        <LookSlider studio={studio} name="leaves.blades" />
       </Section>
       <FlowerSection studio={studio} />
       <FruitSection studio={studio} />
