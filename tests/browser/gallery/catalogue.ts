@@ -21,6 +21,12 @@ export interface Shot {
   readonly height: number;
 }
 
+/** A script and the seed it is played with. */
+export interface Tree {
+  readonly script: string;
+  readonly seed: number;
+}
+
 /** A sketch of the gallery. */
 export interface Entry {
   /** Of its picture `NAME.jpg`, and of its script `sketches/NAME.jsonl` unless `script` names another one. */
@@ -30,6 +36,8 @@ export interface Entry {
   readonly shot: Shot;
   /** So many operations are taken back for a second picture, which is put on the left of the first. */
   readonly undone?: number;
+  /** More trees, each grown by a script of its own, whose pictures follow the first one's in rows of so many. */
+  readonly beside?: { readonly row: number; readonly trees: readonly Tree[] };
   /** Commands that are done once the camera stands: a wind, in which it stands where it did in the calm. */
   readonly afterwards?: readonly object[];
   /** A wind to pick from in the panel that blows then, and what is set besides. */
@@ -51,14 +59,19 @@ function blown(entry: Entry): Entry {
 }
 
 /** The file of a sketch's script. */
-export function scriptOf({ name, script = name }: Pick<Entry, "name" | "script">): string {
+export function scriptOf({ script }: Pick<Tree, "script">): string {
   return join(FOLDER, "sketches", `${script}.jsonl`);
 }
 
 /** The commands of a sketch's script, each as its line of JSON; empty lines are none. */
-export async function readScript(entry: Pick<Entry, "name" | "script">): Promise<string[]> {
-  const text = await readFile(scriptOf(entry), "utf8");
+export async function readScript(tree: Pick<Tree, "script">): Promise<string[]> {
+  const text = await readFile(scriptOf(tree), "utf8");
   return text.split("\n").filter((line) => line.trim() !== "");
+}
+
+/** What is grown for an entry's picture, each in a session of its own. */
+export function treesOf({ name, script = name, seed, beside }: Entry): Tree[] {
+  return [{ script, seed }, ...(beside?.trees ?? [])];
 }
 
 /** The entries with these names, or all if none are given; a name that is not there is an error. */

@@ -2,7 +2,7 @@ import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { join, resolve } from "node:path";
 import { launchBrowser } from "../src/browser";
 import { Server } from "../src/server";
-import { chosen, readCatalogue, readScript } from "./catalogue";
+import { chosen, readCatalogue, readScript, treesOf } from "./catalogue";
 import { loopOf } from "./loop";
 import { readOrder } from "./order";
 import { DRAFT, FINAL, Player } from "./player";
@@ -32,7 +32,8 @@ export async function main(words: readonly string[]): Promise<number> {
     for (const entry of entries) {
       const began = Date.now();
       try {
-        const picture = await player.play(entry, await readScript(entry));
+        const trees = treesOf(entry).map(async (tree) => ({ seed: tree.seed, commands: await readScript(tree) }));
+        const picture = await player.play(entry, await Promise.all(trees));
         await writeFile(join(out, `${entry.name}.jpg`), picture);
         const seconds = ((Date.now() - began) / 1000).toFixed(1);
         console.log(`${entry.name}.jpg  ${Math.round(picture.length / 1024)} kB  ${seconds} s`);

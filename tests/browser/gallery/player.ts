@@ -2,7 +2,7 @@ import type { Browser, Page } from "playwright-core";
 import { Darkroom } from "../src/picture";
 import type { RunningServer } from "../src/server";
 import { Tablet } from "../src/tablet";
-import { type Entry, query } from "./catalogue";
+import { type Entry, query, type Shot } from "./catalogue";
 import { perform } from "./performance";
 import { print } from "./print";
 
@@ -17,6 +17,12 @@ export interface Care {
 /** Pictures to hang up, and those to judge a form by. */
 export const FINAL: Care = { size: 1, oversampling: 1.5 };
 export const DRAFT: Care = { size: 0.5, oversampling: 1 };
+
+/** A tree to be grown: the seed of its session, and what is done there. */
+export interface Play {
+  readonly seed: number;
+  readonly commands: readonly string[];
+}
 
 /** Bars and marks around the tree belong to whoever draws, not into a picture of it. */
 const CANVAS_ALONE = `
@@ -51,21 +57,34 @@ export class Player {
     return new Player(server, browser, await Darkroom.open(browser), blank, care);
   }
 
-  /** Plays the commands of a sketch and gives its picture as JPEG. */
-  async play(entry: Entry, commands: readonly string[]): Promise<Buffer> {
-    const address = await this.#server.newSession(entry.seed);
-    await perform(this.blank, sessionAt(address), commands);
-    return this.photograph(address, entry);
+  /** Plays the commands of an entry's trees, each in a session of its own, and gives their picture as JPEG. */
+  async play(entry: Pick<Entry, "shot" | "undone" | "afterwards" | "beside">, trees: readonly Play[]): Promise<Buffer> {
+    const pictures: Buffer[] = [];
+    for (const { seed, commands } of trees) {
+      const address = await this.#server.newSession(seed);
+      await perform(this.blank, sessionAt(address), commands);
+      pictures.push(...(await this.#pictures(address, entry)));
+    }
+    return print(this.blank, pictures, ...this.#sizeOf(entry.shot), entry.beside?.row);
   }
 
   /** Takes the picture of the session at an address as JPEG. */
-  async photograph(
+  async photograph(address: string, entry: Pick<Entry, "shot" | "undone" | "afterwards">): Promise<Buffer> {
+    return print(this.blank, await this.#pictures(address, entry), ...this.#sizeOf(entry.shot));
+  }
+
+  #sizeOf({ width, height }: Shot): [width: number, height: number] {
+    const { size } = this.#care;
+    return [Math.round(width * size), Math.round(height * size)];
+  }
+
+  /** What a session's page shows, before and after what is undone. */
+  async #pictures(
     address: string,
     { shot, undone = 0, afterwards = [] }: Pick<Entry, "shot" | "undone" | "afterwards">,
-  ): Promise<Buffer> {
-    const { size, oversampling } = this.#care;
-    const [width, height] = [Math.round(shot.width * size), Math.round(shot.height * size)];
-    const screen = { width, height, detail: oversampling, watched: true };
+  ): Promise<Buffer[]> {
+    const [width, height] = this.#sizeOf(shot);
+    const screen = { width, height, detail: this.#care.oversampling, watched: true };
     const tablet = await Tablet.open(this.#browser, this.#darkroom, address + query(shot), screen);
     try {
       tablet.page.setDefaultTimeout(PATIENCE);
@@ -88,7 +107,7 @@ export class Player {
         pictures.unshift(await atRest(tablet.page));
       }
       if (tablet.errors.length > 0) throw new Error(tablet.errors.join("; "));
-      return await print(this.blank, pictures, width, height);
+      return pictures;
     } finally {
       await tablet.close();
     }

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { promisify } from "node:util";
 import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { chosen, type Entry, FOLDER, query, readCatalogue, readScript, scriptOf } from "../gallery/catalogue";
+import { chosen, type Entry, FOLDER, query, readCatalogue, readScript, scriptOf, treesOf } from "../gallery/catalogue";
 import { packed } from "../gallery/loop";
 import { readOrder } from "../gallery/order";
 import { DRAFT, Player } from "../gallery/player";
@@ -15,6 +15,7 @@ import { theBrowser, theServer } from "./shared";
 
 const ENTRY: Entry = { name: "test", seed: 5, shot: { yaw: 20, width: 600, height: 600 } };
 const GROWN = ['{"kind":"grow","steps":9}'];
+const grown = (...commands: string[]) => ({ seed: ENTRY.seed, commands });
 
 describe("the gallery", () => {
   it("has a script, a picture and a sentence for each sketch", async () => {
@@ -24,9 +25,11 @@ describe("the gallery", () => {
     expect(new Set(entries.map(({ name }) => name)).size).toBe(entries.length);
     for (const entry of entries) {
       const { name } = entry;
-      const commands = (await readScript(entry)).map((line) => JSON.parse(line) as { kind?: string });
-      expect(commands.length, name).toBeGreaterThan(1);
-      expect(commands.every(({ kind }) => typeof kind === "string")).toBe(true);
+      for (const tree of treesOf(entry)) {
+        const commands = (await readScript(tree)).map((line) => JSON.parse(line) as { kind?: string });
+        expect(commands.length, tree.script).toBeGreaterThan(1);
+        expect(commands.every(({ kind }) => typeof kind === "string")).toBe(true);
+      }
       expect(existsSync(join(FOLDER, `${name}.jpg`)), `${name}.jpg`).toBe(true);
       expect(page, name).toContain(`](${name}.jpg)`);
     }
@@ -35,7 +38,8 @@ describe("the gallery", () => {
   it("has sketches that grow without a browser", async () => {
     const run = promisify(execFile);
     // Several pictures show what one script grows.
-    const seeds = new Map((await readCatalogue()).map((entry) => [scriptOf(entry), entry.seed]));
+    const trees = (await readCatalogue()).flatMap(treesOf);
+    const seeds = new Map(trees.map((tree) => [scriptOf(tree), tree.seed]));
     for (const [script, seed] of seeds) {
       const { stdout } = await run(program, ["replay", script, "--seed", String(seed), "--stats", "json"]);
       expect((JSON.parse(stdout) as { metamers_alive: number }).metamers_alive, script).toBeGreaterThan(500);
@@ -44,9 +48,9 @@ describe("the gallery", () => {
 
   it("has at least twenty sketches that a hand drew", async () => {
     const drawn = new Set<string>();
-    for (const entry of await readCatalogue()) {
-      const isDrawn = (await readScript(entry)).some((line) => /"kind":"(stroke_move|lasso)"/.test(line));
-      if (isDrawn) drawn.add(scriptOf(entry));
+    for (const tree of (await readCatalogue()).flatMap(treesOf)) {
+      const isDrawn = (await readScript(tree)).some((line) => /"kind":"(stroke_move|lasso)"/.test(line));
+      if (isDrawn) drawn.add(scriptOf(tree));
     }
     expect(drawn.size).toBeGreaterThanOrEqual(20);
   });
@@ -84,8 +88,8 @@ describe("the player", () => {
   afterAll(() => browser?.close());
 
   it("shows the tree of a script and nothing else", async () => {
-    const bare = await darkroom.develop(await player.play(ENTRY, ['{"kind":"grow","steps":1}']));
-    const tree = await darkroom.develop(await player.play(ENTRY, GROWN));
+    const bare = await darkroom.develop(await player.play(ENTRY, [grown('{"kind":"grow","steps":1}')]));
+    const tree = await darkroom.develop(await player.play(ENTRY, [grown(...GROWN)]));
     expect([tree.width, tree.height]).toEqual([300, 300]);
     expect(colours(tree)).toBeGreaterThan(20);
     expect(becameTree(bare, tree, { x: 90, y: 60, width: 120, height: 120 })).toBeGreaterThan(0.2);
@@ -95,9 +99,17 @@ describe("the player", () => {
 
   it("puts the tree before its last operations beside it", async () => {
     const entry = { ...ENTRY, undone: 1 };
-    const both = await darkroom.develop(await player.play(entry, ['{"kind":"grow","steps":4}', ...GROWN]));
+    const both = await darkroom.develop(await player.play(entry, [grown('{"kind":"grow","steps":4}', ...GROWN)]));
     expect(both.width).toBeGreaterThan(600);
     expect(both.height).toBe(300);
+  });
+
+  it("puts trees beside each other in rows", async () => {
+    const beside = { row: 2, trees: [] };
+    const trees = [GROWN, GROWN, GROWN].map((commands) => grown(...commands));
+    const sheet = await darkroom.develop(await player.play({ ...ENTRY, beside }, trees));
+    expect(sheet.width).toBeGreaterThan(600);
+    expect(sheet.height).toBe(sheet.width);
   });
 
   it("packs pictures one after the other, as browsers unpack them", async () => {
@@ -143,6 +155,6 @@ describe("the player", () => {
 
   it("names the line that could not be done", async () => {
     const lines = [...GROWN, '{"kind":"prune","rows":[99999]}'];
-    await expect(player.play(ENTRY, lines)).rejects.toThrow(/^line 2: .*not_found/);
+    await expect(player.play(ENTRY, [grown(...lines)])).rejects.toThrow(/^line 2: .*not_found/);
   });
 });
