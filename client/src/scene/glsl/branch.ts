@@ -5,15 +5,28 @@ import { COVER, HEAD, LIGHT, NODES, NOISE } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
 import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";
 import { itemsOf } from "./items";
+import { ROOTS } from "./roots";
 
 /** Where a trunk meets the ground. */
-const ROOTS = /* glsl */ `
-/** How much wider than its wood a trunk is: roots spread at its foot and fade into it as ribs. */
-float rootFlare(float turn, float along, float foot) {
-  float angle = 6.2831853 * turn;
-  float rib = 0.5 + 0.5 * sin(angle * 5.0 + 1.3 * sin(angle * 2.0) + 0.9 * cos(angle));
+const FOOT = /* glsl */ `${ROOTS}
+/** How much wider than its wood a trunk is, as it spreads into its roots; how that changes with the turn, and with the height. */
+vec3 rootFlare(uint seed, float turn, float along, float foot) {
   float height = max(along, 0.0) / (foot + 0.05);
-  return 1.0 + uBarkShape.y * (0.22 * exp(-0.7 * height) + exp(-1.6 * height) * (0.08 + 0.66 * rib * sqrt(rib)));
+  float fades = 0.22 * exp(-0.7 * height);
+  vec3 flare = vec3(fades, 0.0, -0.7 * fades);
+  for (int i = 0; i < rootsOf(seed) && height < 6.0; i++) {
+    Root root = rootOf(seed, i);
+    float off = turn - root.turn;
+    // The nearer to the ground, the faster it spreads, and the narrower it is.
+    float pinch = 2.6 * exp(-2.0 * height);
+    float aside = cos(off) - 1.0;
+    float rib = 1.5 * root.strong * exp(root.narrow * (1.0 + pinch) * aside);
+    vec2 low = vec2(0.6, 0.4) * exp(-height * vec2(1.0, 3.2) / root.high);
+    float wide = rib * (low.x + low.y);
+    flare += vec3(wide, -root.narrow * (1.0 + pinch) * sin(off) * wide, -rib * (low.x + 3.2 * low.y) / root.high - 2.0 * root.narrow * pinch * aside * wide);
+  }
+  flare *= uBarkShape.y;
+  return vec3(1.0 + flare.x, flare.y, along > 0.0 ? flare.z / (foot + 0.05) : 0.0);
 }
 /** The same on the average around the trunk. */
 float meanFlare(float along, float foot) {
@@ -26,6 +39,12 @@ float surplus(float along, float foot) {
   float incline = 0.8 * uBarkShape.y * exp(-fades * max(along, 0.0));
   float way = sqrt(1.0 + incline * incline);
   return (way - 1.0 - log(0.5 * (1.0 + way))) / fades - min(along, 0.0) * (way - 1.0);
+}
+/** Which way around the vertical a side of a trunk looks. */
+float turnOf(vec3 outward, vec3 tangent) {
+  vec3 east = abs(tangent.x) < 0.9 ? vec3(1, 0, 0) : vec3(0, -tangent.x, 0);
+  east = normalize(east - tangent * dot(east, tangent));
+  return atan(dot(outward, cross(east, tangent)), dot(outward, east));
 }
 `;
 
@@ -97,6 +116,7 @@ const uint FROM_SEED = 2u;
 const uint TRUNK = 4u;
 const uint CUT = 8u;
 const uint OVERLAPS = 16u;
+const uint ROOT = 32u;
 out vec3 vWorld;
 out vec3 vNormal; // of a strip, where its side points
 out vec3 vTangent;
@@ -104,7 +124,7 @@ out vec4 vBark; // turn, length along the limb, radius, how far towards the midd
 out vec4 vBearing; // the same of the limb that bears this one, and how much of its bark shows
 out float vLight; // below 0 for what is marked
 out float vTrait;
-${ROOTS}${JUNCTION}
+${FOOT}${JUNCTION}
 float slopeOf(uint code) { return (float(code & 255u) - ${NO_SLOPE.toFixed(1)}) / ${SLOPE_STEPS.toFixed(1)}; }
 /** How thick the wood is at a node: a tip is slim until its axis goes on, unless it has been cut. */
 float woodAt(Node node, bool cut) {
@@ -120,7 +140,8 @@ void main() {
   // Row, parent's row, row where the limb begins, flags with the slopes of its girth below and above.
   uvec4 metamer = texelFetch(uItems, itemPlace(number), 0);
   Node end = nodeAt(int(metamer.x));
-  if (end.look == HIDDEN) {
+  bool none = (metamer.w & ROOT) != 0u && int(metamer.w >> 24u) >= rootsOf(metamer.z);
+  if (end.look == HIDDEN || none) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     return;
   }
@@ -194,7 +215,7 @@ void main() {
   side = dot(side, side) > 1e-8 ? normalize(side) : binormal;
   float drawn = radius;
   float cover = 1.0;
-  if ((metamer.w & TRUNK) != 0u) drawn *= 1.0 + 0.6 * (rootFlare(0.0, along, bearing.radius) - 1.0);
+  if ((metamer.w & TRUNK) != 0u) drawn *= 0.5 + 0.5 * meanFlare(along, bearing.radius);
 #ifndef CASTER
   // Thinner than a pixel it would flicker; it is drawn a pixel wide and lets so much more through.
   float least = 0.55 * length(eye) / max(uView.w, 1.0);
@@ -212,12 +233,9 @@ void main() {
   if ((metamer.w & TRUNK) != 0u) {
     // A seed is as thick as its trunk.
     float foot = bearing.radius;
-    float flare = rootFlare(ring.w, along, foot);
-    const float STEP = 0.01;
-    float around = (rootFlare(ring.w + STEP, along, foot) - flare) / (6.2831853 * STEP);
-    float upwards = (rootFlare(ring.w, along + STEP, foot) - flare) / STEP;
-    vNormal = outward - cross(outward, tangent) * (around / flare) - tangent * (slope * flare + radius * upwards);
-    radius *= flare;
+    vec3 spread = rootFlare(metamer.z, turnOf(outward, tangent), along, foot);
+    vNormal = outward - cross(outward, tangent) * (spread.y / spread.x) - tangent * (slope * spread.x + radius * spread.z);
+    radius *= spread.x;
     // The foot goes on into what it stands on, however that slopes; deeper where it leans, for it is round.
     if (begins) {
       float sunk = (1.0 - u) * (1.0 - u) * foot * (0.5 + 0.9 * length(t0.xz) + 1.1 * dot(t0.xz, t0.xz));
@@ -227,7 +245,7 @@ void main() {
     world = centre + outward * radius * wide;
     plain *= 1.0 + 0.6 * (meanFlare(along, foot) - 1.0);
     along -= surplus(along, foot);
-  } else {
+  } else if ((metamer.w & ROOT) == 0u) {
     // Its open end stays within its bearer, also where that is no thicker and bends away.
     radius *= mix(0.5, 1.0, smoothstep(0.0, 0.6 * bearing.radius, along));
     world = centre + outward * radius * wide;
@@ -240,6 +258,29 @@ void main() {
   }
   vNormal = normalize(vNormal);
   vBark = vec4(ring.w, along, max(plain, 0.005), -1.0);
+  if ((metamer.w & ROOT) != 0u) {
+    float foot = bearing.radius * smoothstep(0.0, 0.02, grown);
+    Root root = rootOf(metamer.z, int(metamer.w >> 24u));
+    vec4 middle = rootAt(root, foot, ring.y);
+    tangent = normalize(rootAt(root, foot, ring.y + 0.01).xyz - middle.xyz);
+    normal = normalize(cross(vec3(-tangent.z, 0.0, tangent.x), tangent));
+    binormal = cross(normal, tangent);
+    // Near the trunk it stands upright, as a board; further out it lies flat.
+    vec2 shape = mix(vec2(1.5, 0.8), vec2(0.85, 1.1), smoothstep(0.1, 0.5, ring.y));
+    vec3 from = middle.xyz + middle.w * (normal * ring.x * shape.x + binormal * ring.z * shape.y);
+    world = bearing.position + from;
+    vNormal = normalize(normal * (ring.x / shape.x) + binormal * (ring.z / shape.y));
+    vTangent = tangent;
+    // Its bark comes out of the trunk's.
+    float far = length(middle.xz);
+    vBark = vec4(ring.w, far, max(middle.w, 0.005), -1.0);
+    vec3 side = normalize(n0 - t0 * dot(t0, n0));
+    vec3 face = cross(side, t0);
+    float ahead = atan(dot(middle.xyz, face), dot(middle.xyz, side)) / 6.2831853;
+    float aside = atan(dot(from, face), dot(from, side)) / 6.2831853 - ahead;
+    float low = from.y - surplus(from.y, foot) - max(0.0, length(from.xz) - 1.5 * foot);
+    vBearing = vec4(ahead + aside - round(aside), low, foot * (1.0 + 0.6 * (meanFlare(0.0, foot) - 1.0)), 1.0 - smoothstep(1.2, 2.2, far / max(foot, 1e-3)));
+  }
   if (ring.y >= 1.0 && cut) {
     // A cut heals from its rim: the face bulges a little, and its edge is round.
     float inward = ring.y - 1.0;
@@ -289,7 +330,7 @@ in float vTrait;
 out vec4 colour;
 uniform int uGround;
 /** Moss of grass, soil, sand and snow, and how much of it; nothing comes from bare paper. */
-const vec4 AT_FOOT[5] = vec4[5](vec4(0.062, 0.066, 0.026, 0.7), vec4(0.105, 0.078, 0.055, 0.65), vec4(0.400, 0.310, 0.210, 0.6), vec4(0.800, 0.825, 0.860, 0.75), vec4(0));
+const vec4 AT_FOOT[5] = vec4[5](vec4(0.090, 0.094, 0.040, 0.6), vec4(0.125, 0.092, 0.064, 0.55), vec4(0.400, 0.310, 0.210, 0.6), vec4(0.800, 0.825, 0.860, 0.75), vec4(0));
 ${BARK}
 ${wood.declared}
 void main() {
@@ -324,7 +365,7 @@ ${wood.covered}
   float sun = facing > 0.0 ? sunlit(vWorld, smoothed, 1.0) * smoothstep(-0.1, 0.2, dot(smoothed, uSun)) : 0.0;
   // What the trunk stands on climbs its foot, and the ground keeps the sky from it.
   if (vWorld.y < 0.65 && uShown.z > 0.5) {
-    float rim = smoothstep(0.4, 0.0, vWorld.y - 0.25 * noise(vWorld * 3.0));
+    float rim = smoothstep(uGround == 3 ? 0.4 : 0.2, 0.0, vWorld.y - 0.25 * (noise(vWorld * 3.0) - (uGround == 3 ? 0.0 : 0.3)));
     albedo = mix(albedo, AT_FOOT[uGround].rgb, rim * AT_FOOT[uGround].a);
   }
   float grounded = mix(0.45, 1.0, smoothstep(0.0, 1.4, vWorld.y));

@@ -19,7 +19,8 @@ function wood(ghost: Ghost, pass: 1 | 2): number[] {
     if (!mesh.geometry.hasAttribute("ring") || mesh.renderOrder !== pass) continue;
     rows.push(...itemsOf(mesh, 4).map(([row]) => row!));
   }
-  return rows.sort((a, b) => a - b);
+  // A trunk is drawn once more for each of its roots.
+  return [...new Set(rows)].sort((a, b) => a - b);
 }
 
 const living = (table: TreeTable) =>

@@ -22,7 +22,8 @@ function drawn(meshes: Mesh[]): Map<number, number> {
   return rows;
 }
 
-const wood = (branches: Branches) => branches.meshes.filter((mesh) => mesh !== branches.faces);
+const wood = (branches: Branches) =>
+  branches.meshes.filter((mesh) => mesh !== branches.faces && mesh !== branches.roots);
 
 it("exactly the living metamers and their leaves are drawn, whatever was changed", { timeout: 30_000 }, () => {
   const random = randoms(31);

@@ -9,12 +9,14 @@ import type { Bark } from "./bark";
 import { BranchBin } from "./branch-bin";
 import { LEVELS, levelFor, type Seen } from "./branch-levels";
 import { face, ribbon, tube } from "./branch-shapes";
+import { Roots } from "./roots";
 
 const BEGINS_LIMB = 1;
 const FROM_SEED = 2;
 const TRUNK = 4;
 const CUT = 8;
 const OVERLAPS = 16;
+const ROOT = 32;
 
 /** Where the flags hold how the girth changes at both ends of a metamer. */
 const SLOPE_BELOW = 8;
@@ -23,6 +25,10 @@ const SLOPE_ABOVE = 16;
 const NOWHERE = -1;
 /** Sides of a cut end. */
 const FACE_SIDES = 16;
+/** A trunk that begins higher above the ground or deeper in it spreads no roots over it, in internodes. */
+const ON_GROUND = 0.3;
+/** Up to so many of its radii above the ground a trunk has ribs, and is drawn as if it were so much thicker. */
+const [RIBBED, RIBS] = [3, 3] as const;
 /** Segments of the strips that cast the shadows of limbs. */
 const CASTER_SEGMENTS = 3;
 /** An end this many codes thicker than the thinnest twig has lost what made it so thick: it was cut. */
@@ -59,17 +65,20 @@ interface Options {
 
 /** All metamers as instances of tube segments and strips, one draw call for each level of detail. */
 export class Branches {
-  /** What the camera sees: a mesh for each level, and `faces`. */
+  /** What the camera sees: a mesh for each level, `faces` and `roots`. */
   readonly meshes: Mesh[];
   /** What the sun sees. */
   readonly casters: Mesh[];
   /** Where branches were cut. */
   readonly faces: Mesh;
+  /** What spreads from trunks over the ground, where no shadow of it is seen. */
+  readonly roots: Mesh;
   private readonly fine: BlockGeometry[];
   private readonly quick: BlockGeometry[];
   private readonly shadow: BlockGeometry[];
   private readonly bins: BranchBin[];
   private readonly ends: BranchBin;
+  private readonly feet = new Roots(BEGINS_LIMB | FROM_SEED | ROOT);
   private readonly bark: Bark | null;
   private readonly coarsest: number;
   private level = new Int8Array(0);
@@ -100,11 +109,14 @@ export class Branches {
       mesh(this.fine[i]!, this.bins[i]!.materialLike(sides > 0 ? materials.bark : materials.twig)),
     );
     this.faces = mesh(ends, this.ends.materialLike(materials.bark));
-    this.meshes.push(this.faces);
+    this.roots = mesh(this.feet.shape(true), this.feet.materialLike(materials.bark));
+    this.meshes.push(this.faces, this.roots);
     this.casters = levels.map((_, i) =>
       mesh(strips ? this.shadow[i]! : this.quick[i]!, this.bins[i]!.materialLike(materials.branchDepth)),
     );
-    if (!strips) this.casters.push(mesh(ends, this.ends.materialLike(materials.branchDepth)));
+    if (strips) return;
+    this.casters.push(mesh(ends, this.ends.materialLike(materials.branchDepth)));
+    this.casters.push(mesh(this.feet.shape(false), this.feet.materialLike(materials.branchDepth)));
   }
 
   /** One tube, one strip and one shadow: what nearly every tree has. */
@@ -153,6 +165,11 @@ export class Branches {
     this.place(row, level, parent, origin, flags);
     if (changed) this.rejoin(table, table.limbs.onward[row]!);
     this.showFace(row, cut, parent, origin, flags);
+    // One that stands with others on its seed leaves the roots to the first of them.
+    const stands =
+      fromSeed && table.limbs.onward[parent] === row && Math.abs(table.position[3 * parent + 1]!) < ON_GROUND;
+    if (stands) this.feet.plant(row, parent);
+    else this.feet.leave(row);
   }
 
   /** From now on rows are looked at from there; those known already by and by. */
@@ -191,12 +208,14 @@ export class Branches {
     const count = strips.reduce((sum, bin) => sum + bin.count, 0);
     for (const bin of strips) bin.thin(Math.max(1, Math.ceil(count / twigs)));
     for (const [i, geometry] of (detailed ? this.fine : this.quick).entries()) this.meshes[i]!.geometry = geometry;
+    this.roots.geometry = this.feet.shape(detailed);
   }
 
   /** Uploads what was written since the last call; ends are judged by the table, where rows are left. */
   upload(table?: TreeTable): void {
     if (table && this.changed) this.judgeEnds(table);
-    const bins = [...this.bins, this.ends];
+    this.feet.spread();
+    const bins = this.lists;
     for (const [i, bin] of bins.entries()) {
       bin.upload();
       this.meshes[i]!.visible = bin.count > 0;
@@ -207,12 +226,12 @@ export class Branches {
 
   /** A restored context has lost every texture. */
   restored(): void {
-    for (const bin of [...this.bins, this.ends]) bin.restored();
+    for (const bin of this.lists) bin.restored();
     this.bark?.restored();
   }
 
   dispose(): void {
-    for (const bin of [...this.bins, this.ends]) bin.dispose();
+    for (const bin of this.lists) bin.dispose();
     this.bark?.dispose();
   }
 
@@ -267,7 +286,13 @@ export class Branches {
     else this.ends.write(slot, row, parent, origin, flags);
   }
 
+  /** Of all meshes, in their order. */
+  private get lists(): readonly BranchBin[] {
+    return [...this.bins, this.ends, this.feet.bin];
+  }
+
   private leave(row: number): void {
+    this.feet.leave(row);
     this.leaveLevel(row);
     this.leaveEnds(row);
   }
@@ -329,6 +354,9 @@ export class Branches {
     let radius = drawn[row]!;
     // A twig that goes on from a limb begins with the limb's end.
     if (table.limbs.begins[row] !== 1) radius = Math.max(radius, 0.5 * drawn[table.parent[row]!]!);
+    // Its foot has ribs, of which each needs as many sides as a limb.
+    const seed = table.limbOrigin[row]!;
+    if (table.parent[seed]! < 0 && table.arc[row]! < RIBBED * drawn[seed]!) radius *= RIBS;
     seen[1] = UNSEEN_PIXELS;
     if (onlooker) {
       const { position } = table;
