@@ -1,20 +1,25 @@
 import { CROWN_FIELD } from "./crown";
+import { MOST_FEET } from "./environment";
 import { FIELDS } from "./landscape";
+import { ROOTS } from "./roots";
 
 /** The colour of grass where it grows. */
 export const GRASS_COLOUR = /* glsl */ `
-vec3 grassAt(vec2 at) {
+/** What lies flat is drawn out across the view where that grazes the ground, so that small patches are left out there. */
+vec3 grassAt(vec2 at, float grazing) {
   float broad = noise(at * 0.021, 11.0) * 0.6 + noise(at * 0.057, 0.5) * 0.4;
-  float patches = noise(at * 0.09, 2.0) * 0.45 + noise(at.yx * 0.21 + 3.7, 3.0) * 0.3 + noise(at * 0.47, 13.0) * 0.25;
+  vec3 patches = vec3(noise(at * 0.09, 2.0), noise(at.yx * 0.21 + 3.7, 3.0), noise(at * 0.47, 13.0)) - 0.5;
+  float dry = 0.5 + dot(vec3(0.45, 0.3, 0.25) * vec3(1.0, smoothstep(0.02, 0.3, grazing), smoothstep(0.06, 0.5, grazing)), patches);
   vec3 albedo = mix(vec3(0.080, 0.104, 0.036), vec3(0.132, 0.146, 0.054), smoothstep(0.2, 0.8, broad));
   // Here and there it is dry.
-  return mix(albedo, vec3(0.185, 0.166, 0.080), 0.5 * smoothstep(0.35, 0.95, patches));
+  return mix(albedo, vec3(0.185, 0.166, 0.080), 0.5 * smoothstep(0.35, 0.95, dry));
 }
 `;
 
 /** What the ground is made of and what lies on it, as finely as it is seen. */
 export const GROUND_SURFACE = /* glsl */ `${CROWN_FIELD}${FIELDS}${GRASS_COLOUR}
-uniform vec4 uLeafSeason; // size, presence, fresh, turned
+uniform vec4 uBarkShape; // relief, root flare, collar, smoothing
+${ROOTS}uniform vec4 uLeafSeason; // size, presence, fresh, turned
 uniform vec4 uLeafTraits; // shift by vigor, orientation, withered
 uniform vec4 uLeafForm; // half width, whether it is a spray, how far that lies along its twig, how much it bends
 uniform float uLeafSize;
@@ -62,6 +67,27 @@ vec4 litterAt(vec2 at, float many, float pixel) {
   }
   return mix(lies, vec4(nearest.rgb, nearest.a > 0.0 ? 1.0 : 0.0), apart);
 }
+/** How much of the sky is left beside the roots that run over the ground here. */
+float besideRoots(vec2 at) {
+  float open = 1.0;
+  for (int i = 0; i < ${MOST_FEET}; i++) {
+    float thick = uFeet[i].w;
+    if (thick <= 0.0) break;
+    vec2 from = at - uFeet[i].xz;
+    float far = length(from) / thick;
+    if (far > 5.5 || thick < 0.12) continue;
+    uint seed = uint(uFeet[i].y);
+    for (int k = 0; k < rootsOf(seed); k++) {
+      Root root = rootOf(seed, k);
+      float along = dot(from, vec2(cos(root.turn), sin(root.turn))) / thick;
+      vec4 middle = rootAt(root, thick, clamp((along - 0.5) / max(rootReach(root), 0.1), 0.0, 1.0));
+      float gap = max(0.0, distance(from, middle.xz) - 0.8 * middle.w);
+      float above = clamp((middle.y + middle.w) / max(middle.w, 1e-4), 0.0, 1.0);
+      open *= 1.0 - 0.6 * above * exp(-gap / (0.45 * middle.w + 0.02));
+    }
+  }
+  return open;
+}
 Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
   vec2 at = world.xz;
   float away = length(eye);
@@ -75,6 +101,7 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
   vec2 within = abs(2.0 * (at - uCrownFrom.xz) / uCrownSize.xz - 1.0);
   float shelter = (1.0 - crown.w) * smoothstep(1.0, 0.45, max(max(within.x, within.y), 0.8 * length(within)));
   open *= 1.0 - 0.62 * shelter;
+  if (uShadowTaps > 1) open *= besideRoots(at);
   float broad = noise(at * 0.021, 11.0) * 0.6 + noise(at * 0.057, 0.5) * 0.4;
   float patches = noise(at * 0.09, 2.0) * 0.45 + noise(at.yx * 0.21 + 3.7, 3.0) * 0.3 + noise(at * 0.47, 13.0) * 0.25;
   float fine = noise(at * vec2(4.1, 2.6), 8.0) * 0.5 + noise(at.yx * vec2(7.0, 11.0), 5.0) * 0.5;
@@ -112,11 +139,34 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
     float glint = pow(max(dot(normalize(surface.normal + 0.8 * (grain - 0.5)), towards), 0.0), 220.0);
     surface.albedo += 2.2 * step(0.75, glint) * (1.0 - smoothstep(8.0, 26.0, away));
   } else {
-    surface.albedo = grassAt(at) * fields;
+    // Grass stands: the eye meets the nearest tuft that is high enough on its way down to the ground.
+    const float TALL = 0.42;
+    float stands = uShadowTaps > 1 ? smoothstep(1.2, 3.5, TALL / max(shorter, 1e-4)) : 0.0;
     float height = sward(at, blurred);
+    vec2 met = at;
+    if (stands > 0.0) {
+      vec2 back = eye.xz * (TALL * stands / max(eye.y, 0.1));
+      back *= min(1.0, 4.0 / max(length(back), 1e-3));
+      float fine_ = 0.9 * shorter;
+      float above = 0.0;
+      float before = 1.0;
+      for (int i = 1; i <= 8; i++) {
+        float level = 1.0 - float(i) / 8.0;
+        vec2 at_ = at + back * level;
+        float over = clamp((sward(at_, fine_) - 0.22) / 0.56, 0.0, 1.0) - level;
+        if (over >= 0.0) {
+          above = level + 0.125 * over / max(over + before, 1e-3);
+          break;
+        }
+        before = -over;
+      }
+      met = at + back * above;
+      height = mix(height, 0.22 + 0.56 * above, stands);
+    }
+    surface.albedo = grassAt(met, eye.y / away) * fields;
     // A tuft is bright where it looks to the sun, and stands in the shade of the next.
     vec2 towards = uSun.xz / max(length(uSun.xz), 1e-3);
-    float shaded = sward(at + 0.28 * towards, blurred) - height;
+    float shaded = sward(met + 0.28 * towards, blurred) - height;
     float grazed = 1.0 - 0.6 * uSun.y;
     surface.albedo *= max(0.35, 1.0 + 1.6 * (height - 0.5) - 1.0 * grazed * shaded);
     surface.albedo = mix(surface.albedo, vec3(0.128, 0.132, 0.052), 0.35 * smoothstep(0.55, 0.8, height));
