@@ -105,6 +105,8 @@ bounded! {
     BrushRadius: f32 from 0.0, to 40.0, read deserialize_f32;
     /// The depth of a lasso's body against its width (`LM5`).
     Depth: f32 from 0.1, to 1.0, read deserialize_f32;
+    /// From the base to the tip of an outline that a limb is to fill, in internode lengths (`LM21`).
+    LimbLength: f32 from 0.5, to 400.0, read deserialize_f32;
     /// A share of a whole (`LM7`, `LM9`).
     Share: f32 from 0.0, to 1.0, read deserialize_f32;
     /// A width that is asked for, in internode lengths (`LM8`).

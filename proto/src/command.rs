@@ -9,7 +9,7 @@ use serde_json::Value;
 use ts_rs::TS;
 
 use crate::{
-    bounded::{Age, BrushRadius, Depth, Diameter, LimbOrders, List, Share, Steps, Touches},
+    bounded::{Age, BrushRadius, Depth, Diameter, LimbLength, LimbOrders, List, Share, Steps, Touches},
     design::{DesignEdit, DesignValue, MAX_DESIGN_EDITS},
     grammar::{GrammarBody, GrammarValue, MAX_GRAMMAR_VALUES},
     obstacle::{Obstacle, Pose, SimpleShape},
@@ -348,6 +348,21 @@ tagged_enum! {
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[ts(optional)]
             orders: Option<LimbOrders>,
+        },
+        /// Let a limb that grew fill another outline: what lies outside is cut, and it grows into what is free (`DS12`).
+        Refill {
+            /// The row that the limb begins with.
+            row: u32,
+            /// The outline, as designs write a `silhouette`; its base is where the limb begins.
+            envelope: DesignValue,
+            /// How the outline is turned in the scene: a quaternion (x, y, z, w) of length 1.
+            rotation: UnitRotation,
+            /// From its base to its point T, in internode lengths, 0.5 to 400.
+            length: LimbLength,
+            /// Whether all above the first fork of the limb is cut, rather than what lies outside.
+            #[serde(default)]
+            #[ts(as = "Option<bool>", optional)]
+            anew: bool,
         },
         /// Plant what a grammar writes (`GR1`).
         SetGrammar {

@@ -11,7 +11,7 @@ use crate::{
     bounded::{BrushRadius, List, PredictedSteps},
     command::Command,
     comment::Pin,
-    design::{BranchPath, DesignInForce, PlacedBranch},
+    design::{BranchPath, DesignInForce, LimbOutline, PlacedBranch},
     envelope::FrameKind,
     grammar::GrammarInForce,
     obstacle::PlacedObstacle,
@@ -101,6 +101,11 @@ tagged_enum! {
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[ts(optional)]
             of: Option<BranchPath>,
+        },
+        /// Which limb lies a row on, and which outline has it? The answer is `limb`, for this client alone (`DS13`).
+        LookAtLimb {
+            /// The row of a living metamer.
+            row: u32,
         },
         /// Where somebody points and what they do: the newest only counts, and nothing is kept (`PS1`).
         ///
@@ -432,6 +437,13 @@ pub enum ServerMessage {
         of: BranchPath,
         /// Those on the way to it, it, and the laterals of each of these, as far as they are wood: lower orders first.
         branches: Vec<PlacedBranch>,
+    },
+    /// A limb that grew, to whom looks at it (`DS13`).
+    Limb {
+        /// The row that was asked for.
+        of: u32,
+        /// The limb; none where no limb lives there, or it follows a design.
+        limb: Option<Box<LimbOutline>>,
     },
     /// The grammar in force: after the welcome if there is one, and when it changes (`GR5`).
     Grammar {

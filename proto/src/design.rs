@@ -291,3 +291,29 @@ pub struct PlacedBranch {
     /// How many laterals it bears.
     pub bears: u32,
 }
+
+/// A limb that grew, and the outline around it. Numbers are rounded to ten thousandths.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct LimbOutline {
+    /// The row that it begins with.
+    pub row: u32,
+    /// The metamer that bears it; none for a trunk.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub bearer: Option<u32>,
+    /// Where it begins, in the scene.
+    pub base: [f32; 3],
+    /// The rotation (x, y, z, w) of its frame: Y from its base to its tip, X on the side that looks up.
+    pub frame: [f32; 4],
+    /// From its base to its tip, in internodes.
+    pub length: f32,
+    /// Radius at its base, in internodes.
+    pub radius: f32,
+    /// Where its bearer goes at that place.
+    pub heading: [f32; 3],
+    /// The outline in this frame, as designs write a `silhouette`; its T is the tip.
+    pub envelope: DesignValue,
+    /// How many branches stand on its own axis.
+    pub bears: u32,
+}

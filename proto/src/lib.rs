@@ -45,16 +45,16 @@ pub mod version;
 
 pub use bend::{BendFrame, RowMotion};
 pub use bounded::{
-    Age, BrushRadius, Depth, Diameter, EyeDistance, LimbOrders, LinkHours, List, Pitch, PredictedSteps,
-    Scale, Share, SphereRadius, Steps, Touches, Yaw,
+    Age, BrushRadius, Depth, Diameter, EyeDistance, LimbLength, LimbOrders, LinkHours, List, Pitch,
+    PredictedSteps, Scale, Share, SphereRadius, Steps, Touches, Yaw,
 };
 pub use command::{Action, Command, StrokeSample};
 pub use control::{
     ClientMessage, Deed, DocumentState, Hint, HintReason, Notice, Pause, Resume, ServerMessage, Unreadable,
 };
 pub use design::{
-    BranchPath, DesignEdit, DesignInForce, DesignSetting, DesignValue, MAX_DESIGN_BYTES, PlacedBranch,
-    PutDesign,
+    BranchPath, DesignEdit, DesignInForce, DesignSetting, DesignValue, LimbOutline, MAX_DESIGN_BYTES,
+    PlacedBranch, PutDesign,
 };
 pub use envelope::FrameKind;
 pub use espalier_reading::NotAllowed;

@@ -40,6 +40,8 @@ pub enum OperationKind {
     Design,
     /// A grammar set, derived further, or its sliders set.
     Grammar,
+    /// A limb that was cut back to an outline and grew into it (`DS12`).
+    Refill,
 }
 
 /// One operation on a line of time.

@@ -165,6 +165,7 @@ pub fn declarations() -> String {
         design::DesignInForce::decl(&config),
         design::PutDesign::decl(&config),
         design::PlacedBranch::decl(&config),
+        design::LimbOutline::decl(&config),
         timeline::OperationKind::decl(&config),
         timeline::TimelineOperation::decl(&config),
         timeline::TimelinePart::decl(&config),

@@ -100,6 +100,9 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
     branches: (placed) => {
       page.design.placed.value = placed;
     },
+    limb: (told) => {
+      page.design.limb.value = told;
+    },
     grammar: ({ grammar }) => page.grammar.receive(grammar),
     deed: ({ deed }) => page.undo.done(deed),
     hint: ({ hint }) => {
@@ -219,6 +222,7 @@ function forget(page: SessionTargets, { isReplay, isSame }: Opening): void {
   page.comments.clear();
   page.widths.all.value = [];
   page.design.receive(null);
+  page.design.limb.value = null;
   page.grammar.receive(null);
   page.obstacles.forget();
   page.time.clear();

@@ -1700,7 +1700,7 @@ row?: number,
 /**
  * Up to which order its limbs are described: 1 to 3, and 3 without it.
  */
-orders?: number, } | { "kind": "set_grammar", 
+orders?: number, } | { "kind": "refill", row: number, envelope: unknown, rotation: [number, number, number, number], length: number, anew?: boolean, } | { "kind": "set_grammar", 
 /**
  * The text of the grammar.
  */
@@ -2049,7 +2049,9 @@ outside: boolean,
  */
 bears: number, };
 
-export type OperationKind = "stroke" | "growth" | "lasso" | "parameters" | "appearance" | "seed" | "obstacle" | "bend" | "width" | "prune" | "turn" | "graft" | "taken_back" | "brought_back" | "design" | "grammar";
+export type LimbOutline = { row: number, bearer?: number, base: [number, number, number], frame: [number, number, number, number], length: number, radius: number, heading: [number, number, number], envelope: unknown, bears: number, };
+
+export type OperationKind = "stroke" | "growth" | "lasso" | "parameters" | "appearance" | "seed" | "obstacle" | "bend" | "width" | "prune" | "turn" | "graft" | "taken_back" | "brought_back" | "design" | "grammar" | "refill";
 
 export type TimelineOperation = { 
 /**
@@ -2388,7 +2390,7 @@ steps: number, } | { "type": "look_at_branch",
 /**
  * The branch; without one it is told nothing more.
  */
-of?: string, } | { "type": "here", 
+of?: string, } | { "type": "look_at_limb", row: number, } | { "type": "here", 
 /**
  * Where they point, if anywhere.
  */
@@ -2602,7 +2604,7 @@ of: string,
 /**
  * Those on the way to it, it, and the laterals of each of these, as far as they are wood: lower orders first.
  */
-branches: Array<PlacedBranch>, } | { "type": "grammar", 
+branches: Array<PlacedBranch>, } | { "type": "limb", of: number, limb: LimbOutline | null, } | { "type": "grammar", 
 /**
  * The grammar; none where there is none any more.
  */

@@ -3,6 +3,7 @@
 mod course;
 mod cover;
 mod going;
+mod grown;
 mod limbs;
 mod outline;
 mod search;
@@ -13,6 +14,7 @@ mod writing;
 use espalier_plant::{Girth, MetamerId, Plant};
 use glam::Vec3;
 
+pub use self::grown::GrownLimb;
 use self::{
     cover::{COARSE, Crown, PIXEL},
     limbs::Wood,

@@ -40,7 +40,7 @@ pub use design::{Applied, Design};
 pub use edit::{Edit, Standing, relative_range};
 pub use envelope::{Envelope, Half};
 pub use file::{MOST_BYTES, VERSION};
-pub use fitting::{Fitted, Fitting, Limits, MOST_ORDERS, Unfit, fit};
+pub use fitting::{Fitted, Fitting, GrownLimb, Limits, MOST_ORDERS, Unfit, fit};
 pub use function::Function;
 pub use generator::{Generated, Generator, MAX_INTERNODES, Missing};
 pub use graph::{From, Graph, Level, Name, Owner, Record, Setting, Share, ShareId, Source, Visibility};

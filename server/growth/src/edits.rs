@@ -34,6 +34,20 @@ impl<G: Generator> Simulation<G> {
         self.edit(|step| step.prune(cuts));
     }
 
+    /// Cuts off these metamers and all above them, and lets a bud stand at the end of another one that goes on where that
+    /// went, in one step.
+    pub fn cut_back(&mut self, cuts: &[MetamerId], sprout: Option<MetamerId>) {
+        self.edit(|step| {
+            if !cuts.is_empty() {
+                step.prune(cuts);
+            }
+            if let Some(end) = sprout {
+                let heading = step.scene().plant().heading(end);
+                step.graft_bud(end, heading);
+            }
+        });
+    }
+
     /// Puts whole columns of wood elsewhere, in one step ([`espalier_plant::Plant::place`]).
     pub fn place(&mut self, placed: Carried) -> Result<(), EditError> {
         self.edit(|step| step.place(placed))

@@ -7,6 +7,7 @@
 mod distance;
 mod limbs;
 mod mask;
+mod solid;
 mod sowing;
 
 use glam::{Vec2, Vec3};
@@ -47,7 +48,7 @@ pub struct Plane {
     pub up: Vec3,
 }
 
-/// A body that is symmetric to the plane its silhouette was drawn on.
+/// A body around a plane: symmetric to it where its silhouette was drawn there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Envelope {
     plane: Plane,
@@ -57,6 +58,8 @@ pub struct Envelope {
     width: usize,
     /// How far balls that are centred in the plane, and whose discs fit in, reach from it, pixel by pixel.
     height: Vec<f32>,
+    /// How far the middle of the body lies from the plane, pixel by pixel; nothing where it is symmetric.
+    middle: Vec<f32>,
     /// How far each pixel lies inside the outline.
     rim: Vec<f32>,
     /// How deep the body is, over how deep balls make it, and how far it reaches from the plane at most.
@@ -129,7 +132,8 @@ impl Envelope {
         let rim = depth.values.iter().map(|squared| squared.sqrt() * pixel).collect();
         let height = inscribed_balls(depth).values.iter().map(|height| height * pixel).collect();
         let (most_depth, zone) = (f32::INFINITY, occupancy_radius);
-        Ok(Self { plane, corner, pixel, width, height, rim, depth_factor, most_depth, zone })
+        let middle = Vec::new();
+        Ok(Self { plane, corner, pixel, width, height, middle, rim, depth_factor, most_depth, zone })
     }
 
     /// The same body, made flat enough for so many metamers to fill it.
@@ -152,13 +156,13 @@ impl Envelope {
     }
 
     /// How many metamers fill it.
-    fn wood(&self) -> f64 {
+    pub fn wood(&self) -> f64 {
         let zone = f64::from(self.zone);
         f64::from(WOOD) * self.marker_count(1.0) / (zone * zone * zone)
     }
 
     /// How far a place is from the box around its silhouette.
-    pub(crate) fn distance_to_box(&self, place: Vec3) -> f32 {
+    pub fn distance_to_box(&self, place: Vec3) -> f32 {
         let [x, y, away] = self.in_pixels(place).to_array();
         let size = [self.width, self.rows()].map(|pixels| pixels as f32);
         let beside = Vec2::new(x - x.clamp(0.0, size[0]), y - y.clamp(0.0, size[1])) * self.pixel;
@@ -192,7 +196,12 @@ impl Envelope {
         (self.height[pixel] * ZONE_OVER_HEIGHT).max(LEAST_ZONE).min(self.zone)
     }
 
-    /// How far the body reaches from the plane to either side.
+    /// How far the body's middle lies from the plane.
+    fn middle(&self, pixel: usize) -> f32 {
+        self.middle.get(pixel).copied().unwrap_or_default()
+    }
+
+    /// How far the body reaches from its middle to either side.
     fn half_depth(&self, pixel: usize) -> f32 {
         (self.height[pixel] * self.depth_factor).min(self.most_depth)
     }
@@ -214,7 +223,10 @@ impl Envelope {
         let at = self.in_pixels(place);
         let is_on_mask = at.x.min(at.y) >= 0.0 && at.x < self.width as f32 && at.y < self.rows() as f32;
         let pixel = is_on_mask.then(|| at.y as usize * self.width + at.x as usize);
-        pixel.filter(|&pixel| self.height[pixel] > 0.0 && at.z.abs() <= self.half_depth(pixel))
+        let is_around = |&pixel: &usize| {
+            self.height[pixel] > 0.0 && (at.z - self.middle(pixel)).abs() <= self.half_depth(pixel)
+        };
+        pixel.filter(is_around)
     }
 }
 

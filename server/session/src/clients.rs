@@ -9,7 +9,7 @@ use crate::{
     presence::Presence,
     principal::Principal,
     rights::Access,
-    session::LookedAt,
+    session::{AskedLimb, LookedAt},
     to_proto::Held,
     window::Window,
 };
@@ -43,6 +43,8 @@ pub(crate) struct ConnectedClient {
     pub(crate) prediction_view: PredictionView,
     /// The branch of the design that it looks at.
     pub(crate) looked_at: Option<LookedAt>,
+    /// The limb that it asks for.
+    pub(crate) asked_limb: Option<AskedLimb>,
     pub(crate) presence: Presence,
     /// Whether it waits to hear what its rows must add up to (`CK1`).
     pub(crate) is_checking: bool,

@@ -18,6 +18,7 @@ mod parts;
 mod pins;
 mod programmes;
 mod pruning;
+mod refilling;
 mod settings;
 mod strokes;
 #[cfg(test)]
@@ -234,6 +235,11 @@ impl Document {
             Action::EditDesign { edits } => self.edit_design(cause, edits),
             Action::ReleaseDesign {} => self.release_design(cause),
             Action::FitDesign { row, orders } => self.fit_design(cause, *row, *orders),
+            Action::Refill { row, envelope, rotation, length, anew } => {
+                let outline =
+                    refilling::Outline { envelope, rotation: *rotation, length: *length, anew: *anew };
+                self.refill(cause, *row, &outline)
+            }
             Action::SetGrammar { text, values, seed, position, depth, within } => {
                 let planting = grammars::Planting {
                     text,

@@ -7,6 +7,7 @@ mod checking;
 mod commands;
 mod delivery;
 mod greeting;
+mod limbs;
 mod pausing;
 mod pins;
 mod predicting;
@@ -44,9 +45,9 @@ use crate::{
     work::{BendUpdate, Work},
 };
 
-pub(crate) use self::branches::LookedAt;
 pub use self::restoring::{Restoring, Tail};
 use self::{acts::Act, commands::Queue, pausing::Pausing, pins::Pins, presence::Room, upkeep::Upkeep};
+pub(crate) use self::{branches::LookedAt, limbs::AskedLimb};
 
 /// One shared document with its clients. Feed it with [`Session::handle`], then drain [`Session::poll_output`].
 #[derive(Debug)]
@@ -394,6 +395,7 @@ impl Session {
                 self.predict(client, Prediction { rows: rows.into(), steps: steps.get() });
             }
             Ok(ClientMessage::LookAtBranch { of }) => self.look_at_branch(client, of),
+            Ok(ClientMessage::LookAtLimb { row }) => self.look_at_limb(client, row),
             Ok(ClientMessage::Follow { device }) => self.follow(client, device),
             Ok(ClientMessage::Gather { camera }) => self.gather(client, camera),
             Ok(here @ ClientMessage::Here { .. }) => {

@@ -21,7 +21,11 @@ pub enum Urgency {
 pub(crate) fn grows_alone(action: &Action) -> bool {
     matches!(
         action,
-        Action::Grow { .. } | Action::Lasso { .. } | Action::Derive { .. } | Action::FitDesign { .. }
+        Action::Grow { .. }
+            | Action::Lasso { .. }
+            | Action::Derive { .. }
+            | Action::FitDesign { .. }
+            | Action::Refill { .. }
     )
 }
 

@@ -56,7 +56,7 @@ export type Effect =
 /** What a page says that is no command: it is not numbered, and not said again. */
 export type Told = Extract<
   ClientMessage,
-  { type: "predict" | "look_at_branch" | "here" | "follow" | "gather" | "ping" }
+  { type: "predict" | "look_at_branch" | "look_at_limb" | "here" | "follow" | "gather" | "ping" }
 >;
 
 /** What rows must add up to (`CK1`). */

@@ -334,8 +334,8 @@ export const HELP = {
   ],
   "help.topic.structure": ["Structure", "Aufbau"],
   "help.topic.structure.text": [
-    "Design a tree from its outline inwards, as a bonsai",
-    "Einen Baum vom Umriss her entwerfen, wie einen Bonsai",
+    "Design a tree from its outline inwards, as a bonsai, or give a limb that grew another outline",
+    "Einen Baum vom Umriss her entwerfen, wie einen Bonsai, oder einem gewachsenen Ast einen anderen Umriss geben",
   ],
   "help.topic.structure.words": [
     "bonsai design silhouette outline hull inherit chokkan",

@@ -37,6 +37,7 @@ export const OPERATIONS = {
   "operations.kind.brought_back": ["Brought back", "Zurückgeholt"],
   "operations.kind.design": ["Design", "Entwurf"],
   "operations.kind.grammar": ["Grammar", "Grammatik"],
+  "operations.kind.refill": ["Limb filled anew", "Ast neu gefüllt"],
 } as const;
 
 /** The line of time. */

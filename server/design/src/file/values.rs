@@ -47,6 +47,21 @@ pub(super) fn written(value: &Value) -> Text {
     }
 }
 
+impl Envelope {
+    /// Reads an envelope that is the value of no parameter.
+    ///
+    /// # Errors
+    /// Where a field is missing, unknown or out of range, or the envelope is inside out.
+    pub fn from_json(value: &Text) -> Result<Self, Refusal> {
+        envelope(&Json::root(value))
+    }
+
+    /// The same as JSON.
+    pub fn to_json(&self) -> Text {
+        written(&Value::Envelope(self.clone()))
+    }
+}
+
 /// A value of a kind; whether it lies in its range is for the graph to say.
 pub(super) fn read(json: &Json<'_>, kind: Kind) -> Result<Held, Refusal> {
     let vector = |json: &Json<'_>| json.numbers::<3>().map(Vec3::from_array);
@@ -66,22 +81,7 @@ pub(super) fn read(json: &Json<'_>, kind: Kind) -> Result<Held, Refusal> {
             let points = few(json, kind)?.iter().map(vector).collect::<Result<Vec<_>, _>>()?;
             Value::Curve(Curve::new(&points).map_err(|fault| json.not_allowed(&fault))?)
         }
-        Kind::Envelope => {
-            let object = json.object(&["top", "bottom", "radii", "heights", "upper", "lower", "tip"])?;
-            let field =
-                |name| object.needed(name, "the fields top, bottom, radii, heights, upper, lower, tip");
-            let envelope = Envelope {
-                top: vector(&field("top")?)?,
-                bottom: vector(&field("bottom")?)?,
-                radii: field("radii")?.numbers()?,
-                heights: field("heights")?.numbers()?,
-                upper: field("upper")?.number()?,
-                lower: field("lower")?.number()?,
-                tip: vector(&field("tip")?)?,
-            };
-            envelope.check().map_err(|fault| json.not_allowed(&fault))?;
-            Value::Envelope(envelope)
-        }
+        Kind::Envelope => Value::Envelope(envelope(json)?),
         Kind::Material => {
             let object = json.object(&["bark", "leaves"])?;
             let field =
@@ -90,6 +90,23 @@ pub(super) fn read(json: &Json<'_>, kind: Kind) -> Result<Held, Refusal> {
         }
     };
     Ok(Held::new(value))
+}
+
+fn envelope(json: &Json<'_>) -> Result<Envelope, Refusal> {
+    let vector = |json: &Json<'_>| json.numbers::<3>().map(Vec3::from_array);
+    let object = json.object(&["top", "bottom", "radii", "heights", "upper", "lower", "tip"])?;
+    let field = |name| object.needed(name, "the fields top, bottom, radii, heights, upper, lower, tip");
+    let envelope = Envelope {
+        top: vector(&field("top")?)?,
+        bottom: vector(&field("bottom")?)?,
+        radii: field("radii")?.numbers()?,
+        heights: field("heights")?.numbers()?,
+        upper: field("upper")?.number()?,
+        lower: field("lower")?.number()?,
+        tip: vector(&field("tip")?)?,
+    };
+    envelope.check().map_err(|fault| json.not_allowed(&fault))?;
+    Ok(envelope)
 }
 
 /// The entries of a list that must be short, or it is not looked into.

@@ -195,24 +195,24 @@ impl Wood {
 }
 
 /// What stands on each row of a seed, itself the first one.
-struct Rows<'a> {
+pub(super) struct Rows<'a> {
     plant: &'a Plant,
-    widths: Widths<'a>,
+    pub widths: Widths<'a>,
     /// In order of birth.
-    all: Vec<MetamerId>,
+    pub all: Vec<MetamerId>,
     /// Where the children of each begin.
     first: Vec<u32>,
     children: Vec<u32>,
     /// It and all that stands on it.
     sizes: Vec<u32>,
     /// The child that continues it.
-    heirs: Vec<Option<u32>>,
+    pub heirs: Vec<Option<u32>>,
     /// Internodes from it, its own included, to the end of what continues it.
     chains: Vec<u32>,
 }
 
 impl<'a> Rows<'a> {
-    fn of(plant: &'a Plant, girth: &'a Girth, seed: MetamerId) -> Self {
+    pub(super) fn of(plant: &'a Plant, girth: &'a Girth, seed: MetamerId) -> Self {
         const NONE: u32 = u32::MAX;
         let mut all = vec![seed];
         let mut parents = vec![NONE];
@@ -263,12 +263,27 @@ impl<'a> Rows<'a> {
         rows
     }
 
-    fn children(&self, row: u32) -> &[u32] {
+    pub(super) fn children(&self, row: u32) -> &[u32] {
         &self.children[self.first[row as usize] as usize..self.first[row as usize + 1] as usize]
     }
 
-    fn place(&self, row: u32) -> Vec3 {
+    pub(super) fn place(&self, row: u32) -> Vec3 {
         self.plant.metamers().end(self.all[row as usize])
+    }
+
+    /// Where the nodes of a limb and of what it bears stand, without those of its own axis below the first fork.
+    pub(super) fn crown(&self, first: u32, axis: &[u32]) -> Vec<Vec3> {
+        let bare = axis.iter().take_while(|&&row| self.children(row).len() == 1).count();
+        let bare = &axis[..if bare == axis.len() { 0 } else { bare }];
+        let mut nodes = Vec::with_capacity(self.sizes[first as usize] as usize);
+        let mut waiting = vec![first];
+        while let Some(row) = waiting.pop() {
+            if bare.binary_search(&row).is_err() {
+                nodes.push(self.place(row));
+            }
+            waiting.extend_from_slice(self.children(row));
+        }
+        nodes
     }
 
     /// The thickest child; of children as thick the one of the same axis, then the one that bears more.

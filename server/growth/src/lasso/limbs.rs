@@ -123,7 +123,8 @@ impl<'a> Cells<'a> {
         let [x, y] = self.pixel(cell);
         let at = self.envelope.corner + Vec2::new(x as f32, y as f32) * self.envelope.pixel;
         let plane = self.envelope.plane;
-        plane.origin + plane.right * at.x + plane.up * at.y
+        let middle = plane.right.cross(plane.up) * self.envelope.middle(y * self.envelope.width + x);
+        plane.origin + plane.right * at.x + plane.up * at.y + middle
     }
 
     /// How far a cell lies inside the outline.

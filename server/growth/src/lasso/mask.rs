@@ -25,16 +25,20 @@ impl Mask {
     /// silhouette may be widened by, and `resolution` the mask's longer side in pixels.
     pub(super) fn fill(outline: &[Vec2], margin: f32, resolution: usize) -> Self {
         let (low, high) = bounds(outline);
-        let size = high - low + 2.0 * margin;
+        let mut mask = Self::of_box((low + high) * 0.5, high - low + 2.0 * margin, resolution);
+        mask.fill_even_odd(outline);
+        mask
+    }
+
+    /// Nothing yet, of a box around a place; its longer side has `resolution` pixels.
+    pub(super) fn of_box(around: Vec2, size: Vec2, resolution: usize) -> Self {
         let pixel = size.max_element() / (resolution - 2 * MARGIN) as f32;
         let pixels = |length: f32| ((length / pixel).ceil() as usize).clamp(1, resolution - 2 * MARGIN);
         let (width, height) = (pixels(size.x) + 2 * MARGIN, pixels(size.y) + 2 * MARGIN);
-        // The silhouette's middle is the mask's.
+        // The middle of the box is the mask's.
         let middle = Vec2::new((width - 1) as f32, (height - 1) as f32) * 0.5;
-        let corner = (low + high) * 0.5 - middle * pixel;
-        let mut mask = Self { width, inside: vec![false; width * height], corner, pixel };
-        mask.fill_even_odd(outline);
-        mask
+        let corner = around - middle * pixel;
+        Self { width, inside: vec![false; width * height], corner, pixel }
     }
 
     fn fill_even_odd(&mut self, outline: &[Vec2]) {
@@ -106,7 +110,7 @@ impl Mask {
     }
 
     /// Keeps a border of background, from which distances are measured.
-    fn clear_margin(&mut self) {
+    pub(super) fn clear_margin(&mut self) {
         let width = self.width;
         let last = self.inside.len() / width - 1;
         for (y, row) in self.inside.chunks_exact_mut(width).enumerate() {

@@ -85,7 +85,8 @@ impl Sowing {
                 let in_plane = envelope.corner + (at + jitter * WITHIN) * envelope.pixel;
                 // Depths follow the golden ratio, so that neighbours along the curve lie far apart in depth.
                 let share = (number.wrapping_mul(0x9e37_79b9) >> 8) as f32 * (1.0 / 16_777_216.0);
-                let depth = envelope.half_depth(pixel) * (2.0 * share - 1.0) * WITHIN;
+                let depth =
+                    envelope.middle(pixel) + envelope.half_depth(pixel) * (2.0 * share - 1.0) * WITHIN;
                 let plane = envelope.plane;
                 lay(plane.origin + plane.right * in_plane.x + plane.up * in_plane.y + normal * depth);
                 i += 1;

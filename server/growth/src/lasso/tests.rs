@@ -251,3 +251,42 @@ fn the_same_outline_gives_the_same_body() {
     let all = || places(&inflate(&outline), 100, Vec3::ZERO, 99.0);
     assert_eq!(all(), all());
 }
+
+/// A ball of radius 8 whose middle lies 5 internodes in front of the plane.
+fn ball_in_front() -> Envelope {
+    let column = |at: Vec2| {
+        let half = 64.0 - at.length_squared();
+        (half > 0.0).then(|| (5.0 - half.sqrt(), 5.0 + half.sqrt()))
+    };
+    Envelope::solid(FRONT, (Vec2::splat(-8.5), Vec2::splat(8.5)), 1.5, column).expect("a body")
+}
+
+#[test]
+fn a_solid_body_lies_where_its_columns_do() {
+    let ball = ball_in_front();
+    check_volume("ball", ball.volume(), 4.0 / 3.0 * PI * 512.0, 0.03);
+    assert!(ball.contains(at(0.0, 0.0, 12.5)) && !ball.contains(at(0.0, 0.0, 13.5)));
+    assert!(ball.contains(at(0.0, 0.0, -2.5)) && !ball.contains(at(0.0, 0.0, -3.5)));
+    let places = places(&ball, 2000, FRONT.origin, 99.0);
+    assert_eq!(places.len(), 2000);
+    let middle = FRONT.origin + Vec3::Z * 5.0;
+    assert!(places.iter().all(|place| ball.contains(*place) && place.distance(middle) < 8.3));
+    let inner = places.iter().filter(|place| place.distance(middle) < 4.0).count();
+    assert!((200..300).contains(&inner), "an eighth of a ball lies within half its radius: {inner}");
+    let limbs = ball.limbs(FRONT.origin);
+    assert!(limbs.iter().flatten().all(|sample| (sample.position.z - 5.0).abs() < 0.01));
+}
+
+#[test]
+fn a_solid_body_has_an_inside_within_the_world() {
+    let solid = |column: fn(Vec2) -> Option<(f32, f32)>, half: f32| {
+        Envelope::solid(FRONT, (Vec2::splat(-half), Vec2::splat(half)), 1.5, column).err()
+    };
+    assert_eq!(solid(|_| None, 9.0), Some(LassoError::NoArea));
+    assert_eq!(solid(|_| Some((1.0, 1.0)), 9.0), Some(LassoError::NoArea));
+    assert!(matches!(solid(|_| Some((0.0, 2000.0)), 9.0), Some(LassoError::OutOfWorld(_))));
+    assert_eq!(solid(|_| Some((0.0, 1.0)), f32::NAN), Some(LassoError::NotFinite("box around the body")));
+    let askew = Plane { up: Vec3::X, ..FRONT };
+    let refused = Envelope::solid(askew, (Vec2::ZERO, Vec2::ONE), 1.5, |_| Some((0.0, 1.0)));
+    assert_eq!(refused.err(), Some(LassoError::NotOrthonormal));
+}

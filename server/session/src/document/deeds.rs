@@ -62,7 +62,13 @@ impl Operation {
         self.is_chosen
             || matches!(
                 self.kind,
-                Kind::Stroke | Kind::Lasso | Kind::Seed | Kind::Graft | Kind::Design | Kind::Grammar
+                Kind::Stroke
+                    | Kind::Lasso
+                    | Kind::Seed
+                    | Kind::Graft
+                    | Kind::Design
+                    | Kind::Grammar
+                    | Kind::Refill
             )
     }
 }

@@ -20,6 +20,7 @@ use espalier_proto::{BranchPath, DesignEdit, DesignInForce, DesignValue, Positio
 use espalier_reading::Unread;
 use glam::Vec3;
 
+pub(super) use self::placed::{rotation, rounded, vector};
 use super::{
     Document,
     branches::said,
@@ -266,7 +267,7 @@ impl Document {
         Ok(Arc::clone(design))
     }
 
-    fn require_nobody_draws(&self) -> Result<(), Problem> {
+    pub(super) fn require_nobody_draws(&self) -> Result<(), Problem> {
         if self.strokes.is_empty() {
             return Ok(());
         }

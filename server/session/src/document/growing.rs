@@ -24,8 +24,8 @@ pub(super) enum Pending {
     Brush(StepInput),
     /// So many steps alike, without guidance by hand; whether any of them has changed anything so far.
     Steps { left: u32, has_grown: bool, step: Step },
-    /// At most so many steps, while the markers of a lasso make anything grow.
-    Lasso { left: u32, chosen: Option<MetamerId>, lasso: OpenLasso },
+    /// At most so many steps, while the markers of an envelope make anything grow; a lasso that may be drawn in vain.
+    Lasso { left: u32, chosen: Option<MetamerId>, lasso: Option<OpenLasso> },
     /// The step of a grammar that is under way.
     Write,
     /// A design that is being fitted.
@@ -95,7 +95,7 @@ impl Document {
                     self.pending.push_front(Pending::Lasso { left: left - 1, chosen, lasso });
                 } else {
                     self.simulation.drop_envelopes();
-                    self.hint_empty(lasso);
+                    lasso.into_iter().for_each(|lasso| self.hint_empty(lasso));
                 }
             }
             Pending::Settle { stroke, left } => {
@@ -247,7 +247,7 @@ impl Document {
         self.ask(cause, true);
         self.simulation.enclose(&envelope);
         let places: Vec<Vec3> = outline.iter().map(|at| plane.origin + right * at.x + up * at.y).collect();
-        let lasso = self.opened_lasso(envelope, &places);
+        let lasso = Some(self.opened_lasso(envelope, &places));
         self.pending.push_back(Pending::Lasso { left: MAX_OUTLINE_STEPS, chosen, lasso });
         Ok(())
     }

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use espalier_growth::{Envelope, REACH, StrokeId};
-use espalier_plant::{AxisId, MetamerId};
+use espalier_plant::{AxisId, MetamerId, Plant};
 use espalier_proto::HintReason;
 use glam::Vec3;
 
@@ -34,6 +34,13 @@ pub(super) struct OpenLasso {
     end: Vec3,
     /// Metamers from this row on were born after it had begun.
     first_born: usize,
+}
+
+impl OpenLasso {
+    /// The same of an outline with this tip that a limb is to fill, whose buds are near.
+    pub(super) fn around_limb(envelope: Envelope, tip: Vec3, plant: &Plant) -> Self {
+        Self { envelope, is_in_reach: true, end: tip, first_born: plant.metamer_count() }
+    }
 }
 
 /// What is still to be said, and of which strokes something has been said.

@@ -54,10 +54,12 @@ pub(super) enum Kind {
     Design = 14,
     /// A grammar set, derived further, or its sliders set.
     Grammar = 15,
+    /// A limb cut back to an outline and grown into it.
+    Refill = 16,
 }
 
 impl Kind {
-    const ALL: [Self; 16] = [
+    const ALL: [Self; 17] = [
         Self::Stroke,
         Self::Growth,
         Self::Parameters,
@@ -74,6 +76,7 @@ impl Kind {
         Self::BroughtBack,
         Self::Design,
         Self::Grammar,
+        Self::Refill,
     ];
 
     /// Whether such an operation holds a set of parameters, looks or obstacles, a design or a grammar that no other holds.
@@ -382,10 +385,11 @@ impl History {
             })
     }
 
-    /// The steps of strokes and lassos in force: after the first, up to the second of each pair.
+    /// The steps of strokes, lassos and refilled limbs in force: after the first, up to the second of each pair.
     pub fn drawn(&self) -> Vec<(u32, u32)> {
         let drawn = self.operations[..self.done].iter();
-        let drawn = drawn.filter(|operation| matches!(operation.kind, Kind::Stroke | Kind::Lasso));
+        let drawn =
+            drawn.filter(|operation| matches!(operation.kind, Kind::Stroke | Kind::Lasso | Kind::Refill));
         let mut steps: Vec<(u32, u32)> = Vec::new();
         for operation in drawn.filter(|operation| operation.first < operation.last) {
             match steps.last_mut().filter(|(_, end)| *end == operation.first) {

@@ -125,6 +125,7 @@ impl From<Kind> for OperationKind {
             Kind::BroughtBack => Self::BroughtBack,
             Kind::Design => Self::Design,
             Kind::Grammar => Self::Grammar,
+            Kind::Refill => Self::Refill,
         }
     }
 }

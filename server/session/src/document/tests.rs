@@ -11,6 +11,7 @@ mod histories;
 mod looks;
 mod pins;
 mod programmes;
+mod refilling;
 mod shaping;
 mod strokes;
 mod times;

@@ -61,7 +61,8 @@ const fn is_by_hand(kind: OperationKind) -> bool {
         | OperationKind::Prune
         | OperationKind::Turn
         | OperationKind::Graft
-        | OperationKind::Design => true,
+        | OperationKind::Design
+        | OperationKind::Refill => true,
         OperationKind::Growth
         | OperationKind::Parameters
         | OperationKind::Appearance

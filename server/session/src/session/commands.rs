@@ -55,7 +55,10 @@ impl Weight {
 fn least_steps(action: &Action) -> u32 {
     match action {
         Action::Grow { steps, .. } => steps.get(),
-        Action::StrokeMove { .. } | Action::Lasso { .. } | Action::FitDesign { .. } => 1,
+        Action::StrokeMove { .. }
+        | Action::Lasso { .. }
+        | Action::FitDesign { .. }
+        | Action::Refill { .. } => 1,
         _ => 0,
     }
 }

@@ -59,6 +59,7 @@ impl Session {
             self.take_figures(&mut work);
             self.unsettle_pins();
             self.find_branches(&mut work.document);
+            self.find_limbs(&mut work.document);
         }
         self.came_home(work.hold);
         self.whole_due = self.now + PAUSE_MS;

@@ -100,6 +100,7 @@ impl Session {
                 watch: Watch::default(),
                 prediction_view: PredictionView::default(),
                 looked_at: None,
+                asked_limb: None,
                 presence,
                 is_checking: false,
             });

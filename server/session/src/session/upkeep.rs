@@ -240,6 +240,7 @@ impl Session {
         }
         if !self.upkeep.design_changed {
             self.tell_branches();
+            self.tell_limbs();
         }
         if self.upkeep.grammar_changed && self.now >= self.upkeep.grammar_due {
             self.upkeep.grammar_changed = false;

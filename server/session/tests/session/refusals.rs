@@ -72,6 +72,9 @@ pub(crate) fn commands() -> Vec<Value> {
         json!({ "kind": "release_design" }),
         json!({ "kind": "fit_design", "row": 1, "orders": 3 }),
         json!({
+            "kind": "refill", "row": 1, "envelope": ovoid(), "rotation": [0, 0, 0, 1], "length": 8, "anew": true,
+        }),
+        json!({
             "kind": "set_grammar", "text": "axiom: A\nA --> F[+A]A", "seed": 3, "position": [1, 0, 2], "depth": 2,
             "values": [{ "name": "a", "value": 20 }], "gesture": 1,
             "within": {
@@ -93,6 +96,14 @@ pub(crate) fn commands() -> Vec<Value> {
     ]
 }
 
+/// An envelope as designs write it.
+fn ovoid() -> Value {
+    json!({
+        "top": [0, 1, 0], "bottom": [0, 0, 0], "radii": [0.4, 0.4, 0.4, 0.4], "heights": [0.5, 0.5, 0.5, 0.5],
+        "upper": 2, "lower": 2, "tip": [0, 1, 0],
+    })
+}
+
 /// One message of each type but commands.
 pub(crate) fn messages() -> Vec<Value> {
     let resume = json!({ "epoch": 1, "generations": [1, 2], "rows": 3 });
@@ -111,6 +122,7 @@ pub(crate) fn messages() -> Vec<Value> {
             "name": "Ann",
         }),
         json!({ "type": "here", "pointer": { "kind": "space", "position": [0.5, 1.0, 2.0] } }),
+        json!({ "type": "look_at_limb", "row": 4 }),
         json!({ "type": "follow", "device": 2 }),
         json!({
             "type": "gather",
@@ -332,6 +344,9 @@ fn by_state() -> Vec<(Reason, Vec<Value>, Value, &'static str)> {
     let ball = json!({ "kind": "sphere", "radius": 2 });
     let mesh = json!({ "kind": "mesh", "mesh": tetrahedron().to_base64(), "scale": 1 });
     let grow = |steps: u32| json!({ "kind": "grow", "steps": steps });
+    let refill = |row: u32, envelope: &Value, length: f32| json!({ "kind": "refill", "row": row, "envelope": envelope, "rotation": [0, 0, 0, 1], "length": length });
+    let mut inside_out = ovoid();
+    inside_out["top"] = json!([0, -1, 0]);
     let turned = json!([0, 0.6, 0, 0.8]);
     let line = json!({
         "kind": "lasso", "outline": [[0, 0], [0, 0], [0, 0]], "depth": 0.5,
@@ -386,6 +401,12 @@ fn by_state() -> Vec<(Reason, Vec<Value>, Value, &'static str)> {
             "onto",
         ),
         (Reason::TreeFull, vec![grow(20)], grow(1), "kind"),
+        (Reason::BranchGone, vec![grow(2)], refill(999, &ovoid(), 8.0), "row"),
+        (Reason::BranchGone, vec![grow(2)], refill(0, &ovoid(), 8.0), "row"),
+        (Reason::TreeFull, vec![grow(2)], refill(1, &ovoid(), 40.0), "envelope"),
+        (Reason::OutOfRange, vec![grow(2)], refill(1, &inside_out, 8.0), "envelope.top"),
+        (Reason::Malformed, vec![grow(2)], refill(1, &json!({}), 8.0), "envelope.top"),
+        (Reason::BeingDrawn, vec![grow(2), stroke(1)], refill(1, &ovoid(), 8.0), "kind"),
     ]
 }
 

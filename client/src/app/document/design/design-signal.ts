@@ -1,5 +1,5 @@
 import { signal } from "@preact/signals";
-import type { DesignInForce, PlacedBranch } from "../../../wire/generated";
+import type { DesignInForce, LimbOutline, PlacedBranch } from "../../../wire/generated";
 import type { Gesture } from "../../input/gesture";
 
 /** Where branches stand around the one that this page looks at. */
@@ -8,10 +8,19 @@ export interface PlacedAround {
   readonly branches: readonly PlacedBranch[];
 }
 
+/** A limb that grew, as the server told it to this page (`DS13`). */
+export interface ToldLimb {
+  /** The row that was asked for. */
+  readonly of: number;
+  /** None where no limb lives there, or it follows a design. */
+  readonly limb: LimbOutline | null;
+}
+
 /** The design in force, as the server told it last (`DS4`, `DS8`). */
 export class DesignSignal {
   readonly inForce = signal<DesignInForce | null>(null);
   readonly placed = signal<PlacedAround>({ of: "", branches: [] });
+  readonly limb = signal<ToldLimb | null>(null);
   /** What takes gestures on the canvas while a design is shaped by hand, and gives what is left of them. */
   hands: ((gesture: Gesture) => Gesture | null) | null = null;
 

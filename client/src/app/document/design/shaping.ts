@@ -12,18 +12,17 @@ import {
   type HandleView,
   type Held,
   handlesOf,
-  type Readout,
 } from "./branch-handles";
 import { BranchShape } from "./branch-shape";
 import type { Curve } from "./curve-points";
 import type { DesignEditing } from "./design-editing";
 import { bearerOf, keyNamed, ROOT } from "./design-model";
 import type { DesignSignal } from "./design-signal";
+import type { HandsOn, HeldShape, Hidden } from "./hands-on";
 import { fittedOutline, type Unfitted } from "./outline-fit";
 import { borneBy, pickable, pickBranch } from "./shell-pick";
+import { TapOrTurn } from "./tap-or-turn";
 
-/** How far a finger may wander and still tap, in pixels. */
-const TAP = 9;
 /** How soon after a tap another one goes deeper, in milliseconds, and how near to it. */
 const SECOND_TAP = 380;
 const SAME_PLACE = 32;
@@ -52,12 +51,6 @@ export interface ShapingOptions {
   readonly unfitted: (why: Unfitted) => void;
 }
 
-/** How many handles cannot be hit: because they lie too close together, or because one looks along them. */
-export interface Hidden {
-  readonly near: number;
-  readonly along: number;
-}
-
 /** A handle in a finger. */
 interface Grip {
   readonly handle: Handle;
@@ -67,7 +60,7 @@ interface Grip {
 }
 
 /** Shaping a design by hand, in the picture: which branch is chosen, and its handles. */
-export class Shaping {
+export class Shaping implements HandsOn {
   /** Whether it is wanted. */
   readonly wanted = signal(false);
   readonly group = signal<HandleGroup>("way");
@@ -80,9 +73,7 @@ export class Shaping {
   /** Handles that are not shown. */
   readonly hidden = signal<Hidden>({ near: 0, along: 0 });
   /** What the finger makes of the chosen branch, while it does. */
-  readonly held = signal<{ readonly handle: string; readonly shape: BranchShape; readonly readout: Readout } | null>(
-    null,
-  );
+  readonly held = signal<HeldShape | null>(null);
   /** Whether fingers shape: there is an open design, and whoever is here may change it. */
   readonly isOn = computed(() => {
     const told = this.#options.design.inForce.value;
@@ -114,17 +105,26 @@ export class Shaping {
   #grip: Grip | null = null;
   /** Ends what a finger that draws holds. */
   #letGo: (() => void) | null = null;
-  #stroke: { readonly x: number; readonly y: number; last: readonly [number, number]; moved: boolean } | null = null;
+  #taps = new TapOrTurn((x, y) => this.tap(x, y));
   #tapped: { readonly x: number; readonly y: number; readonly at: number } | null = null;
   #stop: () => void;
 
   constructor(options: ShapingOptions) {
     this.#options = options;
     const { design, editing, connected } = options;
+    const hands = (gesture: Gesture) => this.gesture(gesture);
     let isLooking = false;
     const stops = [
       effect(() => {
-        design.hands = this.isOn.value ? (gesture) => this.gesture(gesture) : null;
+        if (!this.isOn.value) {
+          return undefined;
+        }
+        design.hands = hands;
+        return () => {
+          if (design.hands === hands) {
+            design.hands = null;
+          }
+        };
       }),
       effect(() => {
         const isAsked = this.isOn.value || (this.isListed.value && design.inForce.value !== null);
@@ -201,41 +201,7 @@ export class Shaping {
       this.#sketch(gesture);
       return null;
     }
-    switch (gesture.kind) {
-      case "stroke-begin": {
-        const { x, y } = gesture.point;
-        this.#stroke = { x, y, last: [x, y], moved: false };
-        return null;
-      }
-      case "stroke-move": {
-        const [stroke, to] = [this.#stroke, gesture.points.at(-1)];
-        if (!stroke || !to) {
-          return null;
-        }
-        stroke.moved ||= Math.hypot(to.x - stroke.x, to.y - stroke.y) > TAP;
-        const [dx, dy] = [to.x - stroke.last[0], to.y - stroke.last[1]];
-        if (!stroke.moved) {
-          return null;
-        }
-        stroke.last = [to.x, to.y];
-        return { kind: "orbit", dx, dy };
-      }
-      case "stroke-end": {
-        const stroke = this.#stroke;
-        this.#stroke = null;
-        if (stroke && !stroke.moved) {
-          this.tap(stroke.x, stroke.y);
-        }
-        return null;
-      }
-      case "pan":
-      case "orbit":
-      case "zoom":
-      case "several-tap":
-        return gesture;
-      default:
-        return null;
-    }
+    return this.#taps.gesture(gesture);
   }
 
   /** Chooses the branch at a place; a second time, one that it bears. Beside everything it goes one scale up. */
@@ -389,7 +355,6 @@ export class Shaping {
 
   dispose(): void {
     this.#stop();
-    this.#options.design.hands = null;
   }
 
   #pick(levels: readonly (readonly BranchShape[])[], x: number, y: number): string | null {

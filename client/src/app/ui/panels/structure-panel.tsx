@@ -2,6 +2,7 @@ import { useEffect } from "preact/hooks";
 import { DESIGN_TEMPLATES } from "../../document/design/design-keys";
 import { ROOT } from "../../document/design/design-model";
 import { designOf } from "../../document/design/design-of";
+import { limbsOf } from "../../document/design/limbs-of";
 import { shapingOf } from "../../document/design/shaping-of";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
@@ -17,7 +18,7 @@ export function StructurePanel({ studio }: { studio: Studio }) {
   const model = editing.model.value;
   const onTop = model?.told.steps_on_top ?? 0;
   const fits = (studio.document.value?.trials ?? 0) > 0;
-  const shaping = shapingOf(studio);
+  const [shaping, limbs] = [shapingOf(studio), limbsOf(studio)];
   const { bark, leaves } = studio.appearance.value;
   const colours = { bark: bark.tint, leaves: leaves.tint };
   useEffect(() => mountStage(studio), [studio]);
@@ -64,6 +65,22 @@ export function StructurePanel({ studio }: { studio: Studio }) {
           </button>
         </div>
       </Section>
+      {!shaping.isOn.value && (!model || onTop > 0) && (
+        <Section name="structure.limbs" title={say("limbs.title")} open>
+          <p class="quiet">{say("limbs.help")}</p>
+          <button
+            type="button"
+            class="structure-release"
+            aria-pressed={limbs.isOn.value}
+            disabled={!studio.rights.mayChange.value}
+            onClick={() => {
+              limbs.wanted.value = !limbs.isOn.peek();
+            }}
+          >
+            {say("limbs.shape")}
+          </button>
+        </Section>
+      )}
       {model && onTop > 0 && (
         <div class="structure-sealed" role="status">
           <p>{say("structure.sealed", { steps: onTop })}</p>

@@ -1,6 +1,6 @@
 import type { Handle } from "../../document/design/branch-handles";
 import type { BranchShape } from "../../document/design/branch-shape";
-import type { Hidden } from "../../document/design/shaping";
+import type { Hidden } from "../../document/design/hands-on";
 
 type Pixel = readonly [x: number, y: number];
 type Project = (point: readonly [number, number, number]) => Pixel | null;

@@ -2,9 +2,11 @@ import { effect } from "@preact/signals";
 import { render } from "preact";
 import { ROOT } from "../../document/design/design-model";
 import { designOf } from "../../document/design/design-of";
+import { limbsOf } from "../../document/design/limbs-of";
 import { shapingOf } from "../../document/design/shaping-of";
 import type { Studio } from "../../studio";
 import { comeTo } from "./come-to";
+import { LimbStage } from "./limb-stage";
 import { StructureStage } from "./structure-stage";
 
 const MOUNTED = new WeakSet<Studio>();
@@ -19,11 +21,17 @@ export function mountStage(studio: Studio): void {
     return;
   }
   MOUNTED.add(studio);
-  const shaping = shapingOf(studio);
+  const [shaping, limbs] = [shapingOf(studio), limbsOf(studio)];
   const host = document.createElement("div");
   host.className = "structure-stage";
   workspace.append(host);
-  render(<StructureStage studio={studio} shaping={shaping} />, host);
+  render(
+    <>
+      <StructureStage studio={studio} shaping={shaping} />
+      <LimbStage studio={studio} limbs={limbs} />
+    </>,
+    host,
+  );
   effect(() => {
     if (studio.layout.panel.value === "structure") {
       shaping.wanted.value = true;
@@ -55,9 +63,10 @@ export function mountStage(studio: Studio): void {
     if (tool !== before) {
       before = tool;
       shaping.wanted.value = false;
+      limbs.wanted.value = false;
     }
   });
   effect(() => {
-    workspace.dataset.shaping = String(shaping.isOn.value);
+    workspace.dataset.shaping = String(shaping.isOn.value || limbs.isOn.value);
   });
 }

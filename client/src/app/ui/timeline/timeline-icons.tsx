@@ -28,6 +28,15 @@ const DesignIcon = () => (
   </Icon>
 );
 
+/** A limb that leads into an outline beside it. */
+const RefillIcon = () => (
+  <Icon>
+    <path d="M5 20.5V9M5 16l4.5-3.2" />
+    <path d="M9.5 12.8c0-4 2.2-7.3 5.5-7.3s5 3 5 6.3-2.4 5.7-5.5 5.7-5-1.8-5-4.7Z" />
+    <path d="m12.5 12 4.5-2.5M14.5 11l2 2.5" />
+  </Icon>
+);
+
 interface Sort {
   readonly name: Key;
   readonly Icon: ComponentType;
@@ -49,6 +58,7 @@ const SORTS: Record<OperationKind, Sort> = {
   taken_back: { name: "operations.kind.taken_back", Icon: UndoIcon },
   design: { name: "operations.kind.design", Icon: DesignIcon },
   grammar: { name: "operations.kind.grammar", Icon: GrammarIcon },
+  refill: { name: "operations.kind.refill", Icon: RefillIcon },
   brought_back: { name: "operations.kind.brought_back", Icon: RedoIcon },
 };
 

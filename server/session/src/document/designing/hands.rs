@@ -18,6 +18,11 @@ impl Document {
         rows.iter().map(of_design).collect()
     }
 
+    /// Whether a row is wood of an open design.
+    pub(in crate::document) fn is_designed(&mut self, row: u32) -> bool {
+        self.designed(&[row]).is_some_and(|rows| !rows.is_empty())
+    }
+
     /// Gives designed wood a width; without one it follows its bearer again.
     pub(in crate::document) fn widen_designed(
         &mut self,

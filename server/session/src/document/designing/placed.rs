@@ -47,14 +47,14 @@ fn told(path: BranchPath, placed: &Placed, at: Vec3, bears: u32) -> PlacedBranch
 }
 
 /// A ten thousandth of an internode is below what anybody can see, and the message is half as long.
-fn rounded(number: f32) -> f32 {
+pub(in crate::document) fn rounded(number: f32) -> f32 {
     (number * 1e4).round() / 1e4
 }
 
-fn vector(vector: Vec3) -> [f32; 3] {
+pub(in crate::document) fn vector(vector: Vec3) -> [f32; 3] {
     vector.to_array().map(rounded)
 }
 
-fn rotation(frame: Mat3) -> [f32; 4] {
+pub(in crate::document) fn rotation(frame: Mat3) -> [f32; 4] {
     Quat::from_mat3(&frame).normalize().to_array().map(rounded)
 }
