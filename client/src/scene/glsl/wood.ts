@@ -68,9 +68,9 @@ ${SELF_SHADE}
   if (sun > 0.0 && uShadowTaps > 1 && uShown.z > 0.5) sun *= mix(0.35, 1.0, ridged(crosswise, cross(crosswise, smoothed), smoothed, bark.height));
 #endif
   // Light that has come into a furrow goes from side to side in it: its ground is dark, and never black.
-  float within = mix(0.26, 1.0, bark.cavity);
+  float within = mix(0.34, 1.0, bark.cavity);
   // Leaves and limbs keep the sky from what they stand around, and dye what comes through.
-  float sky = mix(0.26, 1.06, smoothstep(0.0, 0.85, crown.w));
+  float sky = mix(0.33, 1.06, smoothstep(0.0, 0.85, crown.w));
   vec3 deep = mix(vec3(0.90, 1.0, 0.74), vec3(1.0), smoothstep(0.0, 0.6, crown.w));
   vec3 around = ambient(normalize(mix(smoothed, normal, 0.75))) * deep * sky * exposure;
   vec3 lit = albedo * (around * within * grounded + SUN_COLOUR * max(facing, 0.0) * sun * open);

@@ -29,24 +29,33 @@ export const BARK_PATTERNS: Record<BarkKind, () => BarkPattern> = {
 /** Beech: a grey skin, finely wrinkled around, with clouds of lichen and drifts of algae. */
 function smooth(): BarkPattern {
   const clouds = turbulence(3, 3, 4, 11);
-  const lichen = turbulence(5, 5, 4, 12);
+  const swirls = turbulence(4, 5, 3, 18);
+  const lichen = turbulence(6, 8, 4, 12);
+  const specks = cells(17, 23, 1, 19);
   const wrinkles = waves(5, 46, 13);
   const folds = waves(4, 12, 14);
-  const drifts = turbulence(8, 2, 3, 15);
+  const drifts = turbulence(9, 2, 3, 15);
   const pores = cells(11, 30, 0.9, 16);
   const grain = waves(90, 90, 17);
   const cell = noCell();
   return (u, v, out) => {
     const cloud = clouds(u, v);
+    const swirl = swirls(u, v);
     const warp = 0.02 * cloud;
+    const fine = grain(u, v);
     const wrinkle = wrinkles(u, v + warp) * step(-0.1, 0.5, folds(u + 0.3, v));
     const { across, along, chance } = pores(u, v, cell);
     const pore = chance > 0.62 ? 1 - step(0.3, 1, Math.hypot(across / 0.26, along / 0.16)) : 0;
-    const patch = step(0.12, 0.55, lichen(u, v));
-    out.height = 0.55 + 0.1 * wrinkle + 0.1 * folds(u, v + warp) + 0.07 * pore + 0.05 * patch + 0.025 * grain(u, v);
-    out.second = 0.55 * step(0.05, 0.7, drifts(u + warp, v)) * (1 - patch);
-    out.third = 0.5 * patch;
-    out.shade = 0.93 + 0.14 * cloud + 0.12 * wrinkle - 0.3 * pore + 0.06 * grain(u, v);
+    // Lichen has no outline: it thins out into grains, and small round ones stand apart.
+    const grown = lichen(u + 0.07 * swirl, v + 0.07 * cloud) + 0.22 * fine;
+    const { nearest, chance: own } = specks(u + 0.012 * swirl, v, cell);
+    const speck = own > 0.72 ? 1 - step(0.12, 0.34, nearest + 0.08 * fine) : 0;
+    const patch = Math.max(0.8 * step(0, 0.8, grown), 0.75 * speck);
+    out.height =
+      0.55 + 0.1 * wrinkle + 0.1 * folds(u, v + warp) + 0.07 * pore + 0.05 * patch + 0.025 * fine + 0.06 * swirl;
+    out.second = 0.5 * step(0, 0.8, drifts(u + warp, v) + 0.3 * swirl) * (1 - patch);
+    out.third = 0.42 * patch;
+    out.shade = 0.93 + 0.16 * cloud + 0.1 * swirl + 0.12 * wrinkle - 0.3 * pore + 0.07 * fine;
   };
 }
 
@@ -83,35 +92,37 @@ function furrowed(): BarkPattern {
   };
 }
 
-/** Pine: long flaky plates, layer upon layer, fox-red where they came off, dark cracks between. */
+/** Pine: long plates of thin scales, layer upon layer, fox-red where they came off, deep between them. */
 function plated(): BarkPattern {
   const bends = turbulence(3, 2, 4, 31);
-  const plates = cells(6, 3, 1, 32);
-  const slivers = cells(13, 9, 1, 34);
-  const layers = turbulence(8, 5, 4, 33);
-  const widths = waves(5, 4, 36);
-  const grain = turbulence(50, 34, 2, 35);
+  const plates = cells(7, 2, 1, 37);
+  const scales = cells(11, 5, 1, 34);
+  const layers = turbulence(7, 4, 5, 33);
+  const flutes = waves(9, 3, 36);
+  const grain = turbulence(56, 34, 2, 35);
   const cell = noCell();
   return (u, v, out) => {
     const bend = bends(u, v);
     const fine = layers(u, v);
-    const x = u + 0.075 * bend + 0.012 * fine;
-    const y = v + 0.1 * bends(v, u) + 0.012 * layers(v, u);
+    const rough = grain(u, v);
+    const x = u + 0.08 * bend + 0.018 * fine;
+    const y = v + 0.16 * bends(v, u) + 0.03 * layers(v, u);
     const { nearest, second, chance } = plates(x, y, cell);
-    const wide = 0.12 + 0.1 * widths(u, v);
-    const plate = step(0, wide, second - nearest);
-    const sliver = slivers(x, y, cell);
-    const chink = step(0.0, 0.1, sliver.second - sliver.nearest);
-    const level = 1.7 * fine + 1.3 * sliver.chance + 0.9 * chance;
-    // A layer ends in a step, not a slope.
-    const terrace = Math.floor(level) + step(0.75, 1, level - Math.floor(level));
-    const layer = Math.min(1, Math.max(0, 0.26 * (terrace + 1)));
-    const crack = Math.min(plate, 0.55 + 0.45 * chink);
-    out.height = crack * (0.46 + 0.44 * layer) + 0.05 * grain(u, v);
-    const bare = 1 - step(0.2, 0.62, layer + 0.1 * fine);
-    out.third = 0.85 * (1 - step(0.05, 0.42, out.height));
-    out.second = 0.42 * bare * (1 - out.third);
-    out.shade = 0.66 + 0.36 * layer + 0.26 * (sliver.chance - 0.5) + 0.16 * grain(u, v);
+    // Furrows are wide and run on along the stem; from side to side plates only part.
+    const gap = second - nearest;
+    const furrow =
+      step(0, 0.24, gap + 0.09 * fine) * (0.6 + 0.4 * step(0.02, 0.32, Math.abs(flutes(x, y)) + 0.4 * gap));
+    const scale = scales(x + 0.02 * rough, y, cell);
+    // Scales lie on each other, the topmost in the middle of a plate: each ends in a thin lip.
+    const level = 2.4 * step(0, 0.6, gap) + 1.7 * scale.chance + 1.8 * fine + 0.8 * chance;
+    const rest = level - Math.floor(level);
+    const lip = step(0.8, 1, rest);
+    const layer = Math.min(1, Math.max(0, 0.2 * (Math.floor(level) + lip)));
+    out.height = furrow * (0.34 + 0.62 * layer) + 0.045 * rough;
+    const deep = 1 - step(0.06, 0.5, out.height);
+    out.third = 0.72 * deep;
+    out.second = 0.45 * (1 - step(0.3, 0.75, layer + 0.12 * fine)) * (1 - out.third);
+    out.shade = 0.7 + 0.34 * layer + 0.16 * (scale.chance - 0.5) + 0.1 * (1 - rest) + 0.16 * rough;
   };
 }
 
