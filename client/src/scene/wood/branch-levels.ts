@@ -11,8 +11,7 @@ export interface Level {
 
 /** From the finest to the coarsest. The last two differ in how long a metamer may look. */
 export const LEVELS: readonly Level[] = [
-  { from: 110, sides: 64, segments: 12, quick: [16, 6] },
-  { from: 60, sides: 32, segments: 10, quick: [14, 5] },
+  { from: 60, sides: 56, segments: 10, quick: [16, 5] },
   { from: 18, sides: 16, segments: 6, quick: [9, 4] },
   { from: 6, sides: 10, segments: 4, quick: [6, 3] },
   { from: 2.4, sides: 6, segments: 3, quick: [4, 1] },
