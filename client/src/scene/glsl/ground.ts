@@ -9,7 +9,7 @@ export const GRASS_COLOUR = /* glsl */ `
 vec3 grassAt(vec2 at, float grazing) {
   float broad = noise(at * 0.021, 11.0) * 0.6 + noise(at * 0.057, 0.5) * 0.4;
   vec3 patches = vec3(noise(at * 0.09, 2.0), noise(at.yx * 0.21 + 3.7, 3.0), noise(at * 0.47, 13.0)) - 0.5;
-  float dry = 0.5 + dot(vec3(0.45, 0.3, 0.25) * vec3(1.0, smoothstep(0.02, 0.3, grazing), smoothstep(0.06, 0.5, grazing)), patches);
+  float dry = 0.5 + dot(vec3(0.45, 0.3, 0.25) * vec3(smoothstep(-0.04, 0.12, grazing), smoothstep(0.02, 0.3, grazing), smoothstep(0.06, 0.5, grazing)), patches);
   vec3 albedo = mix(vec3(0.080, 0.104, 0.036), vec3(0.132, 0.146, 0.054), smoothstep(0.2, 0.8, broad));
   // Here and there it is dry.
   return mix(albedo, vec3(0.185, 0.166, 0.080), 0.5 * smoothstep(0.35, 0.95, dry));
@@ -140,13 +140,14 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
     surface.albedo += 2.2 * step(0.75, glint) * (1.0 - smoothstep(8.0, 26.0, away));
   } else {
     // Grass stands: the eye meets the nearest tuft that is high enough on its way down to the ground.
-    const float TALL = 0.42;
-    float stands = uShadowTaps > 1 ? smoothstep(1.2, 3.5, TALL / max(shorter, 1e-4)) : 0.0;
+    // Far off it is tussocks that are told apart.
+    float tall = clamp(3.5 * shorter, 0.42, 1.1);
+    float stands = uShadowTaps > 1 ? smoothstep(1.2, 3.5, tall / max(shorter, 1e-4)) : 0.0;
     float height = sward(at, blurred);
     vec2 met = at;
     if (stands > 0.0) {
-      vec2 back = eye.xz * (TALL * stands / max(eye.y, 0.1));
-      back *= min(1.0, 4.0 / max(length(back), 1e-3));
+      vec2 back = eye.xz * (tall * stands / max(eye.y, 0.1));
+      back *= min(1.0, 9.0 * tall / max(length(back), 1e-3));
       float fine_ = 0.9 * shorter;
       float above = 0.0;
       float before = 1.0;
