@@ -129,10 +129,11 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
       p += 1.5 * noise(p * 0.05, 3.0);
       drift[i] = noise(p * vec2(0.050, 0.085), 4.0) * 1.9 + noise(p * 0.21, 9.0) * 0.30 * near + noise(p * 0.9, 2.0) * 0.05 * near;
     }
-    vec2 slope = (drift.yz - drift.x) / step_;
+    // Where the view grazes them drifts hide their own hollows.
+    vec2 slope = (drift.yz - drift.x) / step_ * mix(0.4, 1.0, smoothstep(0.03, 0.3, eye.y / away));
     surface.normal = normalize(vec3(-0.42 * slope.x, 1.0, -0.42 * slope.y));
     float hollow = clamp(1.2 - 0.7 * drift.x, 0.0, 1.0);
-    surface.albedo = mix(vec3(0.88, 0.90, 0.93), vec3(0.74, 0.80, 0.90), 0.30 * hollow + 0.25 * foot);
+    surface.albedo = mix(vec3(0.88, 0.90, 0.93), vec3(0.74, 0.80, 0.90), 0.30 * hollow * smoothstep(-0.05, 0.2, eye.y / away) + 0.25 * foot);
     surface.albedo *= 0.965 + 0.05 * fine * near;
     vec3 grain = hashed(floor(at / 0.05));
     vec3 towards = normalize(eye / away + uSun);
