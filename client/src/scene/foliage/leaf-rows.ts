@@ -13,10 +13,10 @@ import { RowInstances } from "./row-instances";
 /** The largest leaf is this much longer than the leaf size (LF2). */
 const LARGEST = 1.25;
 const FAR = 2;
-/** Where there are triangles for less than this share of the blades, a leaf shows the picture of a twig instead, ... */
+/** Where there are triangles for less than this share of the blades, leaves show the picture of a sprig instead, ... */
 const TOO_FEW = 0.6;
-/** ... unless it is longer than this in pixels, for the picture is no finer. */
-const TWIG_PIXELS = 80;
+/** ... up to this length in pixels, for the picture is no finer. */
+const TWIG_PIXELS = 64;
 
 /** What a leaf is drawn with, and what draws its shadow. */
 export interface LeafMaterials {
@@ -91,12 +91,12 @@ export class LeafRows {
     const drawn = filled * share;
     const size = LARGEST * this.sizes[1];
     const longest = (size * pixels) / Math.max(0.5, reachFrom(eye, box).nearest - size);
-    const twig = this.follow(drawn, longest, detailed);
+    const twigs = this.follow(drawn, detailed);
     const { cards, blades } = this;
-    const level = twig ? FAR : levelFor(cards, drawn * blades, longest / Math.sqrt(blades), detailed);
+    const level = levelFor(cards, drawn * blades, longest / Math.sqrt(blades), detailed);
     this.mesh.geometry = geometries[level]!;
     (this.uniforms.uLeafLevel!.value as Vector3).set(level, share, blades);
-    this.uniforms.uLeafTwig!.value = twig ? 1 : 0;
+    this.uniforms.uLeafTwig!.value = twigs ? TWIG_PIXELS : 0;
     this.instances.thin(Math.floor(1 / share));
   }
 
@@ -126,20 +126,20 @@ export class LeafRows {
   }
 
   /**
-   * Sprays stand on crossed cards, but for the one that all are far off; and so many leaves, so long on the screen, are
-   * divided into blades. Says whether each shows the picture of a twig instead.
+   * Sprays stand on crossed cards, but for the one that all are far off; and so many leaves are divided into blades. Says
+   * whether they show the picture of a sprig instead.
    */
-  private follow(leaves: number, longest: number, detailed: boolean): boolean {
+  private follow(leaves: number, detailed: boolean): boolean {
     const spray = (this.uniforms.uLeafForm!.value as Vector4).y > 0.5;
     const wanted = this.uniforms.uLeafBlades!.value as number;
     const most = bladesFor(spray ? SPRAY_CARDS : BLADE_CARDS, leaves, wanted, detailed);
-    const twig = most < TOO_FEW * wanted && longest < TWIG_PIXELS;
-    const blades = twig ? 1 : most;
+    const twigs = most < TOO_FEW * wanted;
+    const blades = twigs ? 1 : most;
     if (spray !== this.spray || blades !== this.blades) {
       this.spray = spray;
       this.blades = blades;
       this.instances.shape(divided(this.cards, blades));
     }
-    return twig;
+    return twigs;
   }
 }

@@ -101,9 +101,20 @@ uniform sampler2D uLeafColour; // half the brightness, second hue, sheerness, co
 uniform sampler2D uLeafRelief; // normal across and along, wood, margin
 uniform sampler2D uSprigColour;
 uniform sampler2D uSprigRelief;
-uniform float uLeafTwig; // 1 where a leaf shows the picture of a twig
-vec4 paintedAt(vec2 at) { return uLeafTwig > 0.5 ? texture(uSprigColour, at, -1.0) : texture(uLeafColour, at, -0.35 * uLeafForm.y); }
-vec4 reliefAt(vec2 at) { return uLeafTwig > 0.5 ? texture(uSprigRelief, at, -1.0) : texture(uLeafRelief, at); }
+flat in float vTwig; // 1 where a leaf shows the picture of a sprig
+vec4 paintedAt(vec2 at) {
+  vec2 across = dFdx(at);
+  vec2 up = dFdy(at);
+  if (vTwig > 0.5) return textureGrad(uSprigColour, at, 0.5 * across, 0.5 * up);
+  float finer = exp2(-0.35 * uLeafForm.y);
+  return textureGrad(uLeafColour, at, finer * across, finer * up);
+}
+vec4 reliefAt(vec2 at) {
+  vec2 across = dFdx(at);
+  vec2 up = dFdy(at);
+  if (vTwig > 0.5) return textureGrad(uSprigRelief, at, 0.5 * across, 0.5 * up);
+  return textureGrad(uLeafRelief, at, across, up);
+}
 #endif
 `;
 
@@ -185,7 +196,8 @@ uniform vec3 uLeafLevel; // 0 near to 2 far, share of the leaves that are drawn,
 uniform vec3 uLeafBand; // length of a leaf in pixels up to which all give way to sprigs, and from which none; how much sprigs swell
 uniform float uSprigSpan; // leaves that a sprig is long
 #ifndef SPRIG
-uniform float uLeafTwig;
+uniform float uLeafTwig; // up to this length in pixels a leaf shows the picture of a sprig
+flat out float vTwig;
 #endif
 in vec3 card; // across −1 to 1, along 0 to 1, which of the crossed ones and which blade
 out vec3 vWorld;
@@ -261,7 +273,8 @@ void main() {
   across = card.x * SPRIG_REACH * span;
 #else
   // A twig with the picture of a sprig covers as much as one leaf.
-  if (uLeafTwig > 0.5) {
+  vTwig = pixels < uLeafTwig ? 1.0 : 0.0;
+  if (vTwig > 0.5) {
     float span = uSprigSpan * inversesqrt(SPRIG_LEAVES) * (1.0 + 2.0 * MARGIN);
     along = (card.y - 0.5) * span + 0.5;
     across = card.x * SPRIG_REACH * span;
@@ -294,6 +307,8 @@ void main() {
     float near = smoothstep(7.0, 22.0, pixels) * uLeafForm.w;
 #if defined(CASTER) || defined(SPRIG)
     near = 0.0;
+#else
+    near *= 1.0 - vTwig;
 #endif
     vec2 bent = bending(random, more.w) * near;
     float bow = bent.x;
