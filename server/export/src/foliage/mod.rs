@@ -22,6 +22,9 @@ use self::{
 /// At each level of detail one of so many leaves is drawn, so large that they cover as much.
 const ONE_OF: [u32; 3] = [1, 2, 6];
 
+/// Leaves are divided into no more blades than this in all, or a file of a great tree would hold little else.
+const MOST_BLADES: usize = 200_000;
+
 /// What each metamer of a plant bears in a look.
 pub(crate) struct Foliage<'a> {
     plant: &'a Plant,
@@ -42,7 +45,8 @@ impl<'a> Foliage<'a> {
     pub(crate) fn of(plant: &'a Plant, style: &'a Style, look: &'a Appearance, level: usize) -> Self {
         let leaves: usize = living(plant).map(|id| usize::from(foliage::leaves(plant, id, style))).sum();
         // Coarser levels are seen from where blades of a leaf run together.
-        let blades = if level == 0 { look.leaves.blades } else { 1 };
+        let room = MOST_BLADES.checked_div(leaves).unwrap_or(MOST_BLADES).max(1);
+        let blades = if level == 0 { look.leaves.blades.min(room as u32) } else { 1 };
         Self {
             plant,
             style,
@@ -77,9 +81,8 @@ impl<'a> Foliage<'a> {
         let larger = (self.one_of as f32).sqrt();
         let leaves = leaves::of_between(self.plant, id, self.style, self.ends(id));
         let all = (id.raw()..).zip(leaves);
-        all.filter(|(number, _)| number % self.one_of == 0).flat_map(move |(_, leaf)| {
-            self.painter.paint(Leaf { size: larger * leaf.size, ..leaf }, shoot)
-        })
+        all.filter(|(number, _)| number % self.one_of == 0)
+            .flat_map(move |(_, leaf)| self.painter.paint(Leaf { size: larger * leaf.size, ..leaf }, shoot))
     }
 
     /// Adds the leaves of a metamer.
