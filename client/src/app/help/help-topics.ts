@@ -291,6 +291,7 @@ function subjectOf(label: Key, tools: ToolHelp): Subject | undefined {
     case "wind":
       return { panel: "wind", control };
     case "structure":
+    case "limbs":
       return { panel: "structure" };
     case "grammars":
       return { panel: "grammars" };
