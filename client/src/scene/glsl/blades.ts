@@ -44,7 +44,7 @@ void main() {
   float shelter = (1.0 - crown.w) * smoothstep(1.0, 0.45, max(max(within.x, within.y), 0.8 * length(within)));
   float open = feet.x * (1.0 - 0.62 * shelter);
   float sun = groundSun(vec3(at.x, 0.0, at.y));
-  vec3 albedo = grassAt(at, cameraPosition.y / max(away, 1e-3)) * (0.84 + 0.32 * own.y) * mix(0.85, 1.75, t);
+  vec3 albedo = grassAt(at, cameraPosition.y / max(away, 1e-3)) * (0.72 + 0.56 * own.y) * mix(0.55, 1.75, t);
   albedo = mix(albedo, vec3(0.19, 0.165, 0.085), 0.30 * t * smoothstep(0.55, 0.95, own.w * 0.5 + clump.y * 0.6));
   // What shines through a blade that stands against the sun is yellower than what it reflects.
   float against = pow(max(0.0, -dot(eye, uSun)), 3.0);

@@ -144,6 +144,9 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
     // Far off it is tussocks that are told apart.
     float tall = clamp(3.5 * shorter, 0.42, 1.1);
     float stands = uShadowTaps > 1 ? smoothstep(1.2, 3.5, tall / max(shorter, 1e-4)) : 0.0;
+    // Near by blades are seen, and between them the dark at their feet.
+    float near_ = smoothstep(40.0, 120.0, tall / max(shorter, 1e-4));
+    stands *= 1.0 - 0.85 * near_;
     float height = sward(at, blurred);
     vec2 met = at;
     if (stands > 0.0) {
@@ -165,7 +168,7 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
       met = at + back * above;
       height = mix(height, 0.22 + 0.56 * above, stands);
     }
-    surface.albedo = grassAt(met, eye.y / away) * fields;
+    surface.albedo = grassAt(met, eye.y / away) * fields * (1.0 - 0.4 * near_);
     // A tuft is bright where it looks to the sun, and stands in the shade of the next.
     vec2 towards = uSun.xz / max(length(uSun.xz), 1e-3);
     float shaded = sward(met + 0.28 * towards, blurred) - height;
