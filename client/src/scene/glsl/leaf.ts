@@ -324,6 +324,10 @@ void main() {
   vPicture = tileAt(card.xy, more.x * 2.0 - step(0.5, more.x), mirror);
   // Leaves of one shoot are more alike than those of others.
   vec3 own_ = vec3(random, more.y, more.w);
+#ifndef SPRIG
+  // Several leaves in one picture differ less from the next several.
+  own_ = mix(own_, vec3(0.5), 0.5 * vTwig);
+#endif
   Hues hues = leafHues(vigor, node.light, mix(own_, ownNumbers(own.shoot).xyz, 0.6));
   vMiddle = hues.middle;
   vMargin = hues.margin;
