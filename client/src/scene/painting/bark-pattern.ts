@@ -62,9 +62,11 @@ function smooth(): BarkPattern {
 /** Oak, elm, willow: rounded ridges that part and meet again around long furrows. */
 function furrowed(): BarkPattern {
   const bends = turbulence(3, 2, 3, 21);
-  const ridges = cells(10, 2, 1, 22);
+  const furrows = turbulence(9, 1, 2, 22);
+  const others = turbulence(12, 2, 2, 29);
   const splits = waves(13, 3, 23);
-  const breaks = cells(16, 12, 1, 24);
+  const tones = waves(7, 3, 28);
+  const breaks = cells(15, 9, 1, 24);
   const fibres = turbulence(30, 5, 3, 25);
   const grain = waves(110, 60, 26);
   const lichen = turbulence(4, 4, 4, 27);
@@ -72,23 +74,26 @@ function furrowed(): BarkPattern {
   return (u, v, out) => {
     const bend = bends(u, v);
     const fibre = fibres(u + 0.03 * bend, v);
-    const x = u + 0.05 * bend + 0.008 * fibre;
+    const x = u + 0.045 * bend + 0.008 * fibre;
     const y = v + 0.1 * bends(v, u);
-    const { nearest, second, chance } = ridges(x, y, cell);
-    const gap = Math.min(0.5 * (second - nearest), 0.7 * Math.abs(splits(x, y)) + 0.03);
-    const ridge = step(0, 0.17, gap);
-    const crack = breaks(x, y + 0.3 * chance, cell);
-    const broken = step(0.02, 0.14, crack.second - crack.nearest);
-    const worn = 0.6 + 0.4 * Math.sqrt(step(0, 0.5, gap));
+    // Furrows are where fields of long waves pass through nothing: they wander, meet and part again.
+    const main = Math.abs(furrows(x, y));
+    const side = Math.abs(others(x, y)) + 0.03;
+    const gap = Math.min(main, side, 0.8 * Math.abs(splits(x, y)) + 0.1);
+    const ridge = step(0, 0.2, gap);
+    const tone = tones(x, y);
+    const crack = breaks(x, y + 0.3 * tone, cell);
+    const broken = step(0.02, 0.16, crack.second - crack.nearest);
+    const worn = 0.6 + 0.4 * Math.sqrt(step(0, 0.6, gap));
     out.height =
-      ridge * worn * (0.82 + 0.18 * broken) * (0.86 + 0.14 * chance) +
+      ridge * worn * (0.84 + 0.16 * broken) * (0.94 + 0.12 * tone) +
       0.1 * fibre * (0.4 + 0.6 * ridge) +
       0.03 * grain(u, v);
     const depth = 1 - step(0.04, 0.55, out.height);
     const patch = step(0.2, 0.5, lichen(u, v)) * step(0.45, 0.8, out.height);
-    out.second = 0.84 * depth;
+    out.second = 0.8 * depth;
     out.third = 0.5 * patch;
-    out.shade = 0.7 + 0.36 * out.height + 0.16 * (chance - 0.5) + 0.2 * fibre + 0.06 * grain(u, v);
+    out.shade = 0.7 + 0.36 * out.height + 0.12 * tone + 0.2 * fibre + 0.06 * grain(u, v);
   };
 }
 
