@@ -471,6 +471,7 @@ impl Client {
             ServerMessage::Hint { .. }
             | ServerMessage::Deed { .. }
             | ServerMessage::Branches { .. }
+            | ServerMessage::Limb { .. }
             | ServerMessage::Authors { .. }
             | ServerMessage::Gathered { .. }
             | ServerMessage::Pins { .. }

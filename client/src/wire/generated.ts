@@ -53,6 +53,7 @@ export const BOUNDS = {
   LinkHours: { least: 1, most: 8760 },
   BrushRadius: { least: 0, most: 40 },
   Depth: { least: 0.1, most: 1 },
+  LimbLength: { least: 0.5, most: 400 },
   Share: { least: 0, most: 1 },
   Diameter: { least: 0.01, most: 100 },
   SphereRadius: { least: 0.1, most: 500 },
@@ -1700,7 +1701,27 @@ row?: number,
 /**
  * Up to which order its limbs are described: 1 to 3, and 3 without it.
  */
-orders?: number, } | { "kind": "refill", row: number, envelope: unknown, rotation: [number, number, number, number], length: number, anew?: boolean, } | { "kind": "set_grammar", 
+orders?: number, } | { "kind": "refill", 
+/**
+ * The row that the limb begins with.
+ */
+row: number, 
+/**
+ * The outline, as designs write a `silhouette`; its base is where the limb begins.
+ */
+envelope: unknown, 
+/**
+ * How the outline is turned in the scene: a quaternion (x, y, z, w) of length 1.
+ */
+rotation: [number, number, number, number], 
+/**
+ * From its base to its point T, in internode lengths, 0.5 to 400.
+ */
+length: number, 
+/**
+ * Whether all above the first fork of the limb is cut, rather than what lies outside.
+ */
+anew?: boolean, } | { "kind": "set_grammar", 
 /**
  * The text of the grammar.
  */
@@ -2049,7 +2070,43 @@ outside: boolean,
  */
 bears: number, };
 
-export type LimbOutline = { row: number, bearer?: number, base: [number, number, number], frame: [number, number, number, number], length: number, radius: number, heading: [number, number, number], envelope: unknown, bears: number, };
+export type LimbOutline = { 
+/**
+ * The row that it begins with.
+ */
+row: number, 
+/**
+ * The metamer that bears it; none for a trunk.
+ */
+bearer?: number, 
+/**
+ * Where it begins, in the scene.
+ */
+base: [number, number, number], 
+/**
+ * The rotation (x, y, z, w) of its frame: Y from its base to its tip, X on the side that looks up.
+ */
+frame: [number, number, number, number], 
+/**
+ * From its base to its tip, in internodes.
+ */
+length: number, 
+/**
+ * Radius at its base, in internodes.
+ */
+radius: number, 
+/**
+ * Where its bearer goes at that place.
+ */
+heading: [number, number, number], 
+/**
+ * The outline in this frame, as designs write a `silhouette`; its T is the tip.
+ */
+envelope: unknown, 
+/**
+ * How many branches stand on its own axis.
+ */
+bears: number, };
 
 export type OperationKind = "stroke" | "growth" | "lasso" | "parameters" | "appearance" | "seed" | "obstacle" | "bend" | "width" | "prune" | "turn" | "graft" | "taken_back" | "brought_back" | "design" | "grammar" | "refill";
 
@@ -2390,7 +2447,11 @@ steps: number, } | { "type": "look_at_branch",
 /**
  * The branch; without one it is told nothing more.
  */
-of?: string, } | { "type": "look_at_limb", row: number, } | { "type": "here", 
+of?: string, } | { "type": "look_at_limb", 
+/**
+ * The row of a living metamer.
+ */
+row: number, } | { "type": "here", 
 /**
  * Where they point, if anywhere.
  */
@@ -2604,7 +2665,15 @@ of: string,
 /**
  * Those on the way to it, it, and the laterals of each of these, as far as they are wood: lower orders first.
  */
-branches: Array<PlacedBranch>, } | { "type": "limb", of: number, limb: LimbOutline | null, } | { "type": "grammar", 
+branches: Array<PlacedBranch>, } | { "type": "limb", 
+/**
+ * The row that was asked for.
+ */
+of: number, 
+/**
+ * The limb; none where no limb lives there, or it follows a design.
+ */
+limb: LimbOutline | null, } | { "type": "grammar", 
 /**
  * The grammar; none where there is none any more.
  */

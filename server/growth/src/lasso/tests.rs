@@ -252,29 +252,29 @@ fn the_same_outline_gives_the_same_body() {
     assert_eq!(all(), all());
 }
 
-/// A ball of radius 8 whose middle lies 5 internodes in front of the plane.
+/// A ball of radius 20 whose middle lies 12 internodes in front of the plane.
 fn ball_in_front() -> Envelope {
     let column = |at: Vec2| {
-        let half = 64.0 - at.length_squared();
-        (half > 0.0).then(|| (5.0 - half.sqrt(), 5.0 + half.sqrt()))
+        let half = 400.0 - at.length_squared();
+        (half > 0.0).then(|| (12.0 - half.sqrt(), 12.0 + half.sqrt()))
     };
-    Envelope::solid(FRONT, (Vec2::splat(-8.5), Vec2::splat(8.5)), 1.5, column).expect("a body")
+    Envelope::solid(FRONT, (Vec2::splat(-20.5), Vec2::splat(20.5)), 1.5, column).expect("a body")
 }
 
 #[test]
 fn a_solid_body_lies_where_its_columns_do() {
     let ball = ball_in_front();
-    check_volume("ball", ball.volume(), 4.0 / 3.0 * PI * 512.0, 0.03);
-    assert!(ball.contains(at(0.0, 0.0, 12.5)) && !ball.contains(at(0.0, 0.0, 13.5)));
-    assert!(ball.contains(at(0.0, 0.0, -2.5)) && !ball.contains(at(0.0, 0.0, -3.5)));
+    check_volume("ball", ball.volume(), 4.0 / 3.0 * PI * 8000.0, 0.03);
+    assert!(ball.contains(at(0.0, 0.0, 31.5)) && !ball.contains(at(0.0, 0.0, 32.5)));
+    assert!(ball.contains(at(0.0, 0.0, -7.5)) && !ball.contains(at(0.0, 0.0, -8.5)));
     let places = places(&ball, 2000, FRONT.origin, 99.0);
     assert_eq!(places.len(), 2000);
-    let middle = FRONT.origin + Vec3::Z * 5.0;
-    assert!(places.iter().all(|place| ball.contains(*place) && place.distance(middle) < 8.3));
-    let inner = places.iter().filter(|place| place.distance(middle) < 4.0).count();
-    assert!((200..300).contains(&inner), "an eighth of a ball lies within half its radius: {inner}");
+    let middle = FRONT.origin + Vec3::Z * 12.0;
+    assert!(places.iter().all(|place| ball.contains(*place) && place.distance(middle) < 20.5));
+    let inner = places.iter().filter(|place| place.distance(middle) < 10.0).count();
+    assert!((215..285).contains(&inner), "an eighth of a ball lies within half its radius: {inner}");
     let limbs = ball.limbs(FRONT.origin);
-    assert!(limbs.iter().flatten().all(|sample| (sample.position.z - 5.0).abs() < 0.01));
+    assert!(limbs.iter().flatten().all(|sample| (sample.position.z - 12.0).abs() < 0.01));
 }
 
 #[test]

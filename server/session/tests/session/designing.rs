@@ -1,6 +1,6 @@
 //! `DS`: what clients are told of designs.
 
-use espalier_proto::{DesignInForce, PlacedBranch, Reason, ServerMessage};
+use espalier_proto::{DesignInForce, LimbOutline, PlacedBranch, Reason, ServerMessage};
 use serde_json::{Value, json};
 
 use crate::world::{Peer, World, grow};
@@ -198,4 +198,61 @@ fn ds9_a_branch_is_aimed_at_a_place() {
         assert_eq!(refusal(world.peer(ann), command), Some(reason), "{node} {tip:?}");
     }
     assert_eq!(branches(world.peer(ann)).expect("she is told").1, before);
+}
+
+/// The limbs that a client was told of, with the rows that it asked for.
+fn limbs(peer: &Peer) -> Vec<(u32, Option<LimbOutline>)> {
+    let limb = |text: &ServerMessage| match text {
+        ServerMessage::Limb { of, limb } => Some((*of, limb.clone().map(|limb| *limb))),
+        _ => None,
+    };
+    peer.texts.iter().filter_map(limb).collect()
+}
+
+#[test]
+fn ds13_who_looks_at_a_limb_is_told_it_once_and_alone() {
+    let mut world = World::new();
+    let (ann, bob) = (world.join("birch-01"), world.join("maple-01"));
+    world.command(ann, 1, grow(9));
+    world.settle();
+    world.send(ann, &json!({ "type": "look_at_limb", "row": 1 }));
+    world.settle();
+    world.send(ann, &json!({ "type": "look_at_limb", "row": 99_999 }));
+    world.settle();
+    let told = limbs(world.peer(ann));
+    let (of, limb) = told[0].clone();
+    let limb = limb.expect("there is a trunk");
+    assert_eq!((of, limb.row, limb.bearer, limb.base), (1, 1, None, [0.0; 3]));
+    assert!(limb.length > 3.0 && limb.bears > 0, "{limb:?}");
+    assert_eq!(told[1..], [(99_999, None)]);
+    world.command(bob, 1, grow(1));
+    world.settle();
+    assert_eq!((limbs(world.peer(ann)).len(), limbs(world.peer(bob)).len()), (2, 0));
+    // What is asked for while the tree grows is answered when it is at home again.
+    world.work_ms = 40;
+    world.command(bob, 2, grow(5));
+    world.pass(20);
+    world.send(ann, &json!({ "type": "look_at_limb", "row": limb.row }));
+    world.settle();
+    let later = limbs(world.peer(ann)).pop().and_then(|(_, limb)| limb).expect("it still stands");
+    assert_eq!(later.row, limb.row);
+    // What was told is what a refill asks for.
+    world.command(
+        ann,
+        2,
+        json!({
+            "kind": "refill", "row": later.row, "envelope": later.envelope, "rotation": later.frame,
+            "length": later.length, "anew": true,
+        }),
+    );
+    world.pass(20);
+    assert_eq!(world.peer(ann).refused().len(), 0);
+    world.command(ann, 3, json!({ "kind": "stop" }));
+    world.settle();
+    assert_eq!(world.peer(ann).acknowledged().last(), Some(&3));
+    assert_eq!(world.peer(ann).last_state().map(|state| state.pending_steps), Some(0));
+    let hash = world.document().hash();
+    assert_eq!(world.replayed_hash(), hash, "the journal alone gives the same document");
+    world.crash();
+    assert_eq!(world.document().hash(), hash, "snapshot and journal give the same document");
 }

@@ -72,7 +72,8 @@ pub(crate) fn commands() -> Vec<Value> {
         json!({ "kind": "release_design" }),
         json!({ "kind": "fit_design", "row": 1, "orders": 3 }),
         json!({
-            "kind": "refill", "row": 1, "envelope": ovoid(), "rotation": [0, 0, 0, 1], "length": 8, "anew": true,
+            // What an envelope is, designs say: here it is any JSON.
+            "kind": "refill", "row": 1, "envelope": 2, "rotation": [0, 0, 0, 1], "length": 8, "anew": true,
         }),
         json!({
             "kind": "set_grammar", "text": "axiom: A\nA --> F[+A]A", "seed": 3, "position": [1, 0, 2], "depth": 2,

@@ -143,8 +143,7 @@ fn ds12_a_limb_fills_a_larger_outline_and_keeps_what_is_below_its_fork() {
             }
             let grown: Vec<Vec3> = nodes.iter().map(|(_, place)| *place).collect();
             let [filled, overlap] = cover(&limb, &envelope, &grown);
-            eprintln!("seed {seed} anew {anew}: {filled} {overlap}, {} nodes", grown.len());
-            assert!(filled >= 0.85 && overlap >= 0.7, "seed {seed}: {filled} filled, overlap {overlap}");
+            assert!(filled >= 0.85 && overlap >= 0.85, "seed {seed}: {filled} filled, overlap {overlap}");
         }
     }
 }
@@ -180,10 +179,10 @@ fn ds12_a_smaller_outline_cuts_what_lies_outside_and_nothing_else() {
 
 #[test]
 fn ds12_a_refill_is_one_operation_that_is_undone_redone_kept_and_replayed() {
-    let mut document = grown(3);
-    let limb = limbs(&mut document).remove(0);
-    let before = wood(&document);
     for anew in [false, true] {
+        let mut document = grown(3);
+        let limb = limbs(&mut document).remove(0);
+        let before = wood(&document);
         let command = refill(&limb, &larger(&limb), anew);
         apply(&mut document, &command);
         let filled = wood(&document);
@@ -201,7 +200,7 @@ fn ds12_a_refill_is_one_operation_that_is_undone_redone_kept_and_replayed() {
                 apply(&mut again, &command);
                 wood(&again)
             });
-            assert_eq!(again, filled, "{threads} threads");
+            assert!(again == filled, "other wood on {threads} threads");
         }
         apply(&mut document, &plain(Action::Undo {}));
         assert_eq!(wood(&document), before);
@@ -211,7 +210,6 @@ fn ds12_a_refill_is_one_operation_that_is_undone_redone_kept_and_replayed() {
         let mut later = document.clone();
         grow(&mut later, 2, None);
         assert_eq!(checks::all(later.plant()), Ok(()));
-        apply(&mut document, &plain(Action::Undo {}));
     }
 }
 
@@ -343,18 +341,32 @@ fn ds12_designed_wood_is_shaped_by_its_design_until_something_grows_on_it() {
 #[test]
 fn sg2_a_refill_in_which_nothing_grows_is_said_and_is_no_operation() {
     let mut document = grown(2);
-    let limb = limbs(&mut document).remove(0);
+    let limb = limbs(&mut document).pop().expect("there are limbs");
     let command = refill(&limb, &larger(&limb), false);
     apply(&mut document, &command);
     assert_eq!(document.take_drawn_in_vain(), []);
-    let (operations, filled) = (kinds(&document).len(), wood(&document));
-    // What has just been filled has no room left.
-    apply(&mut document, &command);
-    if wood(&document) == filled {
-        assert_eq!(kinds(&document).len(), operations);
-        let said = document.take_drawn_in_vain();
-        assert_eq!(said.iter().map(|said| said.reason).collect::<Vec<_>>(), [HintReason::NothingGrew]);
-    }
+    apply(&mut document, &plain(Action::Undo {}));
+    // All of it lies in a box, where nothing grows.
+    let obstacle = json!({
+        "shape": { "kind": "box", "size": [400, 400, 400] },
+        "pose": { "position": [0, 0, 0], "rotation": [0, 0, 0, 1] },
+    });
+    let obstacle = serde_json::from_value(obstacle).expect("it is one");
+    apply(&mut document, &plain(Action::PlaceObstacle { obstacle }));
+    let (operations, before) = (kinds(&document), wood(&document));
+    let ovoid = outline(&limb);
+    let roomy = Envelope {
+        top: ovoid.top + Vec3::Y,
+        bottom: ovoid.bottom - Vec3::Y,
+        radii: [1.5; 4],
+        upper: 8.0,
+        lower: 8.0,
+        ..ovoid
+    };
+    apply(&mut document, &refill(&limb, &roomy, false));
+    assert_eq!((kinds(&document), wood(&document)), (operations, before));
+    let said = document.take_drawn_in_vain();
+    assert_eq!(said.iter().map(|said| said.reason).collect::<Vec<_>>(), [HintReason::NothingGrew]);
 }
 
 #[test]
