@@ -247,7 +247,7 @@ void main() {
     along -= surplus(along, foot);
   } else if ((metamer.w & ROOT) == 0u) {
     // Its open end stays within its bearer, also where that is no thicker and bends away.
-    radius *= mix(0.5, 1.0, smoothstep(0.0, 0.6 * bearing.radius, along));
+    radius *= mix(0.3, 1.0, smoothstep(0.0, 0.9 * bearing.radius, along));
     world = centre + outward * radius * wide;
     if (along < 5.0 * (bearing.radius + end.radius)) {
       Junction junction = junctionAt(world, outward, max(radius, 1e-4), heading, bearing);
