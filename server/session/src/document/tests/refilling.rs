@@ -324,7 +324,7 @@ fn ds12_what_cannot_be_filled_is_refused() {
 #[test]
 fn ds12_designed_wood_is_shaped_by_its_design_until_something_grows_on_it() {
     let mut document = Document::new(5);
-    apply(&mut document, &super::designing::begin(8.0));
+    apply(&mut document, &designing::begin(8.0));
     let row = document.plant().metamer_count() as u32 - 1;
     assert_eq!(document.limb_at(row), None);
     let ovoid = DesignValue::from(Envelope::default().to_json());
