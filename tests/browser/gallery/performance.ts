@@ -10,12 +10,12 @@ export async function perform(page: Page, session: string, commands: readonly st
         // So many commands may be on their way; the server reads on while it grows.
         const ahead = 64;
         let sent = 0;
-        let done = 0;
+        let taken = 0;
         const socket = new WebSocket(`${location.origin.replace("http", "ws")}/api/v1/sessions/${session}/socket`);
         // Nothing is drawn here: frames that nobody answers are not sent again, and hold nothing up.
         socket.binaryType = "arraybuffer";
         const send = () => {
-          while (sent < commands.length && sent - done < ahead) {
+          while (sent < commands.length && sent - taken < ahead) {
             sent += 1;
             socket.send(`{"type":"command","id":${sent},"command":${commands[sent - 1]}}`);
           }
@@ -27,15 +27,16 @@ export async function perform(page: Page, session: string, commands: readonly st
         };
         socket.onopen = () => socket.send(JSON.stringify({ type: "hello", protocol, client }));
         socket.onclose = ({ code, reason }) =>
-          end(`the server closed the socket with ${code}, "${reason}", after line ${done}`);
+          end(`the server closed the socket with ${code}, "${reason}", after line ${taken}`);
         socket.onmessage = ({ data }) => {
           if (typeof data !== "string") return;
           const message = JSON.parse(data);
           if (message.type === "refused") end(`line ${message.id}: ${JSON.stringify(message.problem)}`);
           if (message.type === "problem") end(JSON.stringify(message.problem));
-          if (message.type === "acknowledged") done = message.id;
+          if (message.type === "acknowledged") taken = message.id;
           if (message.type === "welcome" || message.type === "acknowledged") send();
-          if (done === commands.length) end(null);
+          // What was taken may still be refused until it is done.
+          if (message.type === "done" && message.id === commands.length) end(null);
         };
       }),
     { protocol: PROTOCOL_VERSION, client: randomUUID(), session, commands },

@@ -29,9 +29,10 @@ async function withLimb(screen: Screen) {
   await tablet.untilQuiet();
   await tablet.tap("Structure");
   await tablet.press(button(tablet, "Shape a limb"));
-  await tablet.page.getByText("Tap a limb of the tree.", { exact: true }).waitFor();
   await tablet.press(tablet.page.locator(".drawer header button"));
   await tablet.page.locator(".drawer").waitFor({ state: "detached" });
+  // On a phone the panel lies over it.
+  await tablet.page.getByText("Tap a limb of the tree.", { exact: true }).waitFor();
   return { tablet, at };
 }
 
