@@ -83,7 +83,8 @@ test.each([
 
 /** Asks for a recording of a replay of a small tree, and gives the form; on a page without an encoder if there is to be none. */
 async function recording({ encodes }: { encodes: boolean }) {
-  const { tablet } = await grown({ width: 640, height: 480, detail: 0.2 });
+  // A phone that lies: pictures are as wide as on any glass, and low.
+  const { tablet } = await grown({ width: 844, height: 390, detail: 0.2 });
   const { page } = tablet;
   if (!encodes) {
     // As on a page that came by http from another machine.
@@ -93,13 +94,6 @@ async function recording({ encodes }: { encodes: boolean }) {
   }
   await replay(tablet);
   const form = page.getByRole("form", { name: "Save as a video or pictures" });
-  const asked = async () => {
-    await tablet.press(button(tablet, "Save as a video or pictures"));
-    await until(
-      "it is known what can be encoded",
-      async () => !(await form.getByRole("button", { name: "Record" }).isDisabled()),
-    );
-  };
   const record = async (kind: string) => {
     await form.getByRole("radio", { name: kind }).check();
     await form.getByRole("radio", { name: "5 s", exact: true }).check();
@@ -108,8 +102,12 @@ async function recording({ encodes }: { encodes: boolean }) {
     await saved.saveAs(file);
     return await readFile(file);
   };
-  await asked();
-  return { tablet, form, asked, record };
+  await tablet.press(button(tablet, "Save as a video or pictures"));
+  await until(
+    "it is known what can be encoded",
+    async () => !(await form.getByRole("button", { name: "Record" }).isDisabled()),
+  );
+  return { tablet, form, record };
 }
 
 const PICTURES = "Pictures (PNG in a ZIP file)";
@@ -121,13 +119,13 @@ function expectPictures(archive: Buffer): void {
   expect(archive.readUInt16LE(archive.length - 12)).toBe(24 * 6.5);
 }
 
-test("a replay is saved as pictures, and as a video where the browser says that it encodes one", async () => {
-  const { tablet, form, asked, record } = await recording({ encodes: true });
+test("a replay is saved as a video where the browser says that it encodes one", async () => {
+  const { tablet, form, record } = await recording({ encodes: true });
   await tablet.show("replay-record");
   // What the browser itself says, of the size that the form offers first.
   const encodes = await tablet.page.evaluate(async () => {
     if (!("VideoEncoder" in globalThis)) return false;
-    const size = { width: 1280, height: 960, bitrate: 4e6, framerate: 24 };
+    const size = { width: 1280, height: 592, bitrate: 4e6, framerate: 24 };
     const answers = ["avc1.640028", "vp09.00.40.08", "vp8"].map((codec) =>
       VideoEncoder.isConfigSupported({ codec, ...size }).then(
         ({ supported }) => supported === true,
@@ -136,8 +134,6 @@ test("a replay is saved as pictures, and as a video where the browser says that 
     );
     return (await Promise.all(answers)).includes(true);
   });
-  expectPictures(await record(PICTURES));
-  await asked();
   const offers = {
     video: await form.getByRole("radio", { name: "Video" }).count(),
     none: await form.getByText(NO_VIDEO).count(),
