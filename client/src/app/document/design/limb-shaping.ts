@@ -7,7 +7,7 @@ import type { Gesture } from "../../input/gesture";
 import { type Dragged, type Handle, type HandleGroup, type HandleView, type Held, handlesOf } from "./branch-handles";
 import { BranchShape } from "./branch-shape";
 import type { DesignSignal } from "./design-signal";
-import type { HandsOn, HeldShape, Hidden } from "./hands-on";
+import { type HandsOn, type HeldShape, type Hidden, holdHands } from "./hands-on";
 import { TapOrTurn } from "./tap-or-turn";
 
 /** What handles of a limb that grew are about. */
@@ -108,26 +108,15 @@ export class LimbShaping implements HandsOn {
     this.#options = options;
     this.#taps = new TapOrTurn((x, y) => this.tap(x, y));
     const { design, document, finished } = options;
-    const hands = (gesture: Gesture) => this.gesture(gesture);
     const stops = [
       effect(() => {
         if (!this.isOn.value) {
           this.cancel();
           this.limb.value = null;
           this.#filling.value = null;
-          return undefined;
         }
-        design.hands = hands;
-        return () => {
-          if (design.hands === hands) {
-            design.hands = null;
-          }
-        };
       }),
-      effect(() => {
-        const shells = this.shown.value;
-        options.shells()?.show(shells);
-      }),
+      holdHands(options, this.isOn, this.shown, (gesture) => this.gesture(gesture)),
       effect(() => this.#told(design.limb.value)),
       effect(() => {
         const filling = this.#filling.value;

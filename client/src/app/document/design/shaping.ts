@@ -18,7 +18,7 @@ import type { Curve } from "./curve-points";
 import type { DesignEditing } from "./design-editing";
 import { bearerOf, keyNamed, ROOT } from "./design-model";
 import type { DesignSignal } from "./design-signal";
-import type { HandsOn, HeldShape, Hidden } from "./hands-on";
+import { type HandsOn, type HeldShape, type Hidden, holdHands } from "./hands-on";
 import { fittedOutline, type Unfitted } from "./outline-fit";
 import { borneBy, pickable, pickBranch } from "./shell-pick";
 import { TapOrTurn } from "./tap-or-turn";
@@ -112,20 +112,9 @@ export class Shaping implements HandsOn {
   constructor(options: ShapingOptions) {
     this.#options = options;
     const { design, editing, connected } = options;
-    const hands = (gesture: Gesture) => this.gesture(gesture);
     let isLooking = false;
     const stops = [
-      effect(() => {
-        if (!this.isOn.value) {
-          return undefined;
-        }
-        design.hands = hands;
-        return () => {
-          if (design.hands === hands) {
-            design.hands = null;
-          }
-        };
-      }),
+      holdHands(options, this.isOn, this.shown, (gesture) => this.gesture(gesture)),
       effect(() => {
         const isAsked = this.isOn.value || (this.isListed.value && design.inForce.value !== null);
         const of = isAsked ? editing.chosen.value : null;
@@ -133,10 +122,6 @@ export class Shaping implements HandsOn {
           isLooking = of !== null;
           options.look(of);
         }
-      }),
-      effect(() => {
-        const shells = this.shown.value;
-        options.shells()?.show(shells);
       }),
       effect(() => {
         if (!this.isOn.value) {
