@@ -279,7 +279,7 @@ void main() {
     float ahead = atan(dot(middle.xyz, face), dot(middle.xyz, side)) / 6.2831853;
     float aside = atan(dot(from, face), dot(from, side)) / 6.2831853 - ahead;
     float low = from.y - surplus(from.y, foot) - max(0.0, length(from.xz) - 1.5 * foot);
-    vBearing = vec4(ahead + aside - round(aside), low, foot * (1.0 + 0.6 * (meanFlare(0.0, foot) - 1.0)), 1.0 - smoothstep(1.2, 2.2, far / max(foot, 1e-3)));
+    vBearing = vec4(ahead + aside - round(aside), low, foot * (1.0 + 0.6 * (meanFlare(0.0, foot) - 1.0)), 1.0 - smoothstep(2.0, 4.0, far / max(foot, 1e-3)));
   }
   if (ring.y >= 1.0 && cut) {
     // A cut heals from its rim: the face bulges a little, and its edge is round.
