@@ -16,9 +16,10 @@ use glam::Vec3;
 
 pub use self::grown::GrownLimb;
 use self::{
-    cover::{COARSE, Crown, PIXEL},
+    cover::Crown,
     limbs::Wood,
     search::{Search, Tried},
+    sharing::share,
     writing::{Said, Wish, Writer},
 };
 use crate::{
@@ -114,8 +115,6 @@ pub struct Fitting {
 struct Trials {
     writer: Writer,
     crown: Crown,
-    /// The same in fine pixels.
-    fine: Crown,
     limits: Limits,
 }
 
@@ -128,13 +127,13 @@ impl Trials {
         if nodes.len() > internodes {
             return Err(Unfit::NoRoom { found: nodes.len(), allowed: internodes });
         }
-        let found = design.to_json().len();
+        let found = if bytes < usize::MAX { design.to_json().len() } else { 0 };
         if found > bytes {
             return Err(Unfit::TooLong { found, allowed: bytes });
         }
         let overlap = self.crown.overlap(&nodes);
-        let (records, shares) = (design.graph().values(), design.graph().shares().count());
-        Ok((Fitted { design, overlap, records, shares }, wishes))
+        let records = design.graph().values();
+        Ok((Fitted { design, overlap, records, shares: 0 }, wishes))
     }
 }
 
@@ -170,8 +169,7 @@ impl Fitting {
         let wood = Wood::of(plant, girth, seed, orders).ok_or(Unfit::NoWood(seed.raw()))?;
         let base = wood.limbs[0].base();
         let nodes: Vec<Vec3> = wood.places.iter().map(|&place| place - base).collect();
-        let (crown, fine) = (Crown::of(&nodes, COARSE), Crown::of(&nodes, PIXEL));
-        let trials = Trials { writer: Writer::new(wood), crown, fine, limits };
+        let trials = Trials { writer: Writer::new(wood), crown: Crown::of(&nodes), limits };
         let search = Search::new(trials.of(&Said::default())?);
         Ok(Self { trials, search })
     }
@@ -202,7 +200,14 @@ impl Fitting {
             forms.iter().filter(thick).copied().take(MAX_VALUES.saturating_sub(best.records)).collect();
         said.add(&girths);
         let best = trials.of(&said).map_or(best, |(fitted, _)| fitted);
-        Fitted { overlap: trials.fine.overlap(&nodes(&best.design)), ..best }
+        let mut graph = best.design.graph().clone();
+        share(&mut graph);
+        // Shared values are a little more to write down.
+        let Limits { bytes, .. } = trials.limits;
+        let fits = |design: &Design| bytes == usize::MAX || design.to_json().len() <= bytes;
+        let design = Design::of(graph).ok().filter(fits).unwrap_or(best.design);
+        let (records, shares) = (design.graph().values(), design.graph().shares().count());
+        Fitted { overlap: trials.crown.overlap(&nodes(&design)), design, records, shares }
     }
 }
 

@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use crate::{
     function::Function,
+    key::Key,
     places::{MOST_LATERALS, Places},
 };
 
@@ -11,6 +12,12 @@ use crate::{
 const BINS: usize = 8;
 /// Places at which a radius, or an angle, is fitted.
 pub(super) const KNOTS: usize = 5;
+/// How much wider a zone is than it must be for as many laterals as there are.
+const ROOM: f32 = 1.2;
+/// Places at which a function of one axis is known, both ends left out.
+const MOST_POINTS: usize = 14;
+/// Places that are nearer to each other are one.
+const NEAREST: f32 = 0.004;
 /// Places at which courses are compared, the base and the tip included.
 pub(super) const SAMPLES: usize = 9;
 
@@ -73,6 +80,54 @@ pub(super) fn fitted(
     Function::new(&points).ok()
 }
 
+/// A function that is at each place what it is there, as nearly as so few points can say: samples are places, values and
+/// weights. Neighbours that are most alike are taken together.
+pub(super) fn along(mut samples: Vec<(f32, f32, f32)>, (least, most): (f32, f32)) -> Option<Function> {
+    samples.retain(|sample| sample.2 > 0.0);
+    samples.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let cost = |pair: &[(f32, f32, f32)]| {
+        let ((at, a, weight), (next, b, other)) = (pair[0], pair[1]);
+        let is_one = next - at < NEAREST;
+        // What stands at one place can only say one thing.
+        (!is_one, weight * other / (weight + other) * (a - b) * (a - b))
+    };
+    while let Some(at) = (0..samples.len().saturating_sub(1))
+        .map(|at| (at, cost(&samples[at..at + 2])))
+        .filter(|(_, (is_apart, _))| !is_apart || samples.len() > MOST_POINTS)
+        .min_by(|a, b| a.1.0.cmp(&b.1.0).then(a.1.1.total_cmp(&b.1.1)))
+        .map(|(at, _)| at)
+    {
+        let (a, b) = (samples[at], samples.remove(at + 1));
+        let weight = a.2 + b.2;
+        let mean = |a_is: f32, b_is: f32| (a_is * a.2 + b_is * b.2) / weight;
+        samples[at] = (mean(a.0, b.0), mean(a.1, b.1), weight);
+    }
+    let (first, last) = (samples.first()?, samples.last()?);
+    let point = |t: f32, value: f32| (t, value.clamp(least, most));
+    let mut points: Vec<(f32, f32)> = Vec::new();
+    if first.0 > NEAREST {
+        points.push(point(0.0, first.1));
+    }
+    let (from, to) = (first.0, last.0);
+    for &(t, value, _) in &samples {
+        let t = if t == from && t <= NEAREST {
+            0.0
+        } else if t == to && t >= 1.0 - NEAREST {
+            1.0
+        } else {
+            t
+        };
+        points.push(point(t, value));
+    }
+    if last.0 < 1.0 - NEAREST {
+        points.push(point(1.0, last.1));
+    }
+    if points.len() == 1 {
+        return Some(Function::constant(points[0].1));
+    }
+    Function::new(&points).ok()
+}
+
 /// How far two functions are from each other, as a share of the greater (L₂).
 pub(super) fn difference(a: &Function, b: &Function) -> f32 {
     let (mut off, mut all) = (0.0, 0.0f32);
@@ -89,7 +144,10 @@ pub(super) fn difference(a: &Function, b: &Function) -> f32 {
 pub(super) fn zone(places: &[f32]) -> (f32, f32) {
     let (Some(&first), Some(&last)) = (places.first(), places.last()) else { return (0.15, 0.95) };
     let gap = (last - first).max(0.02) / (places.len() as f32 - 1.0).max(1.0);
-    ((first - gap).clamp(0.0, 0.98), (last + gap).clamp(0.02, 1.0))
+    let last = (last + gap).clamp(0.02, 1.0);
+    // Many in one place need room for their number, for no density is greater than it may be.
+    let room = ROOM * places.len() as f32 / Key::Density.row().range.1;
+    ((first - gap).min(last - room).clamp(0.0, 0.98), last)
 }
 
 /// A density that lays down so many laterals in a zone, in the proportions in which these places are taken.
@@ -150,6 +208,31 @@ mod tests {
         let found = fitted(samples, (0.0, 4.0)).expect("there are samples");
         assert!(difference(&found, &Function::line(2.0, 1.0)) < 0.02, "{:?}", found.points());
         assert_eq!(fitted(std::iter::empty(), (0.0, 1.0)), None);
+    }
+
+    #[test]
+    fn along_an_axis_a_function_is_at_each_place_what_it_is_there() {
+        let places: Vec<(f32, f32, f32)> =
+            (1..=8u8).map(|at| (f32::from(at) / 9.0, f32::from(at * 7 % 50), 1.0)).collect();
+        let found = along(places.clone(), (0.0, 90.0)).expect("there are samples");
+        for (t, value, _) in places {
+            assert!((found.at(t) - value).abs() < 4.0, "{t}: {} for {value}", found.at(t));
+        }
+        let many =
+            (0..60u8).map(|at| (f32::from(at) / 59.0, if at < 30 { 10.0 } else { 80.0 }, 1.0)).collect();
+        let found = along(many, (0.0, 90.0)).expect("there are samples");
+        assert!((found.at(0.2) - 10.0).abs() < 0.1 && (found.at(0.8) - 80.0).abs() < 0.1);
+        assert_eq!(along(Vec::new(), (0.0, 90.0)), None);
+    }
+
+    #[test]
+    fn many_in_one_place_have_room_for_their_number() {
+        for count in 1..20u8 {
+            let places = vec![1.0; usize::from(count)];
+            let zone = zone(&places);
+            let found = density(&places, count.into(), zone, Key::Density.row().range.1);
+            assert_eq!(Places::of(&found, zone, 1).laterals(), usize::from(count), "{zone:?}");
+        }
     }
 
     #[test]

@@ -2,9 +2,8 @@
 
 use glam::{Vec2, Vec3};
 
-/// Side of a pixel in internodes, and of one where a crown is only compared with others of its kind.
-pub(super) const PIXEL: f32 = 0.25;
-pub(super) const COARSE: f32 = 0.5;
+/// Side of a pixel in internodes.
+const PIXEL: f32 = 0.25;
 /// What a twig's leaves cover around its node.
 const FOLIAGE: f32 = 0.75;
 /// Half of the widest gap that is closed.
@@ -22,15 +21,15 @@ pub(super) struct Crown {
 }
 
 impl Crown {
-    /// The crown of these nodes, with room around it, seen through pixels of such a side.
-    pub(super) fn of(nodes: &[Vec3], pixel: f32) -> Self {
+    /// The crown of these nodes, with room around it.
+    pub(super) fn of(nodes: &[Vec3]) -> Self {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for &node in nodes {
             (low, high) = (low.min(node), high.max(node));
         }
         let room = 0.25 * (high - low).max_element() + FOLIAGE + 2.0 * GAP;
         let (low, high) = (low - room, high + room);
-        let pixel = pixel.max((high - low).max_element() / MOST);
+        let pixel = PIXEL.max((high - low).max_element() / MOST);
         let size = ((high - low) / pixel).ceil();
         let new = |width: f32| Picture::new(width as usize + 1, size.y as usize + 1);
         let mut crown = Self { low, pixel, views: [new(size.x), new(size.z)] };
@@ -138,7 +137,7 @@ mod tests {
 
     #[test]
     fn a_crown_covers_itself_and_half_of_one_twice_as_tall() {
-        let crown = Crown::of(&column(40, 0.0), PIXEL);
+        let crown = Crown::of(&column(40, 0.0));
         assert_eq!(crown.overlap(&column(40, 0.0)), 1.0);
         let half = crown.overlap(&column(20, 0.0));
         assert!((half - 0.5).abs() < 0.03, "{half}");
@@ -148,7 +147,7 @@ mod tests {
     fn gaps_of_two_internodes_are_closed_and_wider_ones_are_not() {
         let wall = |gap: f32| [column(40, 0.0), column(40, 1.5 + gap)].concat();
         let closed = |gap: f32| {
-            let crown = Crown::of(&wall(gap), PIXEL);
+            let crown = Crown::of(&wall(gap));
             let middle = Vec3::new(0.75 + 0.5 * gap, 20.0, 0.0);
             let at = ((middle - crown.low) / crown.pixel).round();
             crown.views[0].covered[at.y as usize * crown.views[0].width + at.x as usize]

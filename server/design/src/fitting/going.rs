@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::course::fitted;
-use crate::{axis::Node, key::Key};
+use crate::{axis::Node, function::Function, key::Key};
 
 /// What draws limbs must take away so much of the scatter of their angles, leaving this share.
 const DRAWN: f32 = 0.7;
@@ -56,6 +56,27 @@ impl Going {
         let Node { heading, side, .. } = self.node;
         let free = heading * cos + (side * cos_around + side.cross(heading) * sin_around) * sin;
         (free + pull).normalize_or(free)
+    }
+}
+
+/// At which angle a limb leaves its bearer, and how much stands on it.
+pub(super) struct Angle {
+    pub t: f32,
+    pub degrees: f32,
+    /// Nodes by the length of the limb.
+    pub force: f32,
+    pub length: f32,
+}
+
+impl Angle {
+    /// Its place and itself, with the weight of its square.
+    pub(super) fn weighed(&self) -> (f32, f32, f32) {
+        (self.t, self.degrees, self.force * self.length)
+    }
+
+    /// How much wood stands elsewhere, times how far, at the angle that is usual.
+    pub(super) fn off(&self, usual: &Function) -> f32 {
+        self.force * (self.degrees - usual.at(self.t)).abs().to_radians()
     }
 }
 

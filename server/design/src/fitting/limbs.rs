@@ -11,6 +11,12 @@ const LEAST_INTERNODES: u32 = 2;
 const LEAST_OF_SAYERS: usize = 4;
 /// A child with a smaller share of the wood of a sibling is a stub, and continues nothing.
 const STUB: f32 = 0.05;
+/// Trunks part within this share of the length of the longest one.
+const LOW: f32 = 0.05;
+/// So many trunks make a stem end, each as thick and as long as such a share of the one that would go on.
+const LEAST_TRUNKS: usize = 3;
+const TRUNK: f32 = 0.5;
+const TALL: f32 = 0.25;
 /// Most limbs on one axis: a density has no more.
 const MOST_LATERALS: usize = 60;
 
@@ -116,6 +122,9 @@ impl Wood {
         let rows = Rows::of(plant, girth, seed);
         let count = rows.all.len();
         let stem = rows.heirs[0]?;
+        // Trunks that rise from one point are limbs of a stem that ends there, and what they bear may be as high as ever.
+        let end = rows.parting(stem);
+        let orders = orders + u8::from(end.is_some());
         let order = rows.preorder();
         let mut places = vec![Vec3::ZERO; count - 1];
         for row in 1..count {
@@ -155,7 +164,7 @@ impl Wood {
                 limb.line.push(place);
                 limb.radii.push(rows.widths.radius(rows.all[row as usize]));
                 chain.push(row);
-                next = rows.heirs[row as usize];
+                next = rows.heirs[row as usize].filter(|_| end != Some(row));
             }
             limb.end_at_farthest();
             let offset = usize::from(start.order > 0);
@@ -164,8 +173,8 @@ impl Wood {
                 if at >= limb.line.len() {
                     break;
                 }
-                let aside =
-                    rows.children(row).iter().filter(|&&child| rows.heirs[row as usize] != Some(child));
+                let heir = rows.heirs[row as usize].filter(|_| end != Some(row));
+                let aside = rows.children(row).iter().filter(|&&child| heir != Some(child));
                 for &child in aside {
                     if rows.chains[child as usize] >= LEAST_INTERNODES && start.order < orders {
                         let bearer = Some((number, at));
@@ -301,6 +310,20 @@ impl<'a> Rows<'a> {
             let (a, b) = (rank(a), rank(b));
             b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)).then(b.2.cmp(&a.2))
         })
+    }
+
+    /// The row low on a stem from which several trunks rise.
+    fn parting(&self, stem: u32) -> Option<u32> {
+        let low = (LOW * self.chains[stem as usize] as f32).max(1.0) as usize;
+        let radius = |row: u32| self.widths.radius(self.all[row as usize]);
+        let chain = |row: u32| self.chains[row as usize] as f32;
+        let parts = |&row: &u32| {
+            let Some(heir) = self.heirs[row as usize] else { return false };
+            let is_trunk =
+                |&&child: &&u32| radius(child) >= TRUNK * radius(heir) && chain(child) >= TALL * chain(heir);
+            self.children(row).iter().filter(is_trunk).count() >= LEAST_TRUNKS
+        };
+        std::iter::successors(Some(stem), |&row| self.heirs[row as usize]).take(low).find(parts)
     }
 
     /// The number of each row when each is followed by all that stands on it.

@@ -8,17 +8,23 @@ use crate::{key::Key, refusal::MAX_VALUES};
 
 /// How much of the crown a value must bring to its place to be said.
 const WORTH: f32 = 1.0 / 6000.0;
+/// How much it must bring to be said still when all others are known.
+const WORTH_IN_THE_END: f32 = 1.0 / 4000.0;
+/// Crowns that have so much in common are alike: what is beyond counts less.
+const ALIKE: f32 = 0.905;
+const BEYOND: f32 = 0.3;
 /// Values tried together at first.
 const FIRST_ROUND: usize = 4;
 /// Most values of a kind tried together: siblings are compared with each other.
 const MOST_OF_ROUND: usize = 128;
 /// Most designs in which something more is said, and most in which something is said no longer.
 const MOST_WITH: u32 = 150;
-const MOST_WITHOUT: u32 = 100;
+const MOST_WITHOUT: u32 = 150;
 /// Values that are tried without at first, all together.
 const FIRST_WITHOUT: usize = 16;
 /// Values that limbs may say for the sake of the silhouette.
-const KINDS: [Key; 5] = [Key::Reach, Key::Turn, Key::Axis, Key::Density, Key::Silhouette];
+const KINDS: [Key; 6] =
+    [Key::Reach, Key::Turn, Key::Axis, Key::Density, Key::Silhouette, Key::BranchingAngle];
 /// Values that together say where a limb stands.
 const PLACE: [Key; 3] = [Key::Reach, Key::Turn, Key::Axis];
 
@@ -62,8 +68,9 @@ enum Stage {
 }
 
 /// What speaks for a fitted design: its overlap, less what its values cost.
-fn score(fitted: &Fitted) -> f32 {
-    fitted.overlap - WORTH * fitted.records as f32
+fn score(fitted: &Fitted, worth: f32) -> f32 {
+    let beyond = (fitted.overlap - ALIKE).max(0.0);
+    fitted.overlap.min(ALIKE) + BEYOND * beyond - worth * fitted.records as f32
 }
 
 impl Search {
@@ -113,9 +120,9 @@ impl Search {
                     self.with += 1;
                     // It may have more branches than a design has.
                     if let Some((fitted, _)) = self.tried_with(&set, tried)
-                        && score(&fitted) > score(&self.best)
+                        && score(&fitted, WORTH) > score(&self.best, WORTH)
                     {
-                        better.push((score(&fitted), set));
+                        better.push((score(&fitted, WORTH), set));
                     }
                     Stage::Alone { sets, better, is_last }
                 }
@@ -135,7 +142,7 @@ impl Search {
                 Some(set) if self.with < MOST_WITH => {
                     self.with += 1;
                     if let Some((fitted, wishes)) = self.tried_with(&set, tried)
-                        && score(&fitted) > score(&self.best)
+                        && score(&fitted, WORTH) > score(&self.best, WORTH)
                     {
                         self.said.add(&set);
                         (self.best, self.others) = (fitted, wishes);
@@ -150,7 +157,9 @@ impl Search {
                     self.without += 1;
                     let said = self.said.without(&part);
                     match tried(&said) {
-                        Ok((fitted, _)) if score(&fitted) >= score(&self.best) => {
+                        Ok((fitted, _))
+                            if score(&fitted, WORTH_IN_THE_END) >= score(&self.best, WORTH_IN_THE_END) =>
+                        {
                             (self.best, self.said) = (fitted, said);
                         }
                         _ => is_worse = true,

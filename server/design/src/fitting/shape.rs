@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// How far a fitted axis may be off its nodes, in internodes.
-const EXACT: f32 = 0.15;
+const EXACT: f32 = 0.05;
 /// Most nodes that an outline is fitted to.
 const MOST_NODES: usize = 4096;
 /// Most limbs that an outline is fitted to.
@@ -26,6 +26,12 @@ const MOST_RAYS: usize = 128;
 const ROOMY: f32 = 3.5;
 /// An outline is at least this share of a lateral's length from its base.
 const NEAR: f32 = 0.4;
+/// Wood counts as no thinner, in internodes.
+const THINNEST: f32 = 1e-4;
+/// How often tapers and radii at bases are fitted to each other.
+const ROUNDS_OF_TAPER: usize = 4;
+/// Steps of the search for an internode.
+const STEPS_OF_INTERNODE: usize = 16;
 /// A limb that has fewer nodes for each of its own has no outline of its own.
 const LEAST_BORNE: f32 = 3.0;
 
@@ -40,8 +46,6 @@ pub(super) struct Shape {
     pub course: [Vec3; SAMPLES],
     pub outline: Option<Envelope>,
     pub girth: f32,
-    pub taper: Option<Function>,
-    pub internode: f32,
 }
 
 impl Shape {
@@ -61,19 +65,19 @@ impl Shape {
         let outline = (is_bearer && limb.order > 0).then(|| {
             let mut outline =
                 around(&nodes(wood, limb, MOST_NODES / 4).map(own).collect::<Vec<_>>(), Vec3::Y);
-            reach_around(&mut outline, &bases(wood, limb).map(own).collect::<Vec<_>>());
+            let inner: Vec<Vec3> = bases(wood, limb).map(own).collect();
+            reach_around(&mut outline, &inner);
+            through(&mut outline, &rays(wood, limb, limb.base(), frame, length).collect::<Vec<_>>());
+            reach_around(&mut outline, &inner);
             outline
         });
-        let base = limb.radii.first().copied().unwrap_or(1.0).max(1e-4);
-        let radii = limb.radii.iter().enumerate().map(|(at, &radius)| (limb.share(at + 1), radius / base));
+        let base = limb.radii.first().copied().unwrap_or(1.0);
         Self {
             frame,
             length,
             course,
             outline: outline.filter(|outline| outline.check().is_ok()),
-            girth: base / limb.bearer_radius.max(1e-4),
-            taper: fitted(radii, Key::Taper.row().range),
-            internode: limb.course() / limb.radii.len().max(1) as f32,
+            girth: base / limb.bearer_radius.max(THINNEST),
         }
     }
 
@@ -168,9 +172,10 @@ pub(super) struct Usual {
 }
 
 impl Usual {
-    pub(super) fn of(wood: &Wood, shapes: &[Shape], order: u8) -> Option<Self> {
+    pub(super) fn of(wood: &Wood, shapes: &mut [Shape], order: u8) -> Option<Self> {
+        let taper = taper(wood, shapes, order);
         let all: Vec<(&Limb, &Shape)> =
-            wood.limbs.iter().zip(shapes).filter(|(limb, _)| limb.order == order).collect();
+            wood.limbs.iter().zip(&*shapes).filter(|(limb, _)| limb.order == order).collect();
         if all.is_empty() {
             return None;
         }
@@ -213,10 +218,6 @@ impl Usual {
         let ends = places.len() / 50;
         let middle = &places[ends..places.len() - ends];
         let zone = if order == 0 { zone(&places) } else { pooled_zone(middle, laterals) };
-        let steps = |taper: &Function| -> Vec<(f32, f32)> {
-            (0..=8u8).map(|step| f32::from(step) / 8.0).map(|t| (t, taper.at(t))).collect()
-        };
-        let tapers = all.iter().filter_map(|(_, shape)| shape.taper.as_ref()).flat_map(steps);
         Some(Self {
             course,
             axis,
@@ -224,11 +225,71 @@ impl Usual {
             zone,
             laterals,
             girth: median(all.iter().map(|(limb, shape)| (shape.girth, limb.size())).collect())?,
-            taper: fitted(tapers, Key::Taper.row().range),
-            internode: mean(&|_, shape| shape.internode),
+            taper,
+            internode: internode(all.iter().map(|&(limb, _)| limb)),
             foliage: mean(&|limb, _| limb.size() / limb.radii.len() as f32),
         })
     }
+}
+
+/// How limbs of an order taper, and how thick each of them is at its base if it tapers so: short limbs are known only
+/// where they are thinner already.
+fn taper(wood: &Wood, shapes: &mut [Shape], order: u8) -> Option<Function> {
+    let limbs = || wood.limbs.iter().enumerate().filter(|(_, limb)| limb.order == order);
+    let radii = |limb: &Limb| -> Vec<(f32, f32)> {
+        limb.radii.iter().enumerate().map(|(at, &radius)| (limb.share(at + 1), radius)).collect()
+    };
+    let mut bases: Vec<f32> = limbs().map(|(_, limb)| limb.radii.first().copied().unwrap_or(1.0)).collect();
+    let mut found = None;
+    for _ in 0..ROUNDS_OF_TAPER {
+        let shares = limbs().zip(&bases).flat_map(|((_, limb), &base)| {
+            radii(limb).into_iter().map(move |(t, radius)| (t, radius / base.max(THINNEST)))
+        });
+        let taper = fitted(shares, Key::Taper.row().range)?;
+        for ((_, limb), base) in limbs().zip(&mut bases) {
+            let (mut along, mut square) = (0.0, 0.0);
+            for (t, radius) in radii(limb) {
+                along += radius * taper.at(t);
+                square += taper.at(t) * taper.at(t);
+            }
+            *base = along / f32::max(square, THINNEST);
+        }
+        found = Some(taper);
+    }
+    let taper = found?;
+    // At the base it is as thick as it is there.
+    let first = taper.at(0.0).max(THINNEST);
+    for ((number, limb), base) in limbs().zip(&bases) {
+        shapes[number].girth = base * first / limb.bearer_radius.max(THINNEST);
+    }
+    let (least, most) = Key::Taper.row().range;
+    let points: Vec<_> =
+        taper.points().iter().map(|&(t, share)| (t, (share / first).clamp(least, most))).collect();
+    Function::new(&points).ok()
+}
+
+/// The longest internode with which limbs have as many nodes as they have: axes are cut where laterals stand, too.
+fn internode<'a>(limbs: impl Iterator<Item = &'a Limb>) -> f32 {
+    let (mut gaps, mut count) = (Vec::new(), 0);
+    for limb in limbs {
+        count += limb.radii.len();
+        let mut last = 0.0;
+        for place in limb.places.iter().copied().chain([1.0]).filter(|&place| place > 0.0) {
+            if place > last {
+                gaps.push((place - last) * limb.course());
+                last = place;
+            }
+        }
+    }
+    let nodes = |internode: f32| -> usize {
+        gaps.iter().map(|gap| (gap / internode - 1e-3).ceil().max(1.0) as usize).sum()
+    };
+    let (mut least, mut most) = Key::Internode.row().range;
+    for _ in 0..STEPS_OF_INTERNODE {
+        let middle = 0.5 * (least + most);
+        *(if nodes(middle) > count { &mut least } else { &mut most }) = middle;
+    }
+    most
 }
 
 /// The zone of places of several limbs that bear so many each.

@@ -1,16 +1,16 @@
 //! A graph from the shapes of limbs: what all of an order have in common, and what some say themselves.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::Vec3;
 
 use super::{
-    course::{apart, density, fitted},
-    going::{Going, pull},
+    course::{along, apart, density, fitted},
+    going::{Angle, Going, pull},
     limbs::Wood,
     outline,
     shape::{Shape, Stem, Usual},
-    sharing::{SAME, SAME_OUTLINE, is_same, share},
+    sharing::{SAME, SAME_OUTLINE, is_same},
 };
 use crate::{
     axis::{OUTSIDE, Placed, lay, placed_at, stem},
@@ -114,8 +114,8 @@ type Common = BTreeMap<Key, Held>;
 
 impl Writer {
     pub(super) fn new(wood: Wood) -> Self {
-        let shapes: Vec<Shape> = (0..wood.limbs.len()).map(|limb| Shape::of(&wood, limb)).collect();
-        let usual: Vec<Usual> = (0..).map_while(|order| Usual::of(&wood, &shapes, order)).collect();
+        let mut shapes: Vec<Shape> = (0..wood.limbs.len()).map(|limb| Shape::of(&wood, limb)).collect();
+        let usual: Vec<Usual> = (0..).map_while(|order| Usual::of(&wood, &mut shapes, order)).collect();
         let mut ids = vec![None; wood.limbs.len()];
         ids[0] = Some(NodeId::ROOT);
         let (mut slots, mut anchored) = (0, Vec::new());
@@ -142,14 +142,13 @@ impl Writer {
             said,
             graph: Graph::default(),
             common: vec![Common::new(); self.usual.len()],
+            hidden: said.all().map(|(limb, key)| (usize::from(self.wood.limbs[limb].order), key)).collect(),
             wishes: Vec::new(),
         };
         writing.commons();
         writing.limbs();
         writing.directions()?;
-        let mut graph = writing.graph;
-        share(&mut graph);
-        Ok((Design::of(graph)?, writing.wishes))
+        Ok((Design::of(writing.graph)?, writing.wishes))
     }
 }
 
@@ -158,6 +157,8 @@ struct Writing<'a> {
     said: &'a Said,
     graph: Graph,
     common: Vec<Common>,
+    /// What limbs of which order say for themselves.
+    hidden: BTreeSet<(usize, Key)>,
     wishes: Vec<Wish>,
 }
 
@@ -179,7 +180,10 @@ impl Writing<'_> {
 
     /// Says something of an order, unless it costs nothing to inherit it.
     fn say(&mut self, order: usize, key: Key, value: Held) {
-        if is_same(key, self.inherited(order, key), &value) {
+        // What a limb says for itself alone hides from what it bears what its order says.
+        let hidden = (1..order).filter(|&below| self.hidden.contains(&(below, key)));
+        let mut inherited = hidden.map(|below| below - 1).chain([order]);
+        if inherited.all(|order| is_same(key, self.inherited(order, key), &value)) {
             return;
         }
         self.record(owner(order)).settings.insert(key, Setting::own(value.clone()));
@@ -378,16 +382,30 @@ impl Writing<'_> {
                 _ => unreachable!("a pull is a vector"),
             };
             going.iter_mut().for_each(|(going, ..)| going.draw(pull));
-            let angles = going.iter().map(|(going, ..)| (going.t, going.angle));
-            if let Some(angle) = fitted(angles, Key::BranchingAngle.row().range) {
+            let range = Key::BranchingAngle.row().range;
+            let bearer = |limb: usize| wood.limbs[limb].bearer.map_or(0, |(bearer, _)| bearer);
+            let mut angles: BTreeMap<usize, Vec<Angle>> = BTreeMap::new();
+            for (Going { limb, t, angle, .. }, ..) in &going {
+                let force = wood.limbs[*limb].size() * shapes[*limb].length;
+                let angle = Angle { t: *t, degrees: *angle, force, length: shapes[*limb].length };
+                angles.entry(bearer(*limb)).or_default().push(angle);
+            }
+            let common = match angles.get(&0) {
+                // What bears limbs is one axis.
+                Some(angles) => along(angles.iter().map(Angle::weighed).collect(), range),
+                None => fitted(angles.values().flatten().map(|angle| (angle.t, angle.degrees)), range),
+            };
+            if let Some(angle) = common {
                 self.say(order, Key::BranchingAngle, Held::new(Value::Function(angle)));
             }
             let angle = self.function(order, Key::BranchingAngle);
+            let own = self.own_angles(&angles, &angle);
+            let angle_of = |going: &Going| own.get(&bearer(going.limb)).unwrap_or(&angle).at(going.t);
             // Which way each goes in the design, and how far its bearer's outline is there.
             let directions: Vec<Vec3> = (going.iter())
                 .map(|(going, ..)| match self.said.has(going.limb, Key::Turn) {
                     true => going.direction,
-                    false => going.unturned(angle.at(going.t), pull),
+                    false => going.unturned(angle_of(going), pull),
                 })
                 .collect();
             let ways: Vec<f32> = (going.iter().zip(&directions))
@@ -396,9 +414,13 @@ impl Writing<'_> {
                 })
                 .collect();
             let length = |limb: usize| shapes[limb].length;
-            // All together are as long as they were.
-            let all = going.iter().map(|(going, ..)| length(going.limb)).sum::<f32>()
-                / ways.iter().sum::<f32>().max(1e-3);
+            // All of them that say nothing themselves are together as long as they were.
+            let silent =
+                (going.iter().zip(&ways)).filter(|((going, ..), _)| !self.said.has(going.limb, Key::Reach));
+            let (lengths, far) = silent.fold((0.0, 0.0), |(lengths, far), ((going, ..), way)| {
+                (lengths + length(going.limb), far + way)
+            });
+            let all = if far > 0.0 { lengths / far } else { 1.0 };
             self.say(order + 1, Key::Reach, scalar(Key::Reach, all));
             let common = self.number(order + 1, Key::Reach);
             let mut stand = Vec::new();
@@ -408,7 +430,7 @@ impl Writing<'_> {
                 self.turn_slot(id, going.azimuth);
                 let reach = (length(limb) / way).min(farthest);
                 let off = 0.5 * length(limb) * wood.limbs[limb].size();
-                let by = turn_between(going.unturned(angle.at(going.t), pull), going.direction);
+                let by = turn_between(going.unturned(angle_of(going), pull), going.direction);
                 if self.said.has(limb, Key::Turn) {
                     self.say_own(id, Key::Turn, Held::new(Value::Vector(bearer.frame.transpose() * by)));
                 } else if by.length().to_radians() * length(limb) > SAME_PLACE && wood.limbs[limb].says() {
@@ -430,6 +452,28 @@ impl Writing<'_> {
             standing.extend(stand);
         }
         Ok(())
+    }
+
+    /// The angles that limbs say their laterals stand at, and which might say it besides.
+    fn own_angles(
+        &mut self,
+        angles: &BTreeMap<usize, Vec<Angle>>,
+        usual: &Function,
+    ) -> BTreeMap<usize, Function> {
+        let key = Key::BranchingAngle;
+        let mut own = BTreeMap::new();
+        for (&limb, angles) in angles.iter().filter(|&(&limb, angles)| limb > 0 && angles.len() > 1) {
+            let Some(id) = self.writer.ids[limb] else { continue };
+            if !self.said.has(limb, key) {
+                let gain = 0.5 * angles.iter().map(|angle| angle.off(usual)).sum::<f32>();
+                self.wishes.push(Wish { limb, key, gain });
+            } else if let Some(function) = along(angles.iter().map(Angle::weighed).collect(), key.row().range)
+            {
+                self.say_own(id, key, Held::new(Value::Function(function.clone())));
+                own.insert(limb, function);
+            }
+        }
+        own
     }
 
     fn turn_slot(&mut self, id: NodeId, azimuth: f32) {
