@@ -1,5 +1,15 @@
-// Parts of three.js that a scene without lights, fog, backgrounds, headsets, clipping planes, textures of six sides and
-// materials of three.js's own does not use, each with the methods that the renderer calls all the same. `three-plugin.ts` puts them in place.
+// Parts of three.js that a scene without lights, fog, backgrounds, headsets, clipping planes, compressed textures, textures of
+// six sides and materials of three.js's own does not use, each with the methods that the renderer calls all the same. `three-plugin.ts` puts them in place.
+import {
+  DepthFormat,
+  FloatType,
+  HalfFloatType,
+  RedFormat,
+  RGBAFormat,
+  RGBAIntegerFormat,
+  UnsignedByteType,
+  UnsignedIntType,
+} from "three/src/constants.js";
 import { Color } from "three/src/math/Color.js";
 
 export const ShaderChunk = {};
@@ -71,6 +81,27 @@ export function WebGLShadowMap() {
 
 export function WebGLUniformsGroups() {
   return { bind() {}, update() {}, dispose() {} };
+}
+
+/** WebGL's names of the formats and types of textures that are used here: three.js knows many compressed ones besides. */
+export function WebGLUtils(gl) {
+  const names = {
+    [UnsignedByteType]: "UNSIGNED_BYTE",
+    [UnsignedIntType]: "UNSIGNED_INT",
+    [FloatType]: "FLOAT",
+    [HalfFloatType]: "HALF_FLOAT",
+    [RGBAFormat]: "RGBA",
+    [DepthFormat]: "DEPTH_COMPONENT",
+    [RedFormat]: "RED",
+    [RGBAIntegerFormat]: "RGBA_INTEGER",
+  };
+  return {
+    convert(format) {
+      const name = names[format];
+      if (name === undefined) throw new Error(`three-parts.js has no textures of the format or type ${format}.`);
+      return gl[name];
+    },
+  };
 }
 
 export function WebXRManager() {
