@@ -36,6 +36,13 @@ pub struct Material {
     pub leaves: [f32; 3],
 }
 
+impl Material {
+    /// Whether it changes no colour.
+    pub fn is_plain(&self) -> bool {
+        self.bark.iter().chain(&self.leaves).all(|&factor| factor == 1.0)
+    }
+}
+
 /// What kind of value a parameter has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {

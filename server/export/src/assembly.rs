@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use espalier_mesh::{Bodies, Body, Grain, Style, TriangleMesh, Wood, seeds};
+use espalier_mesh::{Bodies, Body, Grain, RowDyes, Style, TriangleMesh, Wood, seeds};
 use espalier_motion::Rig;
 use espalier_plant::{MetamerId, Plant};
 use espalier_settings::Appearance;
@@ -142,6 +142,7 @@ pub(crate) struct Assembly<'a> {
     looks: &'a Appearance,
     name: Option<&'a str>,
     model: &'a Model,
+    dyes: &'a RowDyes,
     bark: Bark,
     thin: [Option<Thin>; 3],
     wood: Bodies,
@@ -183,15 +184,17 @@ impl<'a> Assembly<'a> {
             }
         });
         let levels: Vec<_> = levels.collect();
+        let [greatest_bark, greatest_leaves] = style.dyes().greatest();
         let borne = levels.first().map_or(looks, |level| level.foliage.look());
         Self {
             plant,
             looks,
             name,
             model,
-            bark: Bark::of(&looks.bark),
+            dyes: style.dyes(),
+            bark: Bark::of(&looks.bark, greatest_bark),
             thin: [
-                Some(thin::leaves(&borne.leaves)),
+                Some(thin::leaves(&borne.leaves, greatest_leaves)),
                 thin::flowers(&borne.flowers),
                 thin::fruits(&borne.fruits),
             ],
@@ -379,7 +382,7 @@ impl<'a> Assembly<'a> {
         let mut colours = Vec::new();
         for body in &limb.bodies {
             body.sweep(&mut wood);
-            colours.extend(wood.radii.iter().map(|&radius| self.bark.tint(radius)));
+            colours.extend(self.bark.tints(&wood, self.dyes));
             let (mesh, tangents) = (&wood.surface, &wood.tangents);
             let riders = self.riders(body, mesh);
             let (second, riders) = (&wood.cuts[..], &riders[..]);
@@ -393,7 +396,7 @@ impl<'a> Assembly<'a> {
     /// Wood with its places in a light map.
     fn unrolled_wood(&self, limb: &Limb<'_>, map: &WoodMap, take: &mut Take<'_>) -> Result<(), ExportError> {
         map.each(&limb.bodies, |body, UnrolledWood { wood, places }| {
-            let colours: Vec<Vec3> = wood.radii.iter().map(|&radius| self.bark.tint(radius)).collect();
+            let colours: Vec<Vec3> = self.bark.tints(wood, self.dyes).collect();
             let (mesh, tangents) = (&wood.surface, &wood.tangents);
             let riders = self.riders(body, mesh);
             let (second, places, riders) = (&wood.cuts[..], Some(&places[..]), &riders[..]);

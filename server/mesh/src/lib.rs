@@ -5,6 +5,7 @@
 
 pub mod checks;
 mod drawn;
+pub mod dyes;
 pub mod foliage;
 pub mod grain;
 pub mod leaves;
@@ -19,6 +20,7 @@ pub mod triangle_mesh;
 pub mod tubes;
 
 pub use drawn::course::seeds;
+pub use dyes::{Dye, Dyes, RowDyes};
 pub use grain::Grain;
 pub use limbs::{Limb, Limbs};
 pub use ring_table::{Changes, Detail, RingTable};

@@ -2,7 +2,7 @@
 
 use espalier_plant::Girth;
 
-use crate::radius_code::RadiusCodes;
+use crate::{dyes::RowDyes, radius_code::RadiusCodes};
 
 /// The most leaves a node can bear: they are counted in four bits.
 pub const MAX_LEAVES_PER_NODE: u8 = 15;
@@ -26,12 +26,13 @@ impl Default for StyleOptions {
     }
 }
 
-/// How thick wood is and how many leaves it bears.
+/// How thick wood is, how many leaves it bears, and which branches have colours of their own.
 #[derive(Clone, Debug)]
 pub struct Style {
     options: StyleOptions,
     girth: Girth,
     radius_codes: RadiusCodes,
+    dyes: RowDyes,
 }
 
 impl Style {
@@ -40,7 +41,22 @@ impl Style {
         let girth = Girth::new(options.girth_exponent, options.twig_diameter);
         let radius_codes = RadiusCodes::new(&girth);
         let leaves_per_node = options.leaves_per_node.min(MAX_LEAVES_PER_NODE);
-        Self { options: StyleOptions { leaves_per_node, ..options }, girth, radius_codes }
+        Self {
+            options: StyleOptions { leaves_per_node, ..options },
+            girth,
+            radius_codes,
+            dyes: RowDyes::default(),
+        }
+    }
+
+    /// The same with these colours of branches.
+    pub fn dyed(self, dyes: RowDyes) -> Self {
+        Self { dyes, ..self }
+    }
+
+    /// The colours that branches have of their own.
+    pub fn dyes(&self) -> &RowDyes {
+        &self.dyes
     }
 
     /// The values it was made from.

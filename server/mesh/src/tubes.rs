@@ -39,6 +39,8 @@ pub struct Wood {
     pub cuts: Vec<u32>,
     /// How thick the wood is at each vertex: its radius in internodes.
     pub radii: Vec<f32>,
+    /// Whose surface it is at each vertex.
+    pub metamers: Vec<MetamerId>,
     /// At each vertex the unit vector along which u grows, and ±1 for the side of the normal on which v does.
     pub tangents: Vec<Vec4>,
 }
@@ -184,8 +186,8 @@ fn rib_slopes(samples: &[Sample]) -> Vec<f32> {
 impl Wood {
     /// No wood yet, of the plant of a seed.
     pub fn of(seed: MetamerId) -> Self {
-        let (surface, cuts, radii, tangents) = Default::default();
-        Self { seed, surface, cuts, radii, tangents }
+        let (surface, cuts, radii, metamers, tangents) = Default::default();
+        Self { seed, surface, cuts, radii, metamers, tangents }
     }
 
     /// Forgets all triangles, but not their room.
@@ -193,6 +195,7 @@ impl Wood {
         self.surface.clear();
         self.cuts.clear();
         self.radii.clear();
+        self.metamers.clear();
         self.tangents.clear();
     }
 
@@ -288,6 +291,7 @@ impl Wood {
         self.surface.indices.truncate(indices);
         self.cuts.truncate(cuts);
         self.radii.truncate(vertices);
+        self.metamers.truncate(vertices);
         self.tangents.truncate(vertices);
     }
 
@@ -296,8 +300,10 @@ impl Wood {
         self.radii.len() as u32
     }
 
-    fn vertex(&mut self, position: Vec3, normal: Vec3, uv: Vec2, radius: f32, tangent: Vec4) -> u32 {
-        self.radii.push(radius);
+    /// Adds a vertex of a ring, or of what closes it.
+    fn vertex(&mut self, position: Vec3, normal: Vec3, uv: Vec2, ring: &Sample, tangent: Vec4) -> u32 {
+        self.radii.push(ring.radius);
+        self.metamers.push(ring.metamer);
         self.tangents.push(tangent);
         self.surface.vertex(position, normal, uv)
     }
@@ -328,7 +334,7 @@ impl Wood {
             let normal = (outward - around * bulge - sample.tangent * slope).normalize();
             let place = sample.point + outward * radius;
             let along_u = (around + outward * bulge).normalize().extend(1.0);
-            self.vertex(place, normal, Vec2::new(u, v), sample.radius, along_u);
+            self.vertex(place, normal, Vec2::new(u, v), sample, along_u);
         }
         first
     }
@@ -361,7 +367,7 @@ impl Wood {
         for side in 0..tube.sides() {
             // An apex for each side: one for all could have only one place in the texture.
             let around = self.between(ring + side);
-            let top = self.vertex(apex, tip.tangent, Vec2::new(tube.middle(side), v), tip.radius, around);
+            let top = self.vertex(apex, tip.tangent, Vec2::new(tube.middle(side), v), tip, around);
             self.surface.triangle(ring + side, ring + side + 1, top);
         }
     }
@@ -375,12 +381,12 @@ impl Wood {
         for corner in (ring..=ring + tube.sides()).map(|corner| corner as usize) {
             let (place, uv) = (self.surface.positions[corner], self.surface.uvs[corner]);
             let around = self.tangents[corner].truncate().extend(hand);
-            self.vertex(place, normal, uv, end.radius, around);
+            self.vertex(place, normal, uv, end, around);
         }
         let v = v + tube.tiles_along(end.radius, end.radius);
         let triangle = |side| {
             let around = self.between(rim + side);
-            let middle = self.vertex(end.point, normal, Vec2::new(tube.middle(side), v), end.radius, around);
+            let middle = self.vertex(end.point, normal, Vec2::new(tube.middle(side), v), end, around);
             [rim + side, rim + side + 1, middle]
         };
         (0..tube.sides()).flat_map(triangle).collect()

@@ -78,11 +78,12 @@ impl<'a> Foliage<'a> {
     /// The leaves of a metamer as they hang, and their colours.
     pub(crate) fn leaves(&self, id: MetamerId) -> impl Iterator<Item = (Leaf, Vec3)> {
         let shoot = Shoot::of(self.plant, id);
-        let larger = (self.one_of as f32).sqrt();
+        let (larger, dye) = ((self.one_of as f32).sqrt(), self.style.dyes().of(id).leaves);
         let leaves = leaves::of_between(self.plant, id, self.style, self.ends(id));
         let all = (id.raw()..).zip(leaves);
         all.filter(|(number, _)| number % self.one_of == 0)
             .flat_map(move |(_, leaf)| self.painter.paint(Leaf { size: larger * leaf.size, ..leaf }, shoot))
+            .map(move |(leaf, hue)| (leaf, hue * dye))
     }
 
     /// Adds the leaves of a metamer.

@@ -1,5 +1,6 @@
 //! Bark: one texture for all wood, and the colour that each thickness of wood gives it.
 
+use espalier_mesh::{RowDyes, Wood};
 use espalier_settings::{BARK_BEGINS, BarkLook, LIMB_ENDS};
 use glam::Vec3;
 
@@ -55,7 +56,8 @@ impl Palette {
 }
 
 impl Bark {
-    pub(crate) fn of(look: &BarkLook) -> Self {
+    /// Bark whose colour some branches multiply by so much at most.
+    pub(crate) fn of(look: &BarkLook, greatest: f32) -> Self {
         let (painted, palette) = (Painted::bark(look.kind), Palette::of(look));
         let shares = |texel: &[u8; 4]| Vec3::new(texel[0].into(), texel[1].into(), texel[2].into()) / 255.0;
         let mean = painted.colours.iter().map(shares).sum::<Vec3>() / painted.colours.len() as f32;
@@ -69,7 +71,7 @@ impl Bark {
         };
         let mut bark = Self { texture: plain, palette, shares: mean, strength: 1.0 };
         let radii = (0..=20).map(|step| THICKEST * step as f32 / 20.0);
-        bark.strength = radii.map(|radius| bark.tint(radius).max_element()).fold(1.0, f32::max);
+        bark.strength = radii.map(|radius| greatest * bark.tint(radius).max_element()).fold(1.0, f32::max);
         for colour in &mut bark.texture.colours {
             *colour = (*colour * bark.strength).min(Vec3::ONE);
         }
@@ -80,6 +82,12 @@ impl Bark {
     pub(crate) fn tint(&self, radius: f32) -> Vec3 {
         let [here, trunk] = [radius, THICKEST].map(|radius| self.palette.at(radius, self.shares));
         here / trunk.max(Vec3::splat(1e-3)) / self.strength
+    }
+
+    /// The same at each vertex of wood whose branches have these colours.
+    pub(crate) fn tints(&self, wood: &Wood, dyes: &RowDyes) -> impl Iterator<Item = Vec3> {
+        let vertices = wood.radii.iter().zip(&wood.metamers);
+        vertices.map(|(&radius, &metamer)| self.tint(radius) * dyes.of(metamer).bark)
     }
 }
 
@@ -105,7 +113,7 @@ mod tests {
     use super::*;
 
     fn bark(kind: BarkKind, tint: [u8; 3]) -> Bark {
-        Bark::of(&BarkLook { kind, tint, ..BarkLook::default() })
+        Bark::of(&BarkLook { kind, tint, ..BarkLook::default() }, 1.0)
     }
 
     fn mean(bark: &Bark, radius: f32) -> Vec3 {

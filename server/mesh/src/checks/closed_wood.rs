@@ -10,9 +10,9 @@ use crate::tubes::Wood;
 const CHECK: &str = "closed_wood";
 
 pub(super) fn check(wood: &Wood) -> Result<(), Failure> {
-    let Wood { surface, radii, tangents, .. } = wood;
-    require(CHECK, [radii.len(), tangents.len()] == [surface.positions.len(); 2], || {
-        format!("{} radii, {} tangents", radii.len(), tangents.len())
+    let Wood { surface, radii, metamers, tangents, .. } = wood;
+    require(CHECK, [radii.len(), metamers.len(), tangents.len()] == [surface.positions.len(); 3], || {
+        format!("{} radii, {} metamers, {} tangents", radii.len(), metamers.len(), tangents.len())
     })?;
     for (vertex, (tangent, normal)) in tangents.iter().zip(&surface.normals).enumerate() {
         let along = tangent.truncate();

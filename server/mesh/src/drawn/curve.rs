@@ -1,5 +1,6 @@
 //! The curve of a limb from node to node, and where on it rings stand.
 
+use espalier_plant::MetamerId;
 use glam::Vec3;
 
 use super::course::{Course, End, Flare, Node};
@@ -39,6 +40,8 @@ pub(crate) struct Sample {
     pub radius: f32,
     /// How far roots rise from that, by the shape of their ribs.
     pub ribs: f32,
+    /// Whose surface it is.
+    pub metamer: MetamerId,
 }
 
 /// Places for rings, at least two, on a curve that `smoothing` takes from a polyline (0) to a smooth one (1). No ring
@@ -122,7 +125,7 @@ fn on_curve(course: &Course, smoothing: f32) -> Vec<Sample> {
     let mut samples: Vec<Sample> = Vec::with_capacity(2 * course.nodes.len());
     // Along the straight ways between nodes, by which the flare declines.
     let mut reached = 0.0;
-    for (i, pair) in course.nodes.windows(2).enumerate() {
+    for (i, (pair, &metamer)) in course.nodes.windows(2).zip(&course.rows).enumerate() {
         let &[from, to] = pair else { continue };
         let piece = Piece::between(&from, &to, smoothing);
         let is_foot = i == 0 && matches!(course.flare, Flare::Roots { .. });
@@ -141,7 +144,7 @@ fn on_curve(course: &Course, smoothing: f32) -> Vec<Sample> {
                 1.0 => to.direction,
                 _ => piece.across(u, stout),
             };
-            samples.push(Sample { point, tangent, arc, radius, ribs });
+            samples.push(Sample { point, tangent, arc, radius, ribs, metamer });
         }
         reached += piece.length;
     }
@@ -275,7 +278,7 @@ impl Piece {
 
 #[cfg(test)]
 mod tests {
-    use espalier_plant::{AxisId, MetamerId};
+    use espalier_plant::AxisId;
 
     use super::{super::course::ribs, *};
 

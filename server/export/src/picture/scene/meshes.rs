@@ -68,7 +68,7 @@ impl Meshes {
         motion: Option<&Swaying>,
     ) -> Self {
         let bodies = Bodies::of(plant, style, &look.bark, Grain::default());
-        let mut meshes = wooden(&bodies, look, motion);
+        let mut meshes = wooden(&bodies, style, look, motion);
         meshes.extend(borne(plant, style, look, &bodies));
         Self(meshes)
     }
@@ -105,8 +105,14 @@ impl Meshes {
 }
 
 /// Wood in its bark, and the faces of cuts.
-fn wooden(bodies: &Bodies, look: &Appearance, motion: Option<&Swaying>) -> Vec<(Skin, Painted)> {
-    let bark = Bark::of(&look.bark);
+fn wooden(
+    bodies: &Bodies,
+    style: &Style,
+    look: &Appearance,
+    motion: Option<&Swaying>,
+) -> Vec<(Skin, Painted)> {
+    let [greatest, _] = style.dyes().greatest();
+    let bark = Bark::of(&look.bark, greatest);
     let mut meshes = Vec::new();
     let mut plants: BTreeMap<MetamerId, (Wood, Vec<Rider>)> = BTreeMap::new();
     for body in bodies.iter() {
@@ -119,7 +125,7 @@ fn wooden(bodies: &Bodies, look: &Appearance, motion: Option<&Swaying>) -> Vec<(
         }
     }
     for (wood, riders) in plants.into_values() {
-        let colours = wood.radii.iter().map(|&radius| bark.tint(radius)).collect();
+        let colours = bark.tints(&wood, style.dyes()).collect();
         meshes.push((Skin::Bark, cuts(&wood, &riders)));
         let texture = Some(bark.texture.clone());
         meshes
@@ -164,7 +170,9 @@ fn borne(plant: &Plant, style: &Style, look: &Appearance, bodies: &Bodies) -> Ve
         let Cards { mesh, hues: colours, riders, grids, .. } = cards;
         (Skin::Leaf, Painted { mesh, colours, texture: Some(thin.texture), riders, grids })
     };
-    let mut meshes = vec![painted(thin::leaves(&look.leaves), &|cards, id| foliage.add_leaves(cards, id))];
+    let [_, greatest] = style.dyes().greatest();
+    let mut meshes =
+        vec![painted(thin::leaves(&look.leaves, greatest), &|cards, id| foliage.add_leaves(cards, id))];
     let look = foliage.look();
     let flowers = thin::flowers(&look.flowers);
     meshes.extend(flowers.map(|thin| painted(thin, &|cards, id| foliage.add_flowers(cards, id))));
