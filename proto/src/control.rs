@@ -11,7 +11,7 @@ use crate::{
     bounded::{BrushRadius, List, PredictedSteps},
     command::Command,
     comment::Pin,
-    design::{BranchPath, DesignInForce, LimbOutline, PlacedBranch},
+    design::{BranchPath, DesignInForce, DyeColours, DyedBlock, LimbOutline, PlacedBranch},
     envelope::FrameKind,
     grammar::GrammarInForce,
     obstacle::PlacedObstacle,
@@ -430,6 +430,13 @@ pub enum ServerMessage {
     Design {
         /// The design; none where there is none any more.
         design: Option<Box<DesignInForce>>,
+    },
+    /// The colours that designs say of branches: after the welcome if there are any, and when they change (`DS14`).
+    Dyes {
+        /// At most 15 different ones; none where every branch has the colours of the tree.
+        dyes: Vec<DyeColours>,
+        /// Which rows have which, in ascending order. Rows in none of the blocks have the dye of the row that bears them.
+        blocks: Vec<DyedBlock>,
     },
     /// Where branches of the design stand, to whom looks at one: at once, and when the design changes (`DS8`).
     Branches {

@@ -254,6 +254,27 @@ pub struct DesignInForce {
     pub overlap: Option<f32>,
 }
 
+/// Colours of branches that a design says (`DS14`), as factors of those of the tree in linear light: red, green and blue.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct DyeColours {
+    /// Of bark.
+    pub bark: [f32; 3],
+    /// Of leaves.
+    pub leaves: [f32; 3],
+}
+
+/// Rows after one another and their dyes (`DS14`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct DyedBlock {
+    /// The first row.
+    pub first: u32,
+    /// How many rows from there on have which dye, one run after another: the place of the dye counted from 1, or 0 for
+    /// none.
+    pub runs: Vec<[u32; 2]>,
+}
+
 /// A design for a session (`DS11`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]

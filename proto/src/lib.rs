@@ -53,8 +53,8 @@ pub use control::{
     ClientMessage, Deed, DocumentState, Hint, HintReason, Notice, Pause, Resume, ServerMessage, Unreadable,
 };
 pub use design::{
-    BranchPath, DesignEdit, DesignInForce, DesignSetting, DesignValue, LimbOutline, MAX_DESIGN_BYTES,
-    PlacedBranch, PutDesign,
+    BranchPath, DesignEdit, DesignInForce, DesignSetting, DesignValue, DyeColours, DyedBlock, LimbOutline,
+    MAX_DESIGN_BYTES, PlacedBranch, PutDesign,
 };
 pub use envelope::FrameKind;
 pub use espalier_reading::NotAllowed;

@@ -163,6 +163,8 @@ pub fn declarations() -> String {
         design::DesignSetting::decl(&config),
         design::DesignEdit::decl(&config),
         design::DesignInForce::decl(&config),
+        design::DyeColours::decl(&config),
+        design::DyedBlock::decl(&config),
         design::PutDesign::decl(&config),
         design::PlacedBranch::decl(&config),
         design::LimbOutline::decl(&config),

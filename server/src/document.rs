@@ -5,7 +5,6 @@ use espalier_export::{
     picture::{self, Look},
 };
 use espalier_growth::species::{self, Species, Stage};
-use espalier_mesh::Style;
 use espalier_proto::thumbnail::MAX_THUMBNAIL_BYTES;
 use espalier_session::{Document, DocumentError, style_options};
 use espalier_settings::{Appearance, ParameterValues};
@@ -55,7 +54,7 @@ pub struct Stored(Document);
 pub fn thumbnail(document: &mut Document) -> Vec<u8> {
     let (parameters, appearance) = (document.parameters(), *document.appearance());
     let stand = species_of(&parameters, &appearance).map(|species| species.stand).unwrap_or_default();
-    let style = Style::new(style_options(&parameters));
+    let style = document.style();
     let mut png = Vec::new();
     for side in THUMBNAILS {
         png = picture::draw(document.portrait(), &style, &Look { appearance, stand }, side, side).png();
@@ -79,7 +78,7 @@ impl Stored {
         let (parameters, appearance) = (document.parameters(), *document.appearance());
         let species = species_of(&parameters, &appearance);
         let look = Look { appearance, stand: species.map(|species| species.stand).unwrap_or_default() };
-        let style = Style::new(style_options(&parameters));
+        let style = document.style();
         picture::strip(document.portrait(), &style, &look, (side, frames), between).png()
     }
 

@@ -5,9 +5,8 @@ use espalier_export::{
     picture::{self, Look},
 };
 use espalier_growth::{SIMULATION_VERSION, species::Species};
-use espalier_mesh::Style;
 use espalier_proto::{library::ExportFormat, text::Name};
-use espalier_session::{Document, style_options};
+use espalier_session::Document;
 
 use crate::{
     document::species_of,
@@ -430,7 +429,7 @@ pub fn write(
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
     let (parameters, appearance) = (document.parameters(), *document.appearance());
-    let style = Style::new(style_options(&parameters));
+    let style = document.style();
     let (seed, metres) = (document.seed(), parameters.internode_length);
     let species = species.or_else(|| species_of(&parameters, &appearance));
     let obstacles = document.solids();

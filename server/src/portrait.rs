@@ -5,9 +5,8 @@ use std::{collections::BTreeMap, sync::Arc};
 use espalier_export::picture::{self, Canvas, Look};
 use espalier_grammar::{SHIPPED, Shipped};
 use espalier_growth::species::{self, Species};
-use espalier_mesh::Style;
 use espalier_proto::Problem;
-use espalier_session::{Document, Principal, grammar_script, script, shipped_grammar, style_options};
+use espalier_session::{Document, Principal, grammar_script, script, shipped_grammar};
 use tokio::sync::OnceCell;
 
 use crate::pool::{Class, Panicked, Person, SimulationPool};
@@ -23,7 +22,7 @@ pub fn portrait(species: &Species, seed: u32, (width, height): (usize, usize)) -
     for action in script(species) {
         document.apply(&Principal::visitor(), &action.into())?;
     }
-    let style = Style::new(style_options(&document.parameters()));
+    let style = document.style();
     Ok(picture::draw(document.portrait(), &style, &Look::from(species), width, height))
 }
 
@@ -34,7 +33,7 @@ fn portrait_of_grammar(shipped: &Shipped, (width, height): (usize, usize)) -> Re
     if let Ok(action) = grammar_script(shipped.text, None) {
         document.apply(&Principal::visitor(), &action.into())?;
     }
-    let style = Style::new(style_options(&document.parameters()));
+    let style = document.style();
     let look = Look { appearance: *document.appearance(), ..Look::default() };
     Ok(picture::draw(document.portrait(), &style, &look, width, height))
 }

@@ -3,9 +3,9 @@
 use std::{collections::VecDeque, fmt::Debug, time::Duration};
 
 use espalier_proto::{
-    BendFrame, ClientMessage, DesignInForce, DocumentState, Frame, FrameKind, GhostFrame, GrammarInForce,
-    Notice, Person, PlacedObstacle, PresenceFrame, Problem, Programme, ServerMessage, Timeline,
-    WidthConstraint, access::Role,
+    BendFrame, ClientMessage, DesignInForce, DocumentState, DyeColours, DyedBlock, Frame, FrameKind,
+    GhostFrame, GrammarInForce, Notice, Person, PlacedObstacle, PresenceFrame, Problem, Programme,
+    ServerMessage, Timeline, WidthConstraint, access::Role,
 };
 use espalier_settings::{Appearance, ParameterValues};
 use futures_util::{SinkExt, StreamExt};
@@ -66,6 +66,10 @@ pub struct Client {
     pub widths: Vec<WidthConstraint>,
     /// The design in force.
     pub design: Option<DesignInForce>,
+    /// Colours of branches,
+    pub dyes: Vec<DyeColours>,
+    /// and which rows have them.
+    pub dyed: Vec<DyedBlock>,
     /// The grammar in force, as it was told last.
     pub grammar: Option<GrammarInForce>,
     /// Frames of bends, in the order they came.
@@ -222,6 +226,8 @@ impl Client {
             timeline: Timeline::default(),
             widths: Vec::new(),
             design: None,
+            dyes: Vec::new(),
+            dyed: Vec::new(),
             grammar: None,
             bend_frames: Vec::new(),
             ghosts: Vec::new(),
@@ -432,11 +438,12 @@ impl Client {
                 assert_eq!(epoch, self.table.epoch, "RS1: only the same epoch can be resumed");
                 self.resumed = resumed;
                 self.parameters = *parameters;
-                // These follow if there are any (`PG5`, `OB3`, `WI2`, `DS4`, `GR5`).
+                // These follow if there are any (`PG5`, `OB3`, `WI2`, `DS4`, `DS14`, `GR5`).
                 self.programme = None;
                 self.obstacles.clear();
                 self.widths.clear();
                 self.design = None;
+                (self.dyes, self.dyed) = (Vec::new(), Vec::new());
                 self.grammar = None;
                 self.state = state;
                 self.done = 0;
@@ -460,6 +467,7 @@ impl Client {
             ServerMessage::TimelineChanged(change) => self.timeline.change(*change),
             ServerMessage::Widths { widths } => self.widths = widths,
             ServerMessage::Design { design } => self.design = design.map(|design| *design),
+            ServerMessage::Dyes { dyes, blocks } => (self.dyes, self.dyed) = (dyes, blocks),
             ServerMessage::Grammar { grammar } => self.grammar = grammar.map(|grammar| *grammar),
             ServerMessage::Appearance { appearance, .. } => {
                 self.appearance = *appearance;

@@ -1,4 +1,5 @@
 import type { Signal } from "@preact/signals";
+import { UNDYED } from "../scene/table/row-dyes";
 import type { TreeTable } from "../scene/table/tree-table";
 import type { DocumentState, Parameters } from "../wire/generated";
 import { FrameKind } from "../wire/generated";
@@ -97,6 +98,9 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
       page.widths.all.value = widths;
     },
     design: ({ design }) => page.design.receive(design),
+    dyes: ({ dyes, blocks }) => {
+      page.design.dyed.value = { dyes, blocks };
+    },
     branches: (placed) => {
       page.design.placed.value = placed;
     },
@@ -223,6 +227,7 @@ function forget(page: SessionTargets, { isReplay, isSame }: Opening): void {
   page.widths.all.value = [];
   page.design.receive(null);
   page.design.limb.value = null;
+  page.design.dyed.value = UNDYED;
   page.grammar.receive(null);
   page.obstacles.forget();
   page.time.clear();

@@ -59,6 +59,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
       viewport.setLeafSize(parameters.leaf_size);
     }
   });
+  const stopDyes = effect(() => viewport.setDyes(studio.design.dyed.value));
   const stopLooks = effect(() => studio.stage.setAppearance(studio.appearance.value));
   // The wind is loaded when it first blows, whoever has set it.
   const stopWaiting = effect(() => {
@@ -83,6 +84,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
     stopScene();
     stopFollowing();
     stopLeaves();
+    stopDyes();
     stopLooks();
     stopWaiting();
     stopThorough();

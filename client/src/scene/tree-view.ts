@@ -14,6 +14,7 @@ import type { Fineness } from "./rendering/fineness";
 import { NodeTexture } from "./table/node-texture";
 import { PlaceEase } from "./table/place-ease";
 import { RadiusEase } from "./table/radius-ease";
+import { type Dyed, RowDyes } from "./table/row-dyes";
 import { Dirty, type TreeTable } from "./table/tree-table";
 import { Bark } from "./wood/bark";
 import { Branches } from "./wood/branches";
@@ -33,6 +34,7 @@ export class TreeView {
   private readonly nodes = new NodeTexture();
   private readonly radii = new RadiusEase();
   private readonly places = new PlaceEase();
+  private readonly dyes = new RowDyes();
   private readonly traits: TraitTexture;
   private readonly branches: Branches;
   private readonly foliage: Foliage;
@@ -50,6 +52,7 @@ export class TreeView {
   ) {
     uniforms.uNodes = this.nodes.uniform;
     uniforms.uOverlays = this.overlays.uniform;
+    uniforms.uDyes = this.dyes.uniform;
     this.traits = new TraitTexture(uniforms);
     const bark = new Bark(uniforms, painter);
     this.branches = new Branches(materials, { bark });
@@ -131,6 +134,11 @@ export class TreeView {
     this.overlaysChanged = true;
   }
 
+  /** The colours that branches have of their own. */
+  setDyes(dyed: Dyed): void {
+    this.dyes.tell(dyed);
+  }
+
   /** What bark, leaves, flowers and fruits look like. */
   setAppearance({ bark, leaves, flowers, fruits }: Appearance): void {
     this.branches.setBark(bark);
@@ -158,6 +166,7 @@ export class TreeView {
     const { table, tableChanged } = this;
     this.branches.lookFrom(fineness);
     if (tableChanged) this.syncTable();
+    this.dyes.assign(table, (row, dye) => this.nodes.setDye(table, row, dye), tableChanged);
     this.traits.upload(table);
     if (tableChanged || this.overlaysChanged) this.syncOverlays(tableChanged);
     this.places.step(table.now(), table.rows, (row, from, at, left) => this.nodes.glide(table, row, from, at, left));

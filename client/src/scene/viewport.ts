@@ -20,6 +20,7 @@ import { RenderPause } from "./rendering/render-pause";
 import { Screen } from "./rendering/screen";
 import type { Sketch } from "./rendering/sketch";
 import type { Sitting } from "./rendering/still-pictures";
+import type { Dyed } from "./table/row-dyes";
 import type { TreeTable } from "./table/tree-table";
 import type { Ray, Vec3 } from "./vector";
 import { World } from "./world";
@@ -155,6 +156,12 @@ export class Viewport {
   /** How the tree and its surroundings look. */
   setAppearance(appearance: Appearance): void {
     this.world.setAppearance(appearance);
+    this.stir();
+  }
+
+  /** The colours that branches have of their own. */
+  setDyes(dyed: Dyed): void {
+    this.world.tree.setDyes(dyed);
     this.stir();
   }
 

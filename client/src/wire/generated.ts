@@ -2018,6 +2018,27 @@ row: number,
  */
 overlap?: number, };
 
+export type DyeColours = { 
+/**
+ * Of bark.
+ */
+bark: [number, number, number], 
+/**
+ * Of leaves.
+ */
+leaves: [number, number, number], };
+
+export type DyedBlock = { 
+/**
+ * The first row.
+ */
+first: number, 
+/**
+ * How many rows from there on have which dye, one run after another: the place of the dye counted from 1, or 0 for
+ * none.
+ */
+runs: Array<[number, number]>, };
+
 export type PutDesign = { 
 /**
  * The graph, as in files of designs.
@@ -2657,7 +2678,15 @@ widths: Array<WidthConstraint>, } | { "type": "design",
 /**
  * The design; none where there is none any more.
  */
-design: DesignInForce | null, } | { "type": "branches", 
+design: DesignInForce | null, } | { "type": "dyes", 
+/**
+ * At most 15 different ones; none where every branch has the colours of the tree.
+ */
+dyes: Array<DyeColours>, 
+/**
+ * Which rows have which, in ascending order. Rows in none of the blocks have the dye of the row that bears them.
+ */
+blocks: Array<DyedBlock>, } | { "type": "branches", 
 /**
  * The branch that was asked for.
  */

@@ -142,6 +142,7 @@ impl Document {
             obstacles: Arc::clone(&obstacles.standing),
             appearance: Arc::clone(&appearance),
             design: None,
+            let_go: Arc::default(),
         };
         Self {
             simulation: Simulation::new(seed, parameters)
@@ -352,6 +353,7 @@ impl Document {
         if let Some(design) = self.design_in_force() {
             design.hash(&mut hash);
         }
+        self.history.setting().let_go.iter().for_each(|design| design.hash(&mut hash));
         self.simulation.generator().state().written.hash(&mut hash);
         hash.word(u64::from(self.steps_begun));
         hash.finish()

@@ -21,6 +21,7 @@ use std::{
     sync::Arc,
 };
 
+use espalier_mesh::Dyes;
 use espalier_proto::{
     ClientMessage, DesignInForce, FrameKind, GrammarInForce, Notice, PlacedObstacle, Problem, Programme,
     Reason, ServerMessage, Timeline, Unreadable, WidthConstraint,
@@ -87,6 +88,7 @@ pub struct Session {
     whole_due: u64,
     widths: Vec<WidthConstraint>,
     design: Option<DesignInForce>,
+    dyes: Dyes,
     design_mark: DesignMark,
     grammar: Option<GrammarInForce>,
     grammar_mark: GrammarMark,
@@ -219,6 +221,7 @@ impl Session {
             timeline,
             widths: work.document.widths(),
             design: work.document.design_told(),
+            dyes: work.document.dyes(),
             design_mark: work.document.design_mark(),
             grammar: work.document.grammar_told(),
             grammar_mark: work.document.grammar_mark(),

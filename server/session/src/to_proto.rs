@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use espalier_mesh::{Changes, RingTable, StyleOptions, radius_code, ring_table};
+use espalier_mesh::{Changes, Dyes, RingTable, StyleOptions, radius_code, ring_table};
 use espalier_plant::organs::MOST_ORGANS;
 use espalier_proto::{
-    ChunkChange, DocumentState, Frame, Pause, Resume, Rows, Values,
+    ChunkChange, DocumentState, DyeColours, DyedBlock, Frame, Pause, Resume, Rows, ServerMessage, Values,
     frame::{self, CHUNK_ROWS},
 };
 use espalier_settings::ParameterValues;
@@ -38,6 +38,24 @@ pub(crate) enum Held {
     },
     /// What a returning client says (`RS1`).
     Chunks(Resume),
+}
+
+/// The colours of branches as a message.
+pub fn dyes(dyes: &Dyes) -> ServerMessage {
+    let all = dyes.all().iter();
+    let all =
+        all.map(|dye| DyeColours { bark: dye.bark.to_array(), leaves: dye.leaves.to_array() }).collect();
+    let mut blocks: Vec<DyedBlock> = Vec::new();
+    let mut end = None;
+    for run in dyes.runs() {
+        let entry = [run.count, run.dye.into()];
+        match blocks.last_mut().filter(|_| end == Some(run.first)) {
+            Some(block) => block.runs.push(entry),
+            None => blocks.push(DyedBlock { first: run.first, runs: vec![entry] }),
+        }
+        end = Some(run.first + run.count);
+    }
+    ServerMessage::Dyes { dyes: all, blocks }
 }
 
 /// What everybody in step is sent: from the table as it was to `table`, by `changes`.

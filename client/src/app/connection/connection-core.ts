@@ -448,6 +448,7 @@ export class ConnectionCore {
       { type: "programme", programme: null, by_hand: [] },
       { type: "obstacles", obstacles: [] },
       { type: "widths", widths: [] },
+      { type: "dyes", dyes: [], blocks: [] },
     ];
     this.#effects.push(...messages.map((message) => ({ kind: "message", message }) as const));
     for (const { id, command } of this.#outbox.pending) {

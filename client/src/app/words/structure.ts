@@ -173,10 +173,6 @@ export const STRUCTURE = {
   "structure.curve.straight": ["Straight", "Gerade"],
   "structure.material.bark": ["Bark", "Rinde"],
   "structure.material.leaves": ["Colour of leaves", "Blattfarbe"],
-  "structure.material.note": [
-    "Kept in the design and its file; the picture shows the colours that the tree has as a whole.",
-    "Steht im Entwurf und seiner Datei; das Bild zeigt die Farben, die der Baum als Ganzes hat.",
-  ],
   "structure.dye.none": ["As the tree", "Wie der Baum"],
   "structure.dye.light": ["Lighter", "Heller"],
   "structure.dye.dark": ["Darker", "Dunkler"],
@@ -318,8 +314,8 @@ export const STRUCTURE = {
   ],
   "structure.key.material": ["Colours", "Farben"],
   "structure.key.material.help": [
-    "Colours of bark and leaves, in the design; the tree shows those of its looks.",
-    "Farben von Rinde und Blättern, im Entwurf; der Baum zeigt die seines Aussehens.",
+    "Colours of bark and leaves of this branch and of what it bears. Where the looks of the tree change, these change with them.",
+    "Farben von Rinde und Blättern dieses Asts und dessen, was er trägt. Ändert sich das Aussehen des Baums, ändern sie sich mit.",
   ],
   "structure.key.shown": ["Is there", "Vorhanden"],
   "structure.key.shown.help": ["1, or 0 where the branch was cut away.", "1, oder 0, wo der Ast weggeschnitten ist."],

@@ -124,6 +124,7 @@ out vec4 vBark; // turn, length along the limb, radius, how far towards the midd
 out vec4 vBearing; // the same of the limb that bears this one, and how much of its bark shows
 out float vLight; // below 0 for what is marked
 out float vTrait;
+out vec3 vDye;
 ${FOOT}${JUNCTION}
 float slopeOf(uint code) { return (float(code & 255u) - ${NO_SLOPE.toFixed(1)}) / ${SLOPE_STEPS.toFixed(1)}; }
 /** How thick the wood is at a node: a tip is slim until its axis goes on, unless it has been cut. */
@@ -206,6 +207,8 @@ void main() {
   if (u == 0.0 && (metamer.w & OVERLAPS) != 0u) centre -= tangent * 0.12 * r0;
   vLight = end.look == MARKED ? -1.0 : mix(start.light, end.light, u);
   vTrait = traitOf(int(metamer.x));
+  // A limb begins in the colour of what bears it.
+  vDye = mix(uDyes[start.dye], uDyes[end.dye], u);
   vTangent = tangent;
   vBearing = vec4(0.0, 0.0, 1.0, 0.0);
   vec3 world;
@@ -327,6 +330,7 @@ in vec4 vBark;
 in vec4 vBearing;
 in float vLight;
 in float vTrait;
+in vec3 vDye;
 out vec4 colour;
 uniform int uGround;
 /** Moss of grass, soil, sand and snow, and how much of it; nothing comes from bare paper. */
@@ -347,12 +351,14 @@ void main() {
   float across = clamp(vBark.x, -1.0, 1.0);
   vec3 smoothed = uShown.y > 0.5 ? normalize(vNormal * across + front * sqrt(1.0 - across * across)) : front;
   Bark bark = distantBark(vBark.z);
+  bark.albedo *= vDye;
   vec3 normal = smoothed;
 #else
   bool rounded = uShown.y > 0.5;
   vec3 smoothed = rounded ? normalize(vNormal) : facet(vWorld, sight);
   Bark bark = plainBark(vBark);
   if (uShown.z > 0.5) bark = barkAt(vBark, vBearing);
+  if (vBark.w < 0.0) bark.albedo *= vDye;
   vec3 crosswise = cross(smoothed, lengthwise);
   crosswise /= max(length(crosswise), 1e-3);
   vec3 normal = rounded ? normalize(smoothed - crosswise * bark.slope.x - cross(crosswise, smoothed) * bark.slope.y) : smoothed;

@@ -1,5 +1,6 @@
 import { FLAT_NOISE_SIDE, NOISE_SIDE } from "../noise-texture";
 import { EASE_SECONDS } from "../table/radius-ease";
+import { DYES } from "../table/row-dyes";
 
 /** Start of every shader: precision, and the uniforms that all of them share. */
 export const HEAD = /* glsl */ `
@@ -15,10 +16,11 @@ uniform vec4 uView; // eye of the camera, also while the sun draws; pixels of an
 uniform float uTime;
 `;
 
-/** Reads the node table and the overlay slots of its rows; see \`node-texture.ts\` and \`overlays.ts\` for the layout. */
+/** Reads the node table, the overlay slots of its rows, and their dyes; see \`node-texture.ts\` and \`overlays.ts\` for the layout. */
 export const NODES = /* glsl */ `
 uniform sampler2D uNodes;
 uniform sampler2D uOverlays;
+uniform vec3 uDyes[${2 * DYES}]; // factors of colours: of bark, and from ${DYES} on of leaves
 const float TIP_SECONDS = 0.3;
 struct Node {
   vec3 position;
@@ -30,6 +32,7 @@ struct Node {
   float extended;
   float arc;
   float look;
+  int dye;
 };
 const float MARKED = 1.0;
 const float HIDDEN = 2.0;
@@ -58,9 +61,10 @@ Node nodeAt(int row) {
   vec4 a = texelFetch(uNodes, at, 0);
   vec4 b = texelFetch(uNodes, at + ivec2(1, 0), 0);
   vec4 c = texelFetch(uNodes, at + ivec2(2, 0), 0);
-  float slot = floor(abs(b.w));
-  float light = (abs(b.w) - slot) * (256.0 / 255.0);
-  Node node = Node(a.xyz, a.w, whole(b.xyz), light, c.x, c.y, c.z, c.w, 0.0);
+  float packed_ = floor(abs(b.w));
+  float light = (abs(b.w) - packed_) * (256.0 / 255.0);
+  float slot = floor(packed_ / ${DYES}.0);
+  Node node = Node(a.xyz, a.w, whole(b.xyz), light, c.x, c.y, c.z, c.w, 0.0, int(packed_ - ${DYES}.0 * slot));
   if (slot > 0.0) applyOverlay(node, int(slot), b.w < 0.0);
   if (node.growing < 0.0) {
     // It has grown long ago, and its radius glides to what it is.

@@ -1,5 +1,6 @@
 import { BLADE_STEP } from "../foliage/leaf-cards";
 import { SPRIG_LEAVES, SPRIG_REACH, TILE_MARGIN } from "../painting/measures";
+import { DYES } from "../table/row-dyes";
 import { COVER, HEAD, LIGHT, NODES } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
 import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";
@@ -329,8 +330,9 @@ void main() {
   own_ = mix(own_, vec3(0.5), 0.5 * vTwig);
 #endif
   Hues hues = leafHues(vigor, node.light, mix(own_, ownNumbers(own.shoot).xyz, 0.6));
-  vMiddle = hues.middle;
-  vMargin = hues.margin;
+  vec3 dye = uDyes[${DYES} + node.dye];
+  vMiddle = hues.middle * dye;
+  vMargin = hues.margin * dye;
   // The outer half of a leaf sees more of the sky than where it is hidden by its twig.
   vLight = vec2(node.look == MARKED ? -1.0 : node.light, 0.72 + 0.28 * card.y);
 #ifdef SPRIG

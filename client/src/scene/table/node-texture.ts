@@ -3,10 +3,11 @@ import { CHUNK_ROWS } from "../../wire/generated";
 import { grown } from "./column";
 import type { PlaceEase } from "./place-ease";
 import { EASE_SECONDS, eased } from "./radius-ease";
+import { DYES } from "./row-dyes";
 import type { TreeTable } from "./tree-table";
 
 /**
- * Texels each row has: position and radius; orientation, and light with the slot; birth, duration, extension and arc. A
+ * Texels each row has: position and radius; orientation, and light with slot and dye; birth, duration, extension and arc. A
  * duration below 0 says that its radius glides: from minus this, since the birth beside it.
  */
 const TEXELS = 3;
@@ -14,7 +15,7 @@ const LINE = CHUNK_ROWS * TEXELS * 4;
 const NEVER = 1e9;
 /** How long a tip goes on growing after its metamer is as long as it will be, in seconds. */
 const AFTERGROWTH = 0.3;
-/** Light is a share of this below one, so that it leaves the whole numbers to the slot. */
+/** Light is a share of this below one, so that it leaves the whole numbers to slot and dye. */
 const LIGHT_STEPS = 256;
 
 /** The node table on the GPU: one line of the texture is one chunk, so that a delta uploads only its chunks. */
@@ -24,6 +25,8 @@ export class NodeTexture {
   private texels = new Float32Array(4 * LINE);
   /** The overlay slot of each row, see `overlays.ts`. */
   private slots = new Int16Array(0);
+  /** The dye of each row, see `row-dyes.ts`. */
+  private dyes = new Uint8Array(0);
   private readonly stale = new Set<number>();
   /** Whether the graphics card has yet to get all of it: parts of a new texture would leave the others empty. */
   private whole = true;
@@ -36,6 +39,7 @@ export class NodeTexture {
   reserve(rows: number): void {
     const lines = Math.ceil(rows / CHUNK_ROWS);
     this.slots = grown(this.slots, lines * CHUNK_ROWS);
+    this.dyes = grown(this.dyes, lines * CHUNK_ROWS);
     let height = this.texels.length / LINE;
     if (lines <= height) return;
     while (height < lines) height *= 2;
@@ -71,7 +75,7 @@ export class NodeTexture {
     texels[at + 4] = table.orientations[4 * row]!;
     texels[at + 5] = table.orientations[4 * row + 1]!;
     texels[at + 6] = table.orientations[4 * row + 2]!;
-    texels[at + 7] = packed(this.slots[row]!, table.light[row]!);
+    texels[at + 7] = this.packed(table, row);
     texels[at + 8] = table.birth[row]!;
     texels[at + 9] = table.growing[row]!;
     texels[at + 10] = onward < 0 ? NEVER : table.birth[onward]!;
@@ -130,7 +134,14 @@ export class NodeTexture {
   /** Gives a row another overlay slot: 0 for none, below 0 for one of its own. */
   setSlot(table: TreeTable, row: number, slot: number): void {
     this.slots[row] = slot;
-    this.texels[4 * TEXELS * row + 7] = packed(slot, table.light[row]!);
+    this.texels[4 * TEXELS * row + 7] = this.packed(table, row);
+    this.stale.add(Math.floor(row / CHUNK_ROWS));
+  }
+
+  /** Gives a row another dye. */
+  setDye(table: TreeTable, row: number, dye: number): void {
+    this.dyes[row] = dye;
+    this.texels[4 * TEXELS * row + 7] = this.packed(table, row);
     this.stale.add(Math.floor(row / CHUNK_ROWS));
   }
 
@@ -149,6 +160,13 @@ export class NodeTexture {
     this.uniform.value.dispose();
   }
 
+  /** Slot, dye and light in one number, of whose 24 bits they take 12, 4 and 8; the shaders separate them. */
+  private packed(table: TreeTable, row: number): number {
+    const slot = this.slots[row]!;
+    const value = Math.abs(slot) * DYES + this.dyes[row]! + table.light[row]! / LIGHT_STEPS;
+    return slot < 0 ? -value : value;
+  }
+
   private allocate(): DataTexture {
     const texture = new DataTexture(this.texels, CHUNK_ROWS * TEXELS, this.texels.length / LINE, RGBAFormat, FloatType);
     texture.minFilter = NearestFilter;
@@ -160,10 +178,4 @@ export class NodeTexture {
     texture.needsUpdate = true;
     return texture;
   }
-}
-
-/** Slot and light in one number; the shaders separate them. */
-function packed(slot: number, light: number): number {
-  const value = Math.abs(slot) + light / LIGHT_STEPS;
-  return slot < 0 ? -value : value;
 }

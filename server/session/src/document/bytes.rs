@@ -146,6 +146,9 @@ impl Document {
         if designs::are_there(&self.history, futures) {
             add(&sections::DESIGNS, &|out| designs::write(out, &self.history, futures));
         }
+        if designs::are_let_go(&self.history, futures) {
+            add(&sections::LET_GO, &|out| designs::write_let_go(out, &self.history, futures));
+        }
         if *futures != Futures::default() {
             add(&sections::FUTURES, &|out| times::write_futures(out, futures, &pool, names));
         }
@@ -201,6 +204,7 @@ impl Document {
         };
         programmes.tell_states(&mut history, &mut futures)?;
         designs::read(container, &mut history, &mut futures)?;
+        designs::read_let_go(container, &mut history, &mut futures)?;
         grammars::read(container, &mut history, &mut futures)?;
         #[cfg(test)]
         super::tests::forks::read(container, &mut history, &mut futures)?;

@@ -4,6 +4,7 @@
 //! futures put it back. Its wood was born in one step of its own. As long as that is the last step of the line, the
 //! step is made anew whenever the design changes; what is recorded after it seals it.
 
+mod dyeing;
 pub(super) mod fitting;
 mod hands;
 mod placed;
@@ -20,7 +21,10 @@ use espalier_proto::{BranchPath, DesignEdit, DesignInForce, DesignValue, Positio
 use espalier_reading::Unread;
 use glam::Vec3;
 
-pub(super) use self::placed::{rotation, rounded, vector};
+pub(super) use self::{
+    dyeing::{MOST_LET_GO, fold_let_go},
+    placed::{rotation, rounded, vector},
+};
 use super::{
     Document,
     branches::said,
@@ -77,6 +81,8 @@ pub(super) struct Designs {
     aside: Option<Future>,
     /// The design that was fitted last, and how much of the silhouette of what grew it has.
     fitted: Option<(Arc<Designed>, f32)>,
+    /// Colours of wood whose designs were let go.
+    let_go: dyeing::LetGo,
 }
 
 impl Document {
@@ -118,7 +124,8 @@ impl Document {
     /// Whether another design is in force than this one, or more stands on it; costs little.
     pub(crate) fn design_mark(&self) -> DesignMark {
         let steps = |design: &Arc<Designed>| self.plant().step().saturating_sub(design.step);
-        DesignMark(self.design_in_force().map(|design| (Arc::clone(design), steps(design))))
+        let design = self.design_in_force().map(|design| (Arc::clone(design), steps(design)));
+        DesignMark { design, let_go: Arc::clone(&self.history.setting().let_go) }
     }
 
     pub(super) fn begin_design(
@@ -170,7 +177,8 @@ impl Document {
             generated: Arc::new(generated),
             first,
         });
-        self.history.settle(Setting { design: Some(Arc::clone(&of)), ..self.setting() });
+        let let_go = self.with_present_let_go();
+        self.history.settle(Setting { design: Some(Arc::clone(&of)), let_go, ..self.setting() });
         self.reach();
         self.release_lost_bends();
         Ok(of)
@@ -204,7 +212,8 @@ impl Document {
             return Err(no_design());
         }
         self.record(Kind::Design, cause);
-        self.history.settle(Setting { design: None, ..self.setting() });
+        let let_go = self.with_present_let_go();
+        self.history.settle(Setting { design: None, let_go, ..self.setting() });
         self.note_state();
         Ok(())
     }
@@ -421,6 +430,9 @@ fn sealed(step: u32, steps: u32) -> Problem {
     Problem::new(Reason::DesignSealed, message).at("kind", allowed)
 }
 
-/// A design at one time, to be compared.
+/// Designs at one time, to be compared.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct DesignMark(Option<(Arc<Designed>, u32)>);
+pub(crate) struct DesignMark {
+    design: Option<(Arc<Designed>, u32)>,
+    let_go: Arc<[Arc<Designed>]>,
+}

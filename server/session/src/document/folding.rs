@@ -9,7 +9,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::{
-    designing::fold_design,
+    designing::{fold_design, fold_let_go},
     history::{History, Setting},
     obstacles::Standings,
 };
@@ -29,6 +29,7 @@ impl History {
                     obstacles: fold_obstacles(folded.obstacles, &before.obstacles, &after.obstacles),
                     appearance: fold_looks(folded.appearance, &before.appearance, &after.appearance),
                     design: fold_design(folded.design, before.design.as_ref(), after.design.as_ref()),
+                    let_go: fold_let_go(folded.let_go, &before.let_go, &after.let_go),
                 };
             }
             before = after;
@@ -44,6 +45,9 @@ impl History {
         }
         if folded.design == present.design {
             folded.design.clone_from(&present.design);
+        }
+        if folded.let_go == present.let_go {
+            folded.let_go = Arc::clone(&present.let_go);
         }
         Ok(folded)
     }

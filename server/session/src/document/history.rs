@@ -110,6 +110,8 @@ pub(super) struct Setting {
     pub obstacles: Standings,
     pub appearance: Arc<Appearance>,
     pub design: Option<Arc<Designed>>,
+    /// Designs that were let go, and whose wood keeps the colours that they say.
+    pub let_go: Arc<[Arc<Designed>]>,
 }
 
 /// One operation.
@@ -343,12 +345,13 @@ impl History {
     /// Whether the last operation has left the setting as it was before.
     pub fn changes_nothing(&self) -> bool {
         let Some(last) = self.operations.last() else { return false };
-        let Setting { schedule, obstacles, appearance, design } = &last.after;
+        let Setting { schedule, obstacles, appearance, design, let_go } = &last.after;
         let former = self.former();
         Arc::ptr_eq(obstacles, &former.obstacles)
             && *schedule == former.schedule
             && *appearance == former.appearance
             && *design == former.design
+            && *let_go == former.let_go
     }
 
     /// Obstacles that stand as they did before the operation in progress are the very same again.

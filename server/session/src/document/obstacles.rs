@@ -175,6 +175,7 @@ impl Document {
             obstacles: Arc::clone(&self.obstacles.standing),
             appearance: Arc::clone(&self.appearance),
             design: self.history.setting().design.clone(),
+            let_go: Arc::clone(&self.history.setting().let_go),
         }
     }
 

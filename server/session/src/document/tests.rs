@@ -4,6 +4,7 @@ mod arranging;
 mod damage;
 mod deeds;
 mod designing;
+mod dyeing;
 pub(super) mod forks;
 mod generating;
 mod grammars;

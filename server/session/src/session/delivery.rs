@@ -101,6 +101,9 @@ impl Session {
             self.design_mark = mark;
             self.design = work.document.design_told();
             self.upkeep.design_changed = true;
+            let dyes = work.document.dyes();
+            self.upkeep.dyes_changed |= dyes != self.dyes;
+            self.dyes = dyes;
             self.branches_changed();
         }
         let mark = work.document.grammar_mark();
@@ -187,6 +190,11 @@ impl Session {
     /// The design in force as it is sent to clients (`DS4`).
     pub(super) fn design_message(&self) -> ServerMessage {
         ServerMessage::Design { design: self.design.clone().map(Box::new) }
+    }
+
+    /// The colours of branches as they are sent to clients (`DS14`).
+    pub(super) fn dyes_message(&self) -> ServerMessage {
+        to_proto::dyes(&self.dyes)
     }
 
     /// The grammar in force as it is sent to clients (`GR5`).

@@ -128,6 +128,9 @@ impl Session {
         if self.design.is_some() {
             self.send(client, &self.design_message());
         }
+        if !self.dyes.are_none() {
+            self.send(client, &self.dyes_message());
+        }
         if self.grammar.is_some() {
             self.send(client, &self.grammar_message());
         }

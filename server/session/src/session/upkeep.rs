@@ -54,6 +54,8 @@ pub(super) struct Upkeep {
     widths_due: u64,
     /// Whether the design does.
     pub(super) design_changed: bool,
+    /// Whether colours of branches do, which are told with it.
+    pub(super) dyes_changed: bool,
     design_due: u64,
     /// Whether the grammar does.
     pub(super) grammar_changed: bool,
@@ -87,6 +89,7 @@ impl Upkeep {
             widths_changed: false,
             widths_due: 0,
             design_changed: false,
+            dyes_changed: false,
             design_due: 0,
             grammar_changed: false,
             grammar_due: 0,
@@ -237,6 +240,9 @@ impl Session {
             self.upkeep.design_changed = false;
             self.upkeep.design_due = self.now + STATE_MS;
             self.broadcast(&self.design_message());
+            if std::mem::take(&mut self.upkeep.dyes_changed) {
+                self.broadcast(&self.dyes_message());
+            }
         }
         if !self.upkeep.design_changed {
             self.tell_branches();

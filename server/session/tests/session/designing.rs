@@ -1,6 +1,6 @@
 //! `DS`: what clients are told of designs.
 
-use espalier_proto::{DesignInForce, LimbOutline, PlacedBranch, Reason, ServerMessage};
+use espalier_proto::{DesignInForce, DyedBlock, LimbOutline, PlacedBranch, Reason, ServerMessage};
 use serde_json::{Value, json};
 
 use crate::world::{Peer, World, grow};
@@ -255,4 +255,42 @@ fn ds13_who_looks_at_a_limb_is_told_it_once_and_alone() {
     assert_eq!(world.replayed_hash(), hash, "the journal alone gives the same document");
     world.crash();
     assert_eq!(world.document().hash(), hash, "snapshot and journal give the same document");
+}
+
+/// The colours of branches that were told last: how many, and of how many rows.
+fn dyed(peer: &Peer) -> Option<(usize, u32)> {
+    peer.texts.iter().rev().find_map(|text| match text {
+        ServerMessage::Dyes { dyes, blocks } => {
+            let of_block =
+                |block: &DyedBlock| block.runs.iter().map(|[count, dye]| count * dye.min(&1)).sum::<u32>();
+            Some((dyes.len(), blocks.iter().map(of_block).sum()))
+        }
+        _ => None,
+    })
+}
+
+#[test]
+fn ds14_all_are_told_the_colours_of_branches() {
+    let mut world = World::new();
+    let (ann, bob) = (world.join("birch-01"), world.join("maple-01"));
+    world.command(ann, 1, begin());
+    world.settle();
+    assert_eq!(dyed(world.peer(bob)), None, "all are as the tree");
+    let value = json!({ "own": { "bark": [1, 0.5, 0.5], "leaves": [2, 1, 0.5] } });
+    let edit = json!({ "edit": "set", "of": "/1", "key": "material", "value": value });
+    world.command(ann, 2, json!({ "kind": "edit_design", "edits": [edit] }));
+    world.settle();
+    let first = dyed(world.peer(bob)).expect("they are told");
+    assert!(first.0 == 1 && first.1 > 2, "{first:?}");
+    // Who comes later is told as well, also after a restart.
+    let cy = world.join("rowan-01");
+    world.settle();
+    assert_eq!(dyed(world.peer(cy)), Some(first));
+    world.crash();
+    let ann = world.join("birch-01");
+    world.settle();
+    assert_eq!(dyed(world.peer(ann)), Some(first));
+    world.command(ann, 3, json!({ "kind": "undo" }));
+    world.settle();
+    assert_eq!(dyed(world.peer(ann)), Some((0, 0)));
 }

@@ -1,4 +1,5 @@
 import { signal } from "@preact/signals";
+import { type Dyed, UNDYED } from "../../../scene/table/row-dyes";
 import type { DesignInForce, LimbOutline, PlacedBranch } from "../../../wire/generated";
 import type { Gesture } from "../../input/gesture";
 
@@ -21,6 +22,8 @@ export class DesignSignal {
   readonly inForce = signal<DesignInForce | null>(null);
   readonly placed = signal<PlacedAround>({ of: "", branches: [] });
   readonly limb = signal<ToldLimb | null>(null);
+  /** The colours that branches have of their own (`DS14`). */
+  readonly dyed = signal<Dyed>(UNDYED);
   /** What takes gestures on the canvas while a design is shaped by hand, and gives what is left of them. */
   hands: ((gesture: Gesture) => Gesture | null) | null = null;
 

@@ -75,6 +75,8 @@ pub(super) const OBSTACLES: u64 =
     FEW + obstacles::MAX_HELD_TRIANGLES as u64 * TRIANGLE + MAX_SETS as u64 * OBSTACLES_OF_SET;
 pub(super) const HISTORY: u64 = FEW + OPERATIONS * OPERATION;
 pub(super) const DESIGNS: u64 = FEW + 2 * designing::MAX_HELD_BYTES as u64 + OPERATIONS * 8;
+/// Which of them are in which set, and which set each operation has.
+pub(super) const LET_GO: u64 = DESIGNS + OPERATIONS * (4 + 4 * designing::MOST_LET_GO as u64);
 /// Beside rows as of the plant a future has lateral axes, branching orders, and what dies in it.
 pub(super) const FUTURES: u64 = HISTORY
     + TIME

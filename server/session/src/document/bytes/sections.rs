@@ -93,6 +93,8 @@ pub(super) const OBSTACLES: Kind = first(*b"OBST", "obstacles", lengths::OBSTACL
 pub(super) const HISTORY: Kind = Kind { version: 3, ..first(*b"HIST", "history", lengths::HISTORY) };
 /// Designs, and which operation leaves which in force; none if it is not there.
 pub(super) const DESIGNS: Kind = first(*b"DSGN", "designs", lengths::DESIGNS);
+/// Designs that were let go, of which wood keeps colours, and after which operations; none if it is not there.
+pub(super) const LET_GO: Kind = first(*b"LETG", "designs let go", lengths::LET_GO);
 /// All other lines; none if it is not there.
 pub(super) const FUTURES: Kind = Kind { version: 3, ..first(*b"FUTU", "futures", lengths::FUTURES) };
 /// Strokes and bends in progress; none if it is not there.
@@ -121,6 +123,7 @@ pub(super) const RELEASED: &[&Kind] = &[
     &OBSTACLES,
     &HISTORY,
     &DESIGNS,
+    &LET_GO,
     &FUTURES,
     &GESTURES,
     &WRITER,

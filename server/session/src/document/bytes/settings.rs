@@ -116,6 +116,7 @@ impl Pool {
             appearance: self.look(reader.u32()?)?,
             // Designs stand in a section of their own.
             design: None,
+            let_go: Arc::default(),
         })
     }
 

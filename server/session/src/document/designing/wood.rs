@@ -132,7 +132,7 @@ fn last_of(operations: &[Operation], step: u32) -> Option<Arc<Designed>> {
 }
 
 /// A design whose wood the plants have, with all that its wood is made by.
-fn made(of: &Arc<Designed>, plant: &Plant) -> Option<Shown> {
+pub(super) fn made(of: &Arc<Designed>, plant: &Plant) -> Option<Shown> {
     let design = of.read().ok()?;
     let mut generator = Generator::default();
     let generated = generator.generate(&design, MAX_INTERNODES);

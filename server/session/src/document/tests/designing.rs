@@ -32,12 +32,12 @@ pub(super) fn begin(x: f32) -> Command {
     new_design(Some(Vec3::X * x), Some(small()))
 }
 
-fn edits(gesture: Option<u32>, edits: &[Value]) -> Command {
+pub(super) fn edits(gesture: Option<u32>, edits: &[Value]) -> Command {
     let edits = edits.iter().map(|edit| serde_json::from_value(edit.clone()).expect("in good form"));
     in_gesture(gesture, Action::EditDesign { edits: list(edits.collect::<Vec<DesignEdit>>()) })
 }
 
-fn set(of: &str, key: &str, value: &Value) -> Value {
+pub(super) fn set(of: &str, key: &str, value: &Value) -> Value {
     json!({ "edit": "set", "of": of, "key": key, "value": { "own": value } })
 }
 
@@ -51,19 +51,20 @@ pub(super) fn say(what: u32, value: f32, gesture: Option<u32>) -> Command {
         2 => set("/0/0", "roll", &json!(90.0 * value)),
         3 => set("/", "height", &json!(10.0 + 8.0 * value)),
         4 => json!({ "edit": "clear", "of": "/1", "key": "reach" }),
+        5 => set("/1", "material", &json!({ "bark": [value, 1, 1], "leaves": [1, value, 1] })),
         _ => json!({ "edit": "set", "of": "level 1", "key": "girth", "value": { "multiply": 0.5 + value } }),
     };
     edits(gesture, &[edit])
 }
 
 /// A document with a small design and nothing else but the seed.
-fn designed() -> Document {
+pub(super) fn designed() -> Document {
     let mut document = Document::new(5);
     apply(&mut document, &begin(8.0));
     document
 }
 
-fn in_force(document: &Document) -> Design {
+pub(super) fn in_force(document: &Document) -> Design {
     document.design_in_force().expect("there is one").read().expect("it was written")
 }
 

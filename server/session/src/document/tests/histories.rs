@@ -112,7 +112,7 @@ pub(super) fn events() -> impl Strategy<Value = Vec<Event>> {
         4 => (0u32..4, any::<bool>(), gesture()).prop_map(|(which, keep, g)| Event::Programme(which, keep, g)),
         1 => gesture().prop_map(Event::Follow),
         2 => (-9f32..9.0).prop_map(Event::Design),
-        8 => (0u32..6, 0f32..1.0, gesture()).prop_map(|(what, value, g)| Event::Say(what, value, g)),
+        8 => (0u32..7, 0f32..1.0, gesture()).prop_map(|(what, value, g)| Event::Say(what, value, g)),
         1 => Just(Event::Release),
     ];
     prop::collection::vec(event, 1..40)

@@ -60,7 +60,6 @@ export function MaterialEditor({ label, help, value, inherited, base, onDrag, on
       </div>
       {field("bark")}
       {field("leaves")}
-      <p class="structure-legend">{say("structure.material.note")}</p>
     </div>
   );
 }
