@@ -10,12 +10,12 @@ import { ROOTS } from "./roots";
 /** Where a trunk meets the ground. */
 const FOOT = /* glsl */ `${ROOTS}
 /** How much wider than its wood a trunk is, as it spreads into its roots; how that changes with the turn, and with the height. */
-vec3 rootFlare(uint seed, float turn, float along, float foot) {
+vec3 rootFlare(uint tree, float turn, float along, float foot) {
   float height = max(along, 0.0) / (foot + 0.05);
   float fades = 0.22 * exp(-0.7 * height);
   vec3 flare = vec3(fades, 0.0, -0.7 * fades);
-  for (int i = 0; i < rootsOf(seed) && height < 6.0; i++) {
-    Root root = rootOf(seed, i);
+  for (int i = 0; i < rootsOf(tree) && height < 6.0; i++) {
+    Root root = rootOf(tree, i);
     float off = turn - root.turn;
     // The nearer to the ground, the faster it spreads, and the narrower it is.
     float pinch = 2.6 * exp(-2.0 * height);
@@ -141,7 +141,9 @@ void main() {
   // Row, parent's row, row where the limb begins, flags with the slopes of its girth below and above.
   uvec4 metamer = texelFetch(uItems, itemPlace(number), 0);
   Node end = nodeAt(int(metamer.x));
-  bool none = (metamer.w & ROOT) != 0u && int(metamer.w >> 24u) >= rootsOf(metamer.z);
+  Node bearing = nodeAt(int(metamer.z));
+  uint own = uint(bearing.arc); // where that is a seed, the number of its tree
+  bool none = (metamer.w & ROOT) != 0u && int(metamer.w >> 24u) >= rootsOf(own);
   if (end.look == HIDDEN || none) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     return;
@@ -149,7 +151,6 @@ void main() {
   Node start = nodeAt(int(metamer.y));
   bool begins = (metamer.w & BEGINS_LIMB) != 0u;
   bool cut = (metamer.w & CUT) != 0u;
-  Node bearing = nodeAt(int(metamer.z));
   float grown = eased(uTime - end.birth, end.growing);
   vec3 chord = end.position - start.position;
   float len = length(chord);
@@ -236,7 +237,7 @@ void main() {
   if ((metamer.w & TRUNK) != 0u) {
     // A seed is as thick as its trunk.
     float foot = bearing.radius;
-    vec3 spread = rootFlare(metamer.z, turnOf(outward, tangent), along, foot);
+    vec3 spread = rootFlare(own, turnOf(outward, tangent), along, foot);
     vNormal = outward - cross(outward, tangent) * (spread.y / spread.x) - tangent * (slope * spread.x + radius * spread.z);
     radius *= spread.x;
     // The foot goes on into what it stands on, however that slopes; deeper where it leans, for it is round.
@@ -263,7 +264,7 @@ void main() {
   vBark = vec4(ring.w, along, max(plain, 0.005), -1.0);
   if ((metamer.w & ROOT) != 0u) {
     float foot = bearing.radius * smoothstep(0.0, 0.02, grown);
-    Root root = rootOf(metamer.z, int(metamer.w >> 24u));
+    Root root = rootOf(own, int(metamer.w >> 24u));
     vec4 middle = rootAt(root, foot, ring.y);
     tangent = normalize(rootAt(root, foot, ring.y + 0.01).xyz - middle.xyz);
     normal = normalize(cross(vec3(-tangent.z, 0.0, tangent.x), tangent));

@@ -30,7 +30,7 @@ struct Node {
   float birth;
   float growing;
   float extended;
-  float arc;
+  float arc; // of a seed, the number of its tree
   float look;
   int dye;
 };

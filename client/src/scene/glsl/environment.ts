@@ -107,7 +107,7 @@ void main() {
 
 /** What trunks keep from the ground they stand on, and how far it is trodden there. */
 export const FEET = /* glsl */ `
-uniform vec4 uFeet[${MOST_FEET}]; // where trunks stand (x and z), the rows of their seeds, and how thick they are
+uniform vec4 uFeet[${MOST_FEET}]; // where trunks stand (x and z), the numbers of their trees, and how thick they are
 uniform vec4 uCrown; // centre x z, radius, how dense
 /** How much of the sky a crown leaves, taken as a whole. */
 float underCrown(vec2 at) {

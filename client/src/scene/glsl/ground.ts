@@ -76,9 +76,9 @@ float besideRoots(vec2 at) {
     vec2 from = at - uFeet[i].xz;
     float far = length(from) / thick;
     if (far > 5.5 || thick < 0.12) continue;
-    uint seed = uint(uFeet[i].y);
-    for (int k = 0; k < rootsOf(seed); k++) {
-      Root root = rootOf(seed, k);
+    uint tree = uint(uFeet[i].y);
+    for (int k = 0; k < rootsOf(tree); k++) {
+      Root root = rootOf(tree, k);
       float along = dot(from, vec2(cos(root.turn), sin(root.turn))) / thick;
       vec4 middle = rootAt(root, thick, clamp((along - 0.5) / max(rootReach(root), 0.1), 0.0, 1.0));
       float gap = max(0.0, distance(from, middle.xz) - 0.8 * middle.w);

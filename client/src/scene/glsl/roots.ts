@@ -1,7 +1,7 @@
 /** Roots that a tree stands on at most; \`rootOf\` says which of them a seed has. */
 export const MOST_ROOTS = 8;
 
-/** The roots of a seed, each tree's own; `uBarkShape` says how much it has of them. */
+/** The roots of a tree, by its number (see `TreeTable.numberOf`); `uBarkShape` says how much it has of them. */
 export const ROOTS = /* glsl */ `
 struct Root {
   float turn; // where it leaves, around the vertical
@@ -10,18 +10,18 @@ struct Root {
   float high; // over how much height that fades
   float chance; // of its own, 0 to 1
 };
-float chanceOf(uint seed, uint number) {
-  uint mixed_ = seed * 747796405u + number * 2891336453u + 17u;
+float chanceOf(uint tree, uint number) {
+  uint mixed_ = tree * 747796405u + number * 2891336453u + 17u;
   mixed_ = (mixed_ ^ (mixed_ >> 16)) * 0x7feb352du;
   mixed_ = (mixed_ ^ (mixed_ >> 15)) * 0x846ca68bu;
   return float((mixed_ ^ (mixed_ >> 16)) >> 8) / 16777216.0;
 }
-int rootsOf(uint seed) { return 5 + int(3.99 * chanceOf(seed, 0u)); }
-Root rootOf(uint seed, int i) {
+int rootsOf(uint tree) { return 5 + int(3.99 * chanceOf(tree, 0u)); }
+Root rootOf(uint tree, int i) {
   uint first = 8u * uint(i + 1);
-  float turn = 6.2831853 * (float(i) + 0.72 * chanceOf(seed, first)) / float(rootsOf(seed));
-  float strong = 0.3 + 0.7 * chanceOf(seed, first + 1u);
-  return Root(turn, strong, mix(5.0, 9.0, chanceOf(seed, first + 2u)), (0.6 + 0.6 * chanceOf(seed, first + 3u)) * (0.55 + 0.6 * strong), chanceOf(seed, first + 4u));
+  float turn = 6.2831853 * (float(i) + 0.72 * chanceOf(tree, first)) / float(rootsOf(tree));
+  float strong = 0.3 + 0.7 * chanceOf(tree, first + 1u);
+  return Root(turn, strong, mix(5.0, 9.0, chanceOf(tree, first + 2u)), (0.6 + 0.6 * chanceOf(tree, first + 3u)) * (0.55 + 0.6 * strong), chanceOf(tree, first + 4u));
 }
 /** How far from where it begins it ends, as the trunk is thick. */
 float rootReach(Root root) { return (1.8 + 3.4 * root.strong) * min(uBarkShape.y, 1.5); }

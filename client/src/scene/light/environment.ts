@@ -82,7 +82,7 @@ export class Environment {
       if (table.parent[row]! >= 0) continue;
       const first = table.successor[row]!;
       const radius = first < 0 ? 0 : radiusOf(table.radiusCode[first]!);
-      this.feet[found]!.set(table.position[3 * row]!, row, table.position[3 * row + 2]!, radius);
+      this.feet[found]!.set(table.position[3 * row]!, table.numberOf(row), table.position[3 * row + 2]!, radius);
       found += 1;
     }
     const { min, max } = table.bounds();

@@ -7,8 +7,9 @@ import { DYES } from "./row-dyes";
 import type { TreeTable } from "./tree-table";
 
 /**
- * Texels each row has: position and radius; orientation, and light with slot and dye; birth, duration, extension and arc. A
- * duration below 0 says that its radius glides: from minus this, since the birth beside it.
+ * Texels each row has: position and radius; orientation, and light with slot and dye; birth, duration, extension and arc,
+ * of a seed the number of its tree. A duration below 0 says that its radius glides: from minus this, since the birth
+ * beside it.
  */
 const TEXELS = 3;
 const LINE = CHUNK_ROWS * TEXELS * 4;
@@ -79,7 +80,7 @@ export class NodeTexture {
     texels[at + 8] = table.birth[row]!;
     texels[at + 9] = table.growing[row]!;
     texels[at + 10] = onward < 0 ? NEVER : table.birth[onward]!;
-    texels[at + 11] = arc[row]!;
+    texels[at + 11] = parent < 0 ? table.numberOf(row) : arc[row]!;
     this.stale.add(Math.floor(row / CHUNK_ROWS));
   }
 

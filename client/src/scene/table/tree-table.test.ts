@@ -221,6 +221,43 @@ function wholly(table: TreeTable): ChunkChange[] {
   return changes;
 }
 
+describe("numbers of trees", () => {
+  const numberOf = (begins: number) => {
+    const table = new TreeTable(() => 10);
+    const trunk = rows([0, 0, 0, 0, 0], [2, 1, 256, 0, 400], [2, begins, 256, 0, 400], [2, 0, 256, 0, 400]);
+    table.apply(frame(1, [{ change: "append", chunk: 0, generation: 1, start: 0, rows: trunk }]));
+    return table.numberOf(0);
+  };
+
+  it("differ from tree to tree, and are the same for the same one", () => {
+    const numbers = Array.from({ length: 20 }, (_, begins) => numberOf(begins));
+    expect(new Set(numbers).size).toBe(20);
+    expect(Array.from({ length: 20 }, (_, begins) => numberOf(begins))).toEqual(numbers);
+    for (const number of numbers) expect(Math.fround(number)).toBe(number);
+  });
+
+  it("stay as the trunk grows on, bears limbs and is bent", () => {
+    const table = sapling();
+    const number = table.numberOf(0);
+    const more = rows([2, 40, 256, 0, 300], [7, 256, 0, 0, 300], [2, 256, 0, 0, 300]);
+    table.apply(frame(2, [{ change: "append", chunk: 0, generation: 2, start: 4, rows: more }]));
+    const bent = { change: "patch", chunk: 0, generation: 3, column: "position" } as const;
+    table.apply(frame(3, [{ ...bent, rows: Uint8Array.of(1, 2), values: Int32Array.of(20, 255, 0, 40, 252, 0) }]));
+    expect(table.numberOf(0)).toBe(number);
+  });
+
+  it("are others when a trunk begins otherwise, and then the seed is drawn again", () => {
+    const table = sapling();
+    const number = table.numberOf(0);
+    drained(table);
+    table.apply(frame(2, [{ change: "truncate", rows: 2 }]));
+    const other = rows([2, 30, 256, 0, 400], [2, 0, 256, 0, 400]);
+    table.apply(frame(3, [{ change: "append", chunk: 0, generation: 3, start: 2, rows: other }]));
+    expect(drained(table).changed.get(0)).toBe(Dirty.Drawn);
+    expect(table.numberOf(0)).not.toBe(number);
+  });
+});
+
 describe("what is to be drawn again", () => {
   it("is only what changed", () => {
     const table = sapling();

@@ -1,5 +1,6 @@
 import { type ChunkChange, type Frame, FrameError, type Rows } from "../../wire/frame";
 import { CHUNK_ROWS, MIN_RADIUS, POSITION_STEPS, RADIUS_LOG_STEP } from "../../wire/generated";
+import { leafHash } from "../leaf-hash";
 import { Bounds } from "./bounds";
 import { Cascade } from "./cascade";
 import { grown } from "./column";
@@ -18,6 +19,8 @@ export const Dirty = {
 
 /** Numbers of an orientation that differ by less together are not worth to turn a whole tree's bark for. */
 const UNSEEN_TURN = 0.03;
+/** So many metamers of a trunk tell its tree from others. */
+const TELLING = 3;
 /** Births this far back mean that a row never eased in. */
 const LONG_AGO = -1000;
 /** Positions beyond this many internodes are not a tree; the server's limit is 1000 plus what grows past it. */
@@ -104,6 +107,8 @@ export class TreeTable {
   /** What orientations are computed from: limbs as they are drawn. */
   private drawn: Skeleton = NOTHING;
   private readonly extent = new Bounds();
+  /** Numbers of trees by the rows of their seeds, once all that tells them is there. */
+  private readonly numbers = new Map<number, number>();
   private readonly start: number;
 
   constructor(private readonly clock: () => number = () => performance.now() / 1000) {
@@ -143,6 +148,22 @@ export class TreeTable {
   radiusOf(row: number): number {
     const sown = this.parent[row]! < 0 ? this.successor[row]! : row;
     return sown < 0 ? 0 : radiusOf(this.radiusCode[sown]!);
+  }
+
+  /**
+   * What a tree has by chance follows from this number below 2²⁴, by the row of its seed. It comes of how the trunk begins,
+   * so that it is the same wherever the tree is shown; it stays when the trunk is bent.
+   */
+  numberOf(seed: number): number {
+    const known = this.numbers.get(seed);
+    if (known !== undefined) return known;
+    let [number, row] = [0, seed];
+    for (let told = 0; told <= TELLING && row >= 0; told += 1) {
+      for (let axis = 0; axis < 3; axis += 1) number = leafHash((number + this.quantised[3 * row + axis]!) >>> 0);
+      if (told === TELLING) this.numbers.set(seed, number >>> 8);
+      row = this.successor[row]!;
+    }
+    return number >>> 8;
   }
 
   /** Forgets every row and the epoch. */
@@ -381,10 +402,23 @@ export class TreeTable {
 
   private setSuccessor(row: number, successor: number): void {
     this.successor[row] = successor;
+    this.renumber(row);
     this.limbs.touch(row);
     this.girth.touch(row);
     this.markStale(row);
     this.mark(row, Dirty.Drawn);
+  }
+
+  /** The trunk of a seed goes on otherwise from a row, which may tell its tree from others. */
+  private renumber(row: number): void {
+    let seed = row;
+    for (let told = 1; this.parent[seed]! >= 0; told += 1) {
+      const below = this.parent[seed]!;
+      if (told === TELLING || this.successor[below] !== seed) return;
+      seed = below;
+    }
+    this.numbers.delete(seed);
+    this.mark(seed, Dirty.Drawn);
   }
 
   private markStale(row: number): void {
