@@ -111,6 +111,9 @@ export const METAMER_TEXELS = 1;
 export const BRANCH_VERTEX = /* glsl */ `${HEAD}${itemsOf("usampler2D", METAMER_TEXELS)}${NODES}${TRAITS}${GHOST_PLACE}
 in vec4 ring; // cosine, place along the metamer 0 to 1 and on to 2 over a cut end, sine, turn; of a strip, its side first
 uniform vec4 uBarkShape; // relief, root flare, collar, smoothing
+#ifdef CASTER
+uniform vec3 uSun;
+#endif
 const uint BEGINS_LIMB = 1u;
 const uint FROM_SEED = 2u;
 const uint TRUNK = 4u;
@@ -214,7 +217,11 @@ void main() {
   vBearing = vec4(0.0, 0.0, 1.0, 0.0);
   vec3 world;
 #ifdef RIBBON
+#ifdef CASTER
+  vec3 eye = uSun;
+#else
   vec3 eye = cameraPosition - centre;
+#endif
   vec3 side = cross(tangent, eye);
   side = dot(side, side) > 1e-8 ? normalize(side) : binormal;
   float drawn = radius;
