@@ -226,6 +226,16 @@ void main() {
   side = dot(side, side) > 1e-8 ? normalize(side) : binormal;
   float drawn = radius;
   float cover = 1.0;
+#ifdef CASTER
+  if ((metamer.w & ROOT) != 0u) {
+    Root root = rootOf(own, int(metamer.w >> 24u));
+    float foot = bearing.radius * smoothstep(0.0, 0.02, grown);
+    vec4 middle = rootAt(root, foot, u);
+    centre = bearing.position + middle.xyz;
+    side = normalize(cross(rootAt(root, foot, u + 0.01).xyz - middle.xyz, eye));
+    drawn = middle.w;
+  }
+#endif
   if ((metamer.w & TRUNK) != 0u) drawn *= 0.5 + 0.5 * meanFlare(along, bearing.radius);
 #ifndef CASTER
   // Thinner than a pixel it would flicker; it is drawn a pixel wide and lets so much more through.

@@ -65,13 +65,13 @@ interface Options {
 
 /** All metamers as instances of tube segments and strips, one draw call for each level of detail. */
 export class Branches {
-  /** What the camera sees: a mesh for each level, `faces` and `roots`. */
+  /** What the camera sees: a mesh for each level, `roots` and `faces`. */
   readonly meshes: Mesh[];
-  /** What the sun sees. */
+  /** What the sun sees: the same, but for `faces` where all of it are strips. */
   readonly casters: Mesh[];
   /** Where branches were cut. */
   readonly faces: Mesh;
-  /** What spreads from trunks over the ground, where no shadow of it is seen. */
+  /** What spreads from trunks over the ground. */
   readonly roots: Mesh;
   private readonly fine: BlockGeometry[];
   private readonly quick: BlockGeometry[];
@@ -110,13 +110,14 @@ export class Branches {
     );
     this.faces = mesh(ends, this.ends.materialLike(materials.bark));
     this.roots = mesh(this.feet.shape(true), this.feet.materialLike(materials.bark));
-    this.meshes.push(this.faces, this.roots);
+    this.meshes.push(this.roots, this.faces);
     this.casters = levels.map((_, i) =>
       mesh(strips ? this.shadow[i]! : this.quick[i]!, this.bins[i]!.materialLike(materials.branchDepth)),
     );
+    const strip = strips ? this.feet.strip : this.feet.shape(false);
+    this.casters.push(mesh(strip, this.feet.materialLike(materials.branchDepth)));
     if (strips) return;
     this.casters.push(mesh(ends, this.ends.materialLike(materials.branchDepth)));
-    this.casters.push(mesh(this.feet.shape(false), this.feet.materialLike(materials.branchDepth)));
   }
 
   /** One tube, one strip and one shadow: what nearly every tree has. */
@@ -288,7 +289,7 @@ export class Branches {
 
   /** Of all meshes, in their order. */
   private get lists(): readonly BranchBin[] {
-    return [...this.bins, this.ends, this.feet.bin];
+    return [...this.bins, this.feet.bin, this.ends];
   }
 
   private leave(row: number): void {

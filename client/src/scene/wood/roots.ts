@@ -2,17 +2,21 @@ import type { RawShaderMaterial } from "three";
 import type { BlockGeometry } from "../block-geometry";
 import { MOST_ROOTS } from "../glsl/roots";
 import { BranchBin } from "./branch-bin";
-import { tube } from "./branch-shapes";
+import { ribbon, tube } from "./branch-shapes";
 
 /** Sides and segments of a root, and while frames must be quick. */
 const FINE = [12, 14] as const;
 const QUICK = [6, 5] as const;
+/** Segments of the strip that casts its shadow. */
+const CASTER_SEGMENTS = 6;
 /** Where the flags hold which of its seed's roots it is. */
 const NUMBER = 24;
 
 /** What trunks spread over the ground, drawn in one call: as many roots for each as there may be, of which the shader draws those it has. */
 export class Roots {
   readonly bin: BranchBin;
+  /** Of what casts their shadows. */
+  readonly strip = ribbon(CASTER_SEGMENTS);
   private readonly shapes: readonly [fine: BlockGeometry, quick: BlockGeometry];
   /** Rows of the seeds that trunks stand on, by those of the first metamers of these. */
   private readonly seeds = new Map<number, number>();
@@ -22,7 +26,7 @@ export class Roots {
   /** Flags of each root. */
   constructor(private readonly flags: number) {
     this.shapes = [tube(...FINE), tube(...QUICK)];
-    this.bin = new BranchBin(this.shapes);
+    this.bin = new BranchBin([...this.shapes, this.strip]);
   }
 
   /** Another material like this one, for roots. */
