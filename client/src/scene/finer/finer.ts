@@ -21,6 +21,7 @@ import { OLD_WOOD } from "../glsl/wood";
 import type { Materials, Uniforms } from "../materials";
 import type { Fineness } from "../rendering/fineness";
 import type { TreeTable } from "../table/tree-table";
+import { cloudDrift } from "./cloud-drift";
 import { Crown } from "./crown";
 import { Tufts } from "./tufts";
 
@@ -62,6 +63,7 @@ export class Finer {
   private readonly crown: Crown;
   private readonly tufts: Tufts;
   private readonly rough = { value: 0.5 };
+  private readonly drift = { value: 0 };
   private readonly changes: readonly (readonly [RawShaderMaterial, Shaders])[];
   private readonly copies: RawShaderMaterial[] = [];
   private linked = false;
@@ -72,6 +74,7 @@ export class Finer {
   constructor(private readonly stage: FinerStage) {
     const { materials, uniforms, table } = stage;
     uniforms.uLeafRough = this.rough;
+    uniforms.uCloudDrift = this.drift;
     this.crown = new Crown(table, uniforms, stage.told);
     const blade = new RawShaderMaterial({
       glslVersion: GLSL3,
@@ -148,6 +151,7 @@ export class Finer {
     if (season !== this.season) this.crown.changed();
     this.season = season;
     this.rough.value = ROUGHNESS[appearance.leaves.shape];
+    this.drift.value = cloudDrift(appearance.background);
     this.grassy = appearance.background.ground === "grass" && appearance.background.sky !== "studio";
   }
 

@@ -11,6 +11,7 @@ vec3 fieldsAt(vec2 at, float distance) {
 
 /** Clouds, stars, hills and far trees: what a sky has before it. */
 export const LANDSCAPE = /* glsl */ `${FIELDS}
+uniform float uCloudDrift;
 /** Mist at the feet of what is far off, and how it is lit from one side. */
 vec3 range(vec3 behind, vec3 sight, float seed, float low, float high, float rough, vec3 hue, vec3 mist, float lifted) {
   vec2 towards = normalize(sight.xz);
@@ -95,16 +96,16 @@ vec3 before(vec3 sky, vec3 sight) {
     sky += (vec3(0.9, 0.95, 1.0) * (1.3 * star(sight, 70.0, 0.988) + 0.55 * star(sight.zxy, 130.0, 0.972)) + vec3(0.020, 0.024, 0.034) * milky) * dark * seen;
   }
   if (uSkyParts.x > 0.0) {
-    vec2 plane = 2.7 * sight.xz / (up + 0.24);
+    vec2 plane = 2.7 * sight.xz / (up + 0.24) + 5.0 * uCloudDrift;
     float shown = smoothstep(0.015, 0.16, up);
     // High and thin ones, combed by the wind.
     float thin = noise(plane * vec2(0.35, 1.9) + 0.6 * noise(plane * 0.8, 7.0), 12.0) * 0.6 + noise(plane * vec2(0.9, 5.2), 14.0) * 0.4;
     sky = mix(sky, uCloudColour * 0.95, 0.30 * smoothstep(0.48, 0.9, thin) * shown * smoothstep(0.0, 0.3, uSkyParts.x));
     float heaped = 1.0 - smoothstep(0.55, 0.8, uSkyParts.x);
     if (heaped > 0.0) {
-      vec3 far = heaps(sky, sight, 0.050, 0.036, 43.0, uSkyParts.x * 1.25, 0.55);
-      far = heaps(far, sight, 0.098, 0.075, 47.0, uSkyParts.x * 1.2, 0.28);
-      far = heaps(far, sight, 0.200, 0.150, 53.0, uSkyParts.x * 1.1, 0.08);
+      vec3 far = heaps(sky, sight, 0.050, 0.036, 43.0 + uCloudDrift, uSkyParts.x * 1.25, 0.55);
+      far = heaps(far, sight, 0.098, 0.075, 47.0 + uCloudDrift, uSkyParts.x * 1.2, 0.28);
+      far = heaps(far, sight, 0.200, 0.150, 53.0 + uCloudDrift, uSkyParts.x * 1.1, 0.08);
       sky = mix(sky, far, heaped);
     }
     float thick = cloudAt(plane * 0.8);
