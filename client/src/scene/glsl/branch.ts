@@ -291,16 +291,16 @@ void main() {
     vec3 from = middle.xyz + middle.w * (normal * ring.x * shape.x + binormal * ring.z * shape.y);
     world = bearing.position + from;
     vNormal = normalize(normal * (ring.x / shape.x) + binormal * (ring.z / shape.y));
-    vTangent = tangent;
-    // Its bark comes out of the trunk's.
+    // Its bark comes out of the trunk's, and lies as that does: upwards. On its sides that would be drawn out.
+    vTangent = -tangent;
     float far = length(middle.xz);
-    vBark = vec4(ring.w, far, max(middle.w, 0.005), -1.0);
+    vBark = vec4(-ring.w, -far, max(middle.w, 0.005), -1.0);
     vec3 side = normalize(n0 - t0 * dot(t0, n0));
     vec3 face = cross(side, t0);
     float ahead = atan(dot(middle.xyz, face), dot(middle.xyz, side)) / 6.2831853;
     float aside = atan(dot(from, face), dot(from, side)) / 6.2831853 - ahead;
     float low = from.y - surplus(from.y, foot) - max(0.0, length(from.xz) - 1.5 * foot);
-    vBearing = vec4(ahead + aside - round(aside), low, foot * (1.0 + 0.6 * (meanFlare(0.0, foot) - 1.0)), 1.0 - smoothstep(2.0, 4.0, far / max(foot, 1e-3)));
+    vBearing = vec4(ahead + aside - round(aside), low, foot * (1.0 + 0.6 * (meanFlare(0.0, foot) - 1.0)), (1.0 - ring.z * ring.z) * (1.0 - smoothstep(2.0, 4.0, far / max(foot, 1e-3))));
   }
   if (ring.y >= 1.0 && cut) {
     // A cut heals from its rim: the face bulges a little, and its edge is round.
