@@ -42,3 +42,13 @@ it("roots are drawn with few triangles while frames must be quick", () => {
   branches.detail(false);
   expect(trianglesOf([branches.roots])).toBeLessThan(fine / 3);
 });
+
+it("roots cast shadows as long as they are drawn", () => {
+  const branches = new Branches(makeMaterials({}));
+  rootsOf(SMALL, branches);
+  const cast = () => branches.casters.filter(({ visible }) => visible).map((mesh) => itemsOf(mesh, 4));
+  expect(cast()).toContainEqual(itemsOf(branches.roots, 4));
+  branches.truncate(0);
+  branches.upload();
+  expect(cast()).toEqual([]);
+});
