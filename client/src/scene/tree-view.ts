@@ -31,10 +31,10 @@ export class TreeView {
   readonly casters = new Group();
   private readonly textures: readonly GradualTextures<Sort>[];
   private readonly solid = new Group();
-  private readonly nodes = new NodeTexture();
+  private readonly dyes = new RowDyes();
+  private readonly nodes = new NodeTexture(this.dyes);
   private readonly radii = new RadiusEase();
   private readonly places = new PlaceEase();
-  private readonly dyes = new RowDyes();
   private readonly traits: TraitTexture;
   private readonly branches: Branches;
   private readonly foliage: Foliage;
@@ -166,7 +166,7 @@ export class TreeView {
     const { table, tableChanged } = this;
     this.branches.lookFrom(fineness);
     if (tableChanged) this.syncTable();
-    this.dyes.assign(table, (row, dye) => this.nodes.setDye(table, row, dye), tableChanged);
+    this.dyes.assign(table, (row) => this.nodes.dyed(table, row), tableChanged);
     this.traits.upload(table);
     if (tableChanged || this.overlaysChanged) this.syncOverlays(tableChanged);
     this.places.step(table.now(), table.rows, (row, from, at, left) => this.nodes.glide(table, row, from, at, left));
@@ -207,6 +207,7 @@ export class TreeView {
     table.drain(
       (rows) => {
         this.nodes.truncate(rows);
+        this.dyes.truncate(rows);
         this.branches.truncate(rows);
         this.foliage.truncate(rows);
         this.traits.truncate(rows);

@@ -3,7 +3,7 @@ import { CHUNK_ROWS } from "../../wire/generated";
 import { grown } from "./column";
 import type { PlaceEase } from "./place-ease";
 import { EASE_SECONDS, eased } from "./radius-ease";
-import { DYES } from "./row-dyes";
+import { DYES, type RowDyes } from "./row-dyes";
 import type { TreeTable } from "./tree-table";
 
 /**
@@ -26,13 +26,12 @@ export class NodeTexture {
   private texels = new Float32Array(4 * LINE);
   /** The overlay slot of each row, see `overlays.ts`. */
   private slots = new Int16Array(0);
-  /** The dye of each row, see `row-dyes.ts`. */
-  private dyes = new Uint8Array(0);
   private readonly stale = new Set<number>();
   /** Whether the graphics card has yet to get all of it: parts of a new texture would leave the others empty. */
   private whole = true;
 
-  constructor() {
+  /** With the dye of each row; without, none has any. */
+  constructor(private readonly dyes: Pick<RowDyes, "of"> = { of: () => 0 }) {
     this.uniform = { value: this.allocate() };
   }
 
@@ -40,7 +39,6 @@ export class NodeTexture {
   reserve(rows: number): void {
     const lines = Math.ceil(rows / CHUNK_ROWS);
     this.slots = grown(this.slots, lines * CHUNK_ROWS);
-    this.dyes = grown(this.dyes, lines * CHUNK_ROWS);
     let height = this.texels.length / LINE;
     if (lines <= height) return;
     while (height < lines) height *= 2;
@@ -139,9 +137,8 @@ export class NodeTexture {
     this.stale.add(Math.floor(row / CHUNK_ROWS));
   }
 
-  /** Gives a row another dye. */
-  setDye(table: TreeTable, row: number, dye: number): void {
-    this.dyes[row] = dye;
+  /** A row has another dye. */
+  dyed(table: TreeTable, row: number): void {
     this.texels[4 * TEXELS * row + 7] = this.packed(table, row);
     this.stale.add(Math.floor(row / CHUNK_ROWS));
   }
@@ -164,7 +161,7 @@ export class NodeTexture {
   /** Slot, dye and light in one number, of whose 24 bits they take 12, 4 and 8; the shaders separate them. */
   private packed(table: TreeTable, row: number): number {
     const slot = this.slots[row]!;
-    const value = Math.abs(slot) * DYES + this.dyes[row]! + table.light[row]! / LIGHT_STEPS;
+    const value = Math.abs(slot) * DYES + this.dyes.of(row) + table.light[row]! / LIGHT_STEPS;
     return slot < 0 ? -value : value;
   }
 

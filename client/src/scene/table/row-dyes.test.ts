@@ -33,8 +33,8 @@ function followed(table: TreeTable) {
   const follow = (tableChanged: boolean) =>
     dyes.assign(
       table,
-      (row, dye) => {
-        has[row] = dye;
+      (row) => {
+        has[row] = dyes.of(row);
         calls += 1;
       },
       tableChanged,
@@ -84,13 +84,23 @@ describe("the dyes of rows", () => {
     expect(has).toEqual(new Array(SMALL.length).fill(0));
   });
 
+  it("of rows that are gone are not those of others in their place", () => {
+    const { dyes, follow } = followed(tableOf(SMALL));
+    dyes.tell(LIMBS);
+    follow(false);
+    dyes.truncate(7);
+    dyes.tell(UNDYED);
+    expect(SMALL.map((_, row) => dyes.of(row))).toEqual([0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0]);
+    follow(false);
+    expect(SMALL.map((_, row) => dyes.of(row))).toEqual(SMALL.map(() => 0));
+  });
+
   it("lie in one number with slot and light, and none of the three changes another", () => {
     const table = tableOf(SMALL);
-    const nodes = new NodeTexture();
+    const nodes = new NodeTexture({ of: () => 15 });
     nodes.reserve(table.rows);
     nodes.write(table, 10);
     nodes.setSlot(table, 10, -4095);
-    nodes.setDye(table, 10, 15);
     const number = (nodes.uniform.value.image.data as Float32Array)[12 * 10 + 7]!;
     const whole = Math.floor(-number);
     expect([Math.floor(whole / DYES), whole % DYES]).toEqual([4095, 15]);

@@ -19,8 +19,6 @@ export class RowDyes {
   readonly uniform = { value: Array.from({ length: 2 * DYES }, () => new Vector3(1, 1, 1)) };
   private told: Dyed = UNDYED;
   private numbers = new Uint8Array(0);
-  /** Rows that may have any. */
-  private known = 0;
   private stale = false;
 
   /** Takes other dyes over. */
@@ -34,8 +32,18 @@ export class RowDyes {
     }
   }
 
+  /** The dye of a row, as it was found last. */
+  of(row: number): number {
+    return this.numbers[row] ?? 0;
+  }
+
+  /** Rows from `rows` on are gone; others may take their numbers. */
+  truncate(rows: number): void {
+    this.numbers.fill(0, rows);
+  }
+
   /** Finds the dye of each row after the table or the dyes have changed, and calls `changed` for each row that gets another one. */
-  assign(table: TreeTable, changed: (row: number, dye: number) => void, tableChanged: boolean): void {
+  assign(table: TreeTable, changed: (row: number) => void, tableChanged: boolean): void {
     const { blocks } = this.told;
     if (!this.stale && !(tableChanged && blocks.length > 0)) return;
     this.stale = false;
@@ -45,9 +53,9 @@ export class RowDyes {
     const give = (row: number, dye: number) => {
       if (this.numbers[row] === dye) return;
       this.numbers[row] = dye;
-      changed(row, dye);
+      changed(row);
     };
-    for (let row = 0; row < Math.min(from, this.known, rows); row += 1) give(row, 0);
+    for (let row = 0; row < Math.min(from, rows); row += 1) give(row, 0);
     let row = from;
     const inherit = (until: number) => {
       for (; row < until; row += 1) {
@@ -62,6 +70,5 @@ export class RowDyes {
       }
     }
     inherit(rows);
-    this.known = blocks.length > 0 ? rows : 0;
   }
 }
