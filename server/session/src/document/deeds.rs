@@ -4,6 +4,8 @@
 //! operations after it that took deeds back and brought them back, so it travels in time as they do. What stands then, and
 //! what holds of parameters, looks and obstacles, follows from the deeds in force alone.
 
+use std::sync::Arc;
+
 use espalier_plant::{Claim, Claims, MetamerId, Plant};
 use espalier_proto::{OperationKind, Problem, Reason};
 
@@ -11,6 +13,7 @@ use super::{
     Document,
     bending::held,
     branches::said,
+    designing::Designed,
     history::{History, Kind, Operation},
     parts::PartSet,
     travelling::nothing_to_redo,
@@ -137,6 +140,8 @@ impl Document {
     fn take_back_newest(&mut self, cause: Cause<'_>, person: &Person<'_>) -> Result<(), Problem> {
         let away = self.history.parts_away();
         let (mut passed, mut refused) = (0, None);
+        // Steps of designs of which something was said that is in force no more, for they were let go.
+        let mut let_go = Vec::new();
         for deed in (0..self.history.done).rev() {
             let (parts, kind) = {
                 let operation = &self.history.operations[deed];
@@ -149,6 +154,12 @@ impl Document {
                     passed += 1;
                     continue;
                 }
+                let begun = self.begun_by(deed);
+                if begun.is_some_and(|step| let_go.contains(&step)) {
+                    refused = refused.or_else(|| Some(design_let_go()));
+                    passed += 1;
+                    continue;
+                }
                 match self.switch(cause, person, Kind::TakenBack, (deed, part)) {
                     Ok(true) => {
                         self.switched = self.switched.map(|switched| Switched { passed, ..switched });
@@ -157,7 +168,7 @@ impl Document {
                     // It can be taken back as soon as the bend has ended.
                     Err(problem) if problem.reason == Reason::BeingBent => return Err(problem),
                     Err(problem) => refused = refused.or(Some(problem)),
-                    Ok(false) => {}
+                    Ok(false) => let_go.extend(self.let_go_since(deed)),
                 }
                 passed += 1;
             }
@@ -168,6 +179,27 @@ impl Document {
             Problem::new(Reason::NothingOfYours, message)
                 .at("kind", "what some deed of yours is in force for")
         }))
+    }
+
+    /// The step of the design that an operation planted, if it did.
+    fn begun_by(&self, deed: usize) -> Option<u32> {
+        let (before, after) = self.designs_about(deed);
+        after.filter(|after| before.is_none_or(|before| before.step != after.step)).map(|after| after.step)
+    }
+
+    /// The step of the design that an operation changed, if that is in force no more.
+    fn let_go_since(&self, deed: usize) -> Option<u32> {
+        let (before, after) = self.designs_about(deed);
+        let changed = after.filter(|after| before.is_some_and(|before| before.step == after.step));
+        let in_force = self.design_in_force().map(|design| design.step);
+        changed.map(|design| design.step).filter(|&step| in_force != Some(step))
+    }
+
+    /// The designs before an operation and after it.
+    fn designs_about(&self, deed: usize) -> (Option<&Arc<Designed>>, Option<&Arc<Designed>>) {
+        let before = deed.checked_sub(1).map(|before| &self.history.operations[before].after);
+        let before = before.unwrap_or(&self.history.initial);
+        (before.design.as_ref(), self.history.operations[deed].after.design.as_ref())
     }
 
     /// Takes back what was done last on the line, whoever did it, by going back in time.
@@ -308,4 +340,10 @@ impl Document {
         let message = "somebody else is bending a branch";
         Err(Problem::new(Reason::BeingBent, message).at("kind", "what nobody else's bend is in the way of"))
     }
+}
+
+fn design_let_go() -> Problem {
+    let message = "the design that you changed is in force no more, for somebody let it go or began another one; what you \
+                   said in it stays with its wood";
+    Problem::new(Reason::DesignGone, message).at("kind", "a deed beside that design")
 }

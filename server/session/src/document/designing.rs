@@ -22,7 +22,7 @@ use espalier_reading::Unread;
 use glam::Vec3;
 
 pub(super) use self::{
-    dyeing::{MOST_LET_GO, fold_let_go},
+    dyeing::{MOST_LET_GO, let_go_after},
     placed::{rotation, rounded, vector},
 };
 use super::{
@@ -124,8 +124,10 @@ impl Document {
     /// Whether another design is in force than this one, or more stands on it; costs little.
     pub(crate) fn design_mark(&self) -> DesignMark {
         let steps = |design: &Arc<Designed>| self.plant().step().saturating_sub(design.step);
-        let design = self.design_in_force().map(|design| (Arc::clone(design), steps(design)));
-        DesignMark { design, let_go: Arc::clone(&self.history.setting().let_go) }
+        let first = |design: &Arc<Designed>| wood::first_of(self.plant(), design.step);
+        let design = self.design_in_force();
+        let design = design.map(|design| (Arc::clone(design), steps(design), first(design)));
+        DesignMark { design, let_go: self.let_go() }
     }
 
     pub(super) fn begin_design(
@@ -177,8 +179,9 @@ impl Document {
             generated: Arc::new(generated),
             first,
         });
-        let let_go = self.with_present_let_go();
-        self.history.settle(Setting { design: Some(Arc::clone(&of)), let_go, ..self.setting() });
+        let setting = self.setting();
+        let let_go = let_go_after(&setting.let_go, setting.design.as_ref(), Some(&of));
+        self.history.settle(Setting { design: Some(Arc::clone(&of)), let_go, ..setting });
         self.reach();
         self.release_lost_bends();
         Ok(of)
@@ -212,8 +215,9 @@ impl Document {
             return Err(no_design());
         }
         self.record(Kind::Design, cause);
-        let let_go = self.with_present_let_go();
-        self.history.settle(Setting { design: None, let_go, ..self.setting() });
+        let setting = self.setting();
+        let let_go = let_go_after(&setting.let_go, setting.design.as_ref(), None);
+        self.history.settle(Setting { design: None, let_go, ..setting });
         self.note_state();
         Ok(())
     }
@@ -433,6 +437,7 @@ fn sealed(step: u32, steps: u32) -> Problem {
 /// Designs at one time, to be compared.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct DesignMark {
-    design: Option<(Arc<Designed>, u32)>,
-    let_go: Arc<[Arc<Designed>]>,
+    /// With how many steps stand on it, and the first row of its wood: on another line it may be another one.
+    design: Option<(Arc<Designed>, u32, u32)>,
+    let_go: Vec<(Arc<Designed>, u32)>,
 }

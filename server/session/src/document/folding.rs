@@ -9,7 +9,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::{
-    designing::{fold_design, fold_let_go},
+    designing::{fold_design, let_go_after},
     history::{History, Setting},
     obstacles::Standings,
 };
@@ -24,12 +24,14 @@ impl History {
         for (operation, away) in self.operations[..self.done].iter().zip(away) {
             let after = &operation.after;
             if !away && !operation.kind.is_switch() {
+                let design =
+                    fold_design(folded.design.clone(), before.design.as_ref(), after.design.as_ref());
                 folded = Setting {
+                    let_go: let_go_after(&folded.let_go, folded.design.as_ref(), design.as_ref()),
+                    design,
                     schedule: fold_schedule(folded.schedule, &before.schedule, &after.schedule)?,
                     obstacles: fold_obstacles(folded.obstacles, &before.obstacles, &after.obstacles),
                     appearance: fold_looks(folded.appearance, &before.appearance, &after.appearance),
-                    design: fold_design(folded.design, before.design.as_ref(), after.design.as_ref()),
-                    let_go: fold_let_go(folded.let_go, &before.let_go, &after.let_go),
                 };
             }
             before = after;

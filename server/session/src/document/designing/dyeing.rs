@@ -7,7 +7,10 @@ use espalier_mesh::{Dye, Dyes, Style, dyes::DyedRows};
 use espalier_plant::Plant;
 use glam::Vec3;
 
-use super::{Designed, Document, wood::made};
+use super::{
+    Designed, Document,
+    wood::{first_of, made},
+};
 use crate::to_proto::style_options;
 
 /// Designs that were let go, and whose wood keeps its colours, at most: the oldest goes first (`LM11`).
@@ -16,7 +19,8 @@ pub(in crate::document) const MOST_LET_GO: usize = 8;
 /// Where wood of designs stands that were let go, and its colours: they follow from the designs, but not in no time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LetGo {
-    of: Vec<Arc<Designed>>,
+    /// Each with the first row of its wood: on another line it may be another one.
+    of: Vec<(Arc<Designed>, u32)>,
     dyed: Vec<Dyed>,
 }
 
@@ -31,11 +35,9 @@ struct Dyed {
 impl Document {
     /// The colours of branches in the present.
     pub fn dyes(&mut self) -> Dyes {
-        let plant = self.simulation.plant();
-        let stands = |of: &&Arc<Designed>| of.step <= plant.step();
-        let let_go: Vec<_> = self.history.setting().let_go.iter().filter(stands).map(Arc::clone).collect();
+        let let_go = self.let_go();
         if let_go != self.designs.let_go.of {
-            let dyed = let_go.iter().filter_map(|of| dyed(of, plant)).collect();
+            let dyed = let_go.iter().filter_map(|(of, _)| dyed(of, self.simulation.plant())).collect();
             self.designs.let_go = LetGo { of: let_go, dyed };
         }
         let mut all = self.designs.let_go.dyed.clone();
@@ -61,20 +63,17 @@ impl Document {
         dyes
     }
 
+    /// Designs that were let go and whose wood stands, each with the first row of it.
+    pub(super) fn let_go(&self) -> Vec<(Arc<Designed>, u32)> {
+        let plant = self.simulation.plant();
+        let standing = self.history.setting().let_go.iter().filter(|of| of.step <= plant.step());
+        standing.map(|of| (Arc::clone(of), first_of(plant, of.step))).collect()
+    }
+
     /// How its plants are drawn in files and pictures.
     pub fn style(&mut self) -> Style {
         let style = Style::new(style_options(&self.parameters()));
         style.dyed(self.dyes().by_rows(self.simulation.plant()))
-    }
-
-    /// Designs that were let go, and the one in force with them, which is about to be.
-    pub(super) fn with_present_let_go(&self) -> Arc<[Arc<Designed>]> {
-        let let_go = &self.history.setting().let_go;
-        let Some(present) = self.design_in_force().filter(|design| design.says_colours()) else {
-            return Arc::clone(let_go);
-        };
-        let all: Vec<_> = let_go.iter().chain([present]).map(Arc::clone).collect();
-        all[all.len().saturating_sub(MOST_LET_GO)..].into()
     }
 }
 
@@ -90,20 +89,17 @@ fn dyed(of: &Arc<Designed>, plant: &Plant) -> Option<Dyed> {
     Some(Dyed { first: shown.first, dyes: OfWood::of(&shown.design, &shown.generated) })
 }
 
-/// Designs that were let go, with what another deed changed of that before it.
-pub(in crate::document) fn fold_let_go(
-    folded: Arc<[Arc<Designed>]>,
-    before: &Arc<[Arc<Designed>]>,
-    after: &Arc<[Arc<Designed>]>,
+/// Designs that are let go once another one is in force than before, or none.
+pub(in crate::document) fn let_go_after(
+    let_go: &Arc<[Arc<Designed>]>,
+    was: Option<&Arc<Designed>>,
+    is: Option<&Arc<Designed>>,
 ) -> Arc<[Arc<Designed>]> {
-    if before == after {
-        return folded;
+    let is_of = |design: &Arc<Designed>| is.is_some_and(|is| is.step == design.step);
+    let gone = was.filter(|was| was.says_colours() && !is_of(was));
+    if gone.is_none() && !let_go.iter().any(is_of) {
+        return Arc::clone(let_go);
     }
-    if folded == *before {
-        return Arc::clone(after);
-    }
-    let is_in = |all: &[Arc<Designed>], one: &Arc<Designed>| all.iter().any(|there| there.step == one.step);
-    let stays = folded.iter().filter(|one| !is_in(before, one) || is_in(after, one));
-    let comes = after.iter().filter(|one| !is_in(before, one) && !is_in(&folded, one));
-    stays.chain(comes).map(Arc::clone).collect()
+    let all: Vec<_> = let_go.iter().chain(gone).filter(|design| !is_of(design)).map(Arc::clone).collect();
+    all[all.len().saturating_sub(MOST_LET_GO)..].into()
 }

@@ -12,7 +12,9 @@ use crate::document::history::Operation;
 impl Document {
     /// The wood of a design whose step the plants have; made by the line where it is not at hand.
     pub(super) fn shown(&mut self, of: &Arc<Designed>) -> Option<&mut Shown> {
-        let is_at_hand = self.designs.shown.as_ref().is_some_and(|shown| shown.of.step == of.step);
+        let first = first_of(self.plant(), of.step);
+        let is_there = |shown: &Shown| shown.of.step == of.step && shown.first == first;
+        let is_at_hand = self.designs.shown.as_ref().is_some_and(is_there);
         if !is_at_hand {
             let last = last_of(&self.history.operations, of.step).unwrap_or_else(|| Arc::clone(of));
             self.designs.shown = made(&last, self.plant());
@@ -147,7 +149,7 @@ pub(super) fn made(of: &Arc<Designed>, plant: &Plant) -> Option<Shown> {
 }
 
 /// The first row that was born in a step or later.
-fn first_of(plant: &Plant, step: u32) -> u32 {
+pub(super) fn first_of(plant: &Plant, step: u32) -> u32 {
     let (mut from, mut to) = (0, plant.metamer_count());
     while from < to {
         let middle = from.midpoint(to);

@@ -9,7 +9,7 @@ use super::{histories::form, *};
 use crate::document::designing::Designed;
 
 /// A design of few internodes.
-fn small() -> Value {
+pub(super) fn small() -> Value {
     json!({
         "version": 1,
         "nodes": { "/": { "values": {
@@ -20,7 +20,7 @@ fn small() -> Value {
     })
 }
 
-fn new_design(position: Option<Vec3>, graph: Option<Value>) -> Command {
+pub(super) fn new_design(position: Option<Vec3>, graph: Option<Value>) -> Command {
     plain(Action::NewDesign {
         position: position.map(Position::nearest),
         template: None,

@@ -5,7 +5,7 @@ use espalier_mesh::Dye;
 use serde_json::{Value, json};
 
 use super::{
-    designing::{begin, designed, edits, in_force, set},
+    designing::{begin, designed, edits, in_force, new_design, set, small},
     *,
 };
 
@@ -116,4 +116,97 @@ fn ds14_more_materials_than_can_be_told_apart_are_drawn_as_the_nearest() {
     let far = all[all.len() - wanted.len()..].iter().zip(&wanted).map(|(a, b)| (a[0] - b[0]).abs());
     assert!(far.fold(0.0, f32::max) < 0.65);
     assert!(document.dyes().all().iter().all(|dye| *dye != Dye::NONE));
+}
+
+/// A design at a place, whose bark has so much of its red.
+fn red(x: f32, bark: f32) -> Command {
+    let mut graph = small();
+    graph["nodes"]["/"]["values"]["material"] =
+        json!({ "own": { "bark": [bark, 1.0, 1.0], "leaves": [1.0, 1.0, 1.0] } });
+    new_design(Some(Vec3::X * x), Some(graph))
+}
+
+/// Which reds of bark there are.
+fn reds(document: &mut Document) -> Vec<f32> {
+    let alive: Vec<bool> = {
+        let plant = document.plant();
+        (0..plant.metamer_count()).map(|row| plant.is_alive(MetamerId::new(row))).collect()
+    };
+    let mut reds: Vec<f32> =
+        seen(document).iter().zip(alive).filter(|(_, alive)| *alive).map(|([red, _], _)| *red).collect();
+    reds.sort_by(f32::total_cmp);
+    reds.dedup();
+    reds
+}
+
+fn act(document: &mut Document, name: &str, command: Command) {
+    document.apply(&who(name), &command).expect("it is done");
+}
+
+#[test]
+fn ds14_a_design_that_is_taken_back_takes_no_colours_off_others() {
+    let mut document = Document::new(5);
+    for (name, x, bark) in [("ann", 0.0, 0.25), ("bo", 20.0, 0.5), ("ann", -20.0, 2.0)] {
+        act(&mut document, name, red(x, bark));
+    }
+    assert_eq!(reds(&mut document), [0.25, 0.5, 1.0, 2.0]);
+    act(&mut document, "bo", plain(take_back_by(&[])));
+    assert_eq!(reds(&mut document), [0.25, 1.0, 2.0]);
+    act(&mut document, "bo", plain(bring_back_by(&[])));
+    assert_eq!(reds(&mut document), [0.25, 0.5, 1.0, 2.0]);
+    // Let go by one, begun by another: taken back, the first one's tree is as it was.
+    act(&mut document, "bo", plain(Action::ReleaseDesign {}));
+    act(&mut document, "ann", red(40.0, 3.0));
+    act(&mut document, "bo", plain(take_back_by(&[])));
+    assert_eq!(reds(&mut document), [0.25, 0.5, 1.0, 2.0, 3.0]);
+}
+
+#[test]
+fn ds14_no_more_designs_are_kept_than_documents_hold() {
+    let mut document = Document::new(5);
+    for number in 0..18u8 {
+        let name = if number == 9 { "bo" } else { "ann" };
+        act(&mut document, name, red(15.0 * f32::from(number), 0.1 + 0.1 * f32::from(number)));
+    }
+    let kept = document.dyes().all().len();
+    assert_eq!(kept, 9, "the one in force and 8 that were let go");
+    act(&mut document, "bo", plain(take_back_by(&[])));
+    let mut copy = Document::from_bytes(&document.to_bytes()).expect("our own bytes");
+    assert_eq!((copy.hash(), reds(&mut copy)), (document.hash(), reds(&mut document)));
+}
+
+#[test]
+fn ud5_whose_design_was_let_go_does_not_lose_the_tree_for_its_last_change() {
+    let mut document = Document::new(5);
+    act(&mut document, "ann", begin(8.0));
+    act(&mut document, "ann", edits(None, &[set("/1", "roll", &json!(40))]));
+    act(&mut document, "bo", plain(Action::ReleaseDesign {}));
+    let before = (document.metamers(), seen(&mut document));
+    let refused = document.apply(&who("ann"), &plain(take_back_by(&[])));
+    assert_eq!(refused.map_err(|problem| problem.reason), Err(Reason::DesignGone));
+    assert_eq!((document.metamers(), seen(&mut document)), before);
+    // Bo may have it in force again, and then Ann's change can go.
+    act(&mut document, "bo", plain(take_back_by(&[])));
+    act(&mut document, "ann", plain(take_back_by(&[])));
+    assert_eq!(document.design_told().map(|told| told.values), Some(5));
+}
+
+#[test]
+fn ds14_rows_of_another_line_have_their_own_colours() {
+    let mut document = Document::new(5);
+    grow(&mut document, 3, None);
+    apply(&mut document, &red(20.0, 0.25));
+    apply(&mut document, &plain(Action::ReleaseDesign {}));
+    let (first, mark) = (seen(&mut document), document.design_mark());
+    apply(&mut document, &plain(Action::GoTo { step: 1 }));
+    grow(&mut document, 2, Some(2));
+    apply(&mut document, &red(20.0, 0.25));
+    apply(&mut document, &plain(Action::ReleaseDesign {}));
+    let second = seen(&mut document);
+    let future = document.timeline().futures[0].future;
+    apply(&mut document, &plain(Action::TakeFuture { future }));
+    assert_eq!((seen(&mut document), document.design_mark() == mark), (first, true));
+    let future = document.timeline().futures[0].future;
+    apply(&mut document, &plain(Action::TakeFuture { future }));
+    assert_eq!(seen(&mut document), second);
 }
