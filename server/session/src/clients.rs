@@ -11,7 +11,7 @@ use crate::{
     rights::Access,
     session::{AskedLimb, LookedAt},
     to_proto::Held,
-    window::Window,
+    window::{MAX_UNREAD_DESIGNS, MAX_UNREAD_STATES, Window},
 };
 
 /// One connection.
@@ -23,12 +23,35 @@ pub(crate) struct Client {
     pub(crate) access: Access,
     /// Control messages sent and not yet written to the socket (`FL3`).
     pub(crate) unread: usize,
-    /// Whether it has so many of them that it gets the newest figures once it has read some (`FL4`).
-    pub(crate) lacks_state: bool,
+    /// What it gets the newest of once it has read some of them (`FL4`).
+    pub(crate) lacks: Lacks,
     /// Of those, how many are to be written until it has had the notices; none if it is sent none.
     pub(crate) notified_after: Option<usize>,
     /// Who it is; nobody before its hello.
     pub(crate) connected: Option<ConnectedClient>,
+}
+
+/// What has changed and was not sent.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Lacks {
+    /// Figures.
+    pub(crate) state: bool,
+    /// The design in force.
+    pub(crate) design: bool,
+    /// Colours of branches.
+    pub(crate) dyes: bool,
+}
+
+impl Client {
+    /// Whether it lacks figures and may be sent some.
+    pub(crate) fn wants_state(&self) -> bool {
+        self.lacks.state && self.unread < MAX_UNREAD_STATES
+    }
+
+    /// The same of what designs say, which may be long.
+    pub(crate) fn wants_designs(&self) -> bool {
+        (self.lacks.design || self.lacks.dyes) && self.unread < MAX_UNREAD_DESIGNS
+    }
 }
 
 /// A client that has said hello.

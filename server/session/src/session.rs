@@ -42,7 +42,7 @@ use crate::{
     principal::Principal,
     snapshot::{self, RestoreError},
     to_proto::Held,
-    window::{MAX_UNREAD, MAX_UNREAD_STATES},
+    window::MAX_UNREAD,
     work::{BendUpdate, Work},
 };
 
@@ -432,7 +432,7 @@ impl Session {
                 self.outputs.push_back(Output::Notified);
             }
         }
-        client.lacks_state && client.unread < MAX_UNREAD_STATES
+        client.wants_state() || client.wants_designs()
     }
 
     fn read_binary(&mut self, client: ClientId) {

@@ -8,6 +8,8 @@ pub(crate) const WINDOW_BYTES: usize = 256 * 1024;
 pub(crate) const MAX_UNREAD: usize = 1024;
 /// One with this many is sent no figures until it has read some, and then the newest (`FL4`).
 pub(crate) const MAX_UNREAD_STATES: usize = 32;
+/// A client with so many of them is sent no designs: each may have a hundred thousand bytes.
+pub(crate) const MAX_UNREAD_DESIGNS: usize = 4;
 
 /// So many bytes are enough to tell how fast a client takes in what is sent to it.
 const TELLING: usize = 16 * 1024;

@@ -104,7 +104,7 @@ describe("handshake", () => {
     core.effects();
     welcome(0, 0, { resumed: false });
     const done = core.effects().map((effect) => (effect.kind === "message" ? effect.message.type : effect.kind));
-    expect(done).toEqual(["forget-rows", "parameters", "state", "programme", "obstacles", "widths", "dyes"]);
+    expect(done).toEqual(["forget-rows", "parameters", "state", "programme", "obstacles", "widths"]);
   });
 
   it("RS2, PS3: people keep their numbers until the server has read the session anew", () => {

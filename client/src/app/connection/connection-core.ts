@@ -448,7 +448,6 @@ export class ConnectionCore {
       { type: "programme", programme: null, by_hand: [] },
       { type: "obstacles", obstacles: [] },
       { type: "widths", widths: [] },
-      { type: "dyes", dyes: [], blocks: [] },
     ];
     this.#effects.push(...messages.map((message) => ({ kind: "message", message }) as const));
     for (const { id, command } of this.#outbox.pending) {

@@ -12,7 +12,7 @@ use serde_json::Value;
 
 use super::Session;
 use crate::{
-    clients::{Client, ConnectedClient, PredictionView, View, Watch},
+    clients::{Client, ConnectedClient, Lacks, PredictionView, View, Watch},
     entrant::Entrant,
     io::ClientId,
     principal::Principal,
@@ -30,8 +30,14 @@ impl Session {
     pub(super) fn connect(&mut self, client: ClientId, entrant: Entrant) {
         self.forget(client);
         let access = if self.is_replay { Access::Travel } else { entrant.access() };
-        let state =
-            Client { entrant, access, unread: 0, lacks_state: false, notified_after: None, connected: None };
+        let state = Client {
+            entrant,
+            access,
+            unread: 0,
+            lacks: Lacks::default(),
+            notified_after: None,
+            connected: None,
+        };
         self.clients.insert(client, state);
         self.upkeep.hellos.push_back((self.now + HELLO_MS, client));
     }
@@ -76,6 +82,8 @@ impl Session {
         if let Some(older) = self.authors.get(&principal).and_then(|author| author.client) {
             self.close(older, CloseCode::Replaced, "the same client connected again");
         }
+        // Who returns may hold what is gone meanwhile.
+        let returns = resume.is_some();
         let author = self.authors.enter(&principal);
         author.client = Some(client);
         author.strokes_end_at = None;
@@ -125,13 +133,13 @@ impl Session {
         if !self.widths.is_empty() {
             self.send(client, &ServerMessage::Widths { widths: self.widths.clone() });
         }
-        if self.design.is_some() {
+        if self.design.is_some() || returns {
             self.send(client, &self.design_message());
         }
-        if !self.dyes.are_none() {
+        if !self.dyes.are_none() || returns {
             self.send(client, &self.dyes_message());
         }
-        if self.grammar.is_some() {
+        if self.grammar.is_some() || returns {
             self.send(client, &self.grammar_message());
         }
         // As all others have it: what has changed since comes to everybody.

@@ -6,11 +6,10 @@ use espalier_proto::{Action, DocumentState, Pause, ServerMessage, version::Close
 
 use super::{Session, text_of};
 use crate::{
-    clients::Client,
+    clients::Lacks,
     document::Figures,
     io::{ClientId, Output},
     principal::Principal,
-    window::MAX_UNREAD_STATES,
 };
 
 /// How long the strokes of a client that went away stay open, in milliseconds (`CM5`).
@@ -228,7 +227,7 @@ impl Session {
             self.upkeep.state_changed = false;
             self.upkeep.state_due = self.now + STATE_MS.max(self.clients.len() as u64 / STATES_PER_MS);
             self.upkeep.sent = self.state();
-            self.clients.values_mut().for_each(|client| client.lacks_state = client.connected.is_some());
+            self.clients.values_mut().for_each(|client| client.lacks.state = client.connected.is_some());
         }
         self.tell_state();
         if self.upkeep.widths_changed && self.now >= self.upkeep.widths_due {
@@ -239,11 +238,13 @@ impl Session {
         if self.upkeep.design_changed && self.now >= self.upkeep.design_due {
             self.upkeep.design_changed = false;
             self.upkeep.design_due = self.now + STATE_MS;
-            self.broadcast(&self.design_message());
-            if std::mem::take(&mut self.upkeep.dyes_changed) {
-                self.broadcast(&self.dyes_message());
+            let dyes = std::mem::take(&mut self.upkeep.dyes_changed);
+            for client in self.clients.values_mut().filter(|client| client.connected.is_some()) {
+                client.lacks.design = true;
+                client.lacks.dyes |= dyes;
             }
         }
+        self.tell_designs();
         if !self.upkeep.design_changed {
             self.tell_branches();
             self.tell_limbs();
@@ -267,18 +268,37 @@ impl Session {
 
     /// Sends figures to those who lack them and can read them.
     fn tell_state(&mut self) {
-        let lacks = |client: &Client| client.lacks_state && client.unread < MAX_UNREAD_STATES;
         let told: Vec<ClientId> =
-            self.clients.iter().filter(|(_, client)| lacks(client)).map(|(&id, _)| id).collect();
+            self.clients.iter().filter(|(_, client)| client.wants_state()).map(|(&id, _)| id).collect();
         if told.is_empty() {
             return;
         }
         let text = text_of(&ServerMessage::State { state: self.upkeep.sent.clone() });
         for id in told {
             if let Some(client) = self.clients.get_mut(&id) {
-                client.lacks_state = false;
+                client.lacks.state = false;
             }
             self.send_text(id, &text);
+        }
+    }
+
+    /// Sends the design in force and the colours of branches to those who lack them and can read them.
+    fn tell_designs(&mut self) {
+        let wants = self.clients.iter().filter(|(_, client)| client.wants_designs());
+        let told: Vec<(ClientId, Lacks)> = wants.map(|(&id, client)| (id, client.lacks)).collect();
+        if told.is_empty() {
+            return;
+        }
+        let (design, dyes) = (text_of(&self.design_message()), text_of(&self.dyes_message()));
+        for (id, lacks) in told {
+            if let Some(client) = self.clients.get_mut(&id) {
+                client.lacks = Lacks { state: lacks.state, ..Lacks::default() };
+            }
+            for (is_lacked, text) in [(lacks.design, &design), (lacks.dyes, &dyes)] {
+                if is_lacked {
+                    self.send_text(id, text);
+                }
+            }
         }
     }
 
@@ -292,7 +312,9 @@ impl Session {
         let done = self.done.min(self.journal.durable());
         let mut notified = Vec::new();
         for (&client, state) in &mut self.clients {
-            let Some(connected) = state.connected.as_mut().filter(|_| !state.lacks_state) else { continue };
+            let Lacks { state: lacks_state, design, dyes } = state.lacks;
+            let is_told = !(lacks_state || design || dyes);
+            let Some(connected) = state.connected.as_mut().filter(|_| is_told) else { continue };
             let Some(author) = self.authors.get(&connected.principal) else { continue };
             if author.taken > connected.done && author.last_entry <= done {
                 connected.done = author.taken;
