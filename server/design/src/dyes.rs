@@ -26,7 +26,7 @@ impl Dyes {
     pub fn of(design: &Design, generated: &Generated) -> Self {
         let mut dyes = Self::default();
         let mut of_branch: BTreeMap<NodeId, u16> = BTreeMap::new();
-        dyes.note(design.root(), &mut of_branch);
+        dyes.note(design.root(), &mut BTreeMap::new(), &mut of_branch);
         if dyes.materials.is_empty() {
             return dyes;
         }
@@ -45,15 +45,22 @@ impl Dyes {
         dyes
     }
 
-    fn note(&mut self, branch: &Branch, of_branch: &mut BTreeMap<NodeId, u16>) {
-        let Value::Material(material) = branch.values().value(Key::Material).get() else { return };
+    /// Notes what a branch has and all that it bears, with the materials that are known by the hashes of their bits.
+    fn note(
+        &mut self,
+        branch: &Branch,
+        known: &mut BTreeMap<u64, u16>,
+        of_branch: &mut BTreeMap<NodeId, u16>,
+    ) {
+        let held = branch.values().value(Key::Material);
+        let Value::Material(material) = held.get() else { return };
         if !material.is_plain() {
-            let at = self.materials.iter().position(|known| known == material).unwrap_or_else(|| {
+            let number = *known.entry(held.hash()).or_insert_with(|| {
                 self.materials.push(*material);
-                self.materials.len() - 1
+                self.materials.len() as u16
             });
-            of_branch.insert(branch.id(), at as u16 + 1);
+            of_branch.insert(branch.id(), number);
         }
-        branch.laterals().iter().for_each(|lateral| self.note(lateral, of_branch));
+        branch.laterals().iter().for_each(|lateral| self.note(lateral, known, of_branch));
     }
 }

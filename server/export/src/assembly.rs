@@ -184,7 +184,6 @@ impl<'a> Assembly<'a> {
             }
         });
         let levels: Vec<_> = levels.collect();
-        let [greatest_bark, greatest_leaves] = style.dyes().greatest();
         let borne = levels.first().map_or(looks, |level| level.foliage.look());
         Self {
             plant,
@@ -192,9 +191,9 @@ impl<'a> Assembly<'a> {
             name,
             model,
             dyes: style.dyes(),
-            bark: Bark::of(&looks.bark, greatest_bark),
+            bark: Bark::of(&looks.bark, style.dyes().greatest_of_bark()),
             thin: [
-                Some(thin::leaves(&borne.leaves, greatest_leaves)),
+                Some(thin::leaves(&borne.leaves)),
                 thin::flowers(&borne.flowers),
                 thin::fruits(&borne.fruits),
             ],

@@ -113,11 +113,9 @@ impl RowDyes {
         usize::from(number).checked_sub(1).and_then(|at| self.all.get(at)).unwrap_or(&Dye::NONE)
     }
 
-    /// The greatest factor of bark and that of leaves, at least 1.
-    pub fn greatest(&self) -> [f32; 2] {
-        self.all.iter().fold([1.0, 1.0], |[bark, leaves], dye| {
-            [dye.bark.max_element().max(bark), dye.leaves.max_element().max(leaves)]
-        })
+    /// The greatest factor of bark, at least 1.
+    pub fn greatest_of_bark(&self) -> f32 {
+        self.all.iter().map(|dye| dye.bark.max_element()).fold(1.0, f32::max)
     }
 }
 
@@ -147,7 +145,7 @@ mod tests {
         let rows = dyes.by_rows(&plant);
         let barks: Vec<f32> = (0..5).map(|row| rows.of(MetamerId::new(row)).bark.x).collect();
         assert_eq!(barks, [1.0, 0.5, 2.0, 2.0, 2.0]);
-        assert_eq!(rows.greatest(), [2.0, 1.0]);
+        assert_eq!(rows.greatest_of_bark(), 2.0);
     }
 
     #[test]

@@ -274,6 +274,7 @@ impl Unrolling<'_> {
         let surface = &from.surface;
         self.to.places.push(place);
         self.to.wood.radii.push(from.radii[at]);
+        self.to.wood.metamers.push(from.metamers[at]);
         self.to.wood.tangents.push(from.tangents[at]);
         self.to.wood.surface.vertex(surface.positions[at], surface.normals[at], surface.uvs[at])
     }
@@ -287,6 +288,7 @@ impl Unrolling<'_> {
         let tangent = along.normalize_or(normal.any_orthonormal_vector()).extend(from.tangents[a].w);
         self.to.places.push(place);
         self.to.wood.radii.push(from.radii[a] + (from.radii[b] - from.radii[a]) * share);
+        self.to.wood.metamers.push(from.metamers[if share < 0.5 { a } else { b }]);
         self.to.wood.tangents.push(tangent);
         let position = surface.positions[a].lerp(surface.positions[b], share);
         self.to.wood.surface.vertex(position, normal, surface.uvs[a].lerp(surface.uvs[b], share));

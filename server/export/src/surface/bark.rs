@@ -56,7 +56,7 @@ impl Palette {
 }
 
 impl Bark {
-    /// Bark whose colour some branches multiply by so much at most.
+    /// Bark whose colour some branches multiply by so much at most; what has none of its own looks the same for all that.
     pub(crate) fn of(look: &BarkLook, greatest: f32) -> Self {
         let (painted, palette) = (Painted::bark(look.kind), Palette::of(look));
         let shares = |texel: &[u8; 4]| Vec3::new(texel[0].into(), texel[1].into(), texel[2].into()) / 255.0;
@@ -71,7 +71,10 @@ impl Bark {
         };
         let mut bark = Self { texture: plain, palette, shares: mean, strength: 1.0 };
         let radii = (0..=20).map(|step| THICKEST * step as f32 / 20.0);
-        bark.strength = radii.map(|radius| greatest * bark.tint(radius).max_element()).fold(1.0, f32::max);
+        let own = radii.map(|radius| bark.tint(radius).max_element()).fold(1.0, f32::max);
+        // Where no texel gets too bright there is room for those branches.
+        let brightest = bark.texture.colours.iter().map(|colour| colour.max_element()).fold(1e-3, f32::max);
+        bark.strength = own.max((own * greatest).min(1.0 / brightest));
         for colour in &mut bark.texture.colours {
             *colour = (*colour * bark.strength).min(Vec3::ONE);
         }
@@ -129,6 +132,20 @@ mod tests {
                 let wanted = bark.palette.at(radius, bark.shares);
                 assert!(mean(&bark, radius).distance(wanted) < 0.03, "{kind:?} at {radius}");
                 assert!(bark.tint(radius).max_element() <= 1.001);
+            }
+        }
+    }
+
+    #[test]
+    fn wood_without_a_colour_of_its_own_is_the_same_beside_wood_of_any() {
+        for &kind in BarkKind::ALL {
+            for tint in [[121, 110, 97], [231, 231, 231]] {
+                let look = BarkLook { kind, tint, ..BarkLook::default() };
+                let [alone, beside] = [1.0, 4.0].map(|greatest| Bark::of(&look, greatest));
+                for radius in [0.0, 0.1, 0.6, 2.0] {
+                    let off = mean(&beside, radius).distance(mean(&alone, radius));
+                    assert!(off < 1e-3, "{kind:?} at {radius}: {off}");
+                }
             }
         }
     }

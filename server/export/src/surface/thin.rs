@@ -28,8 +28,8 @@ pub(crate) struct Thin {
     pub strength: f32,
 }
 
-/// Leaves in their season, whose colour some branches multiply by so much at most.
-pub(crate) fn leaves(look: &LeafLook, greatest: f32) -> Thin {
+/// Leaves in their season.
+pub(crate) fn leaves(look: &LeafLook) -> Thin {
     let painter = LeafPainter::new(look);
     let Hues { middle, margin } = painter.typical();
     let is_spray = look.shape.nature().is_spray;
@@ -39,7 +39,7 @@ pub(crate) fn leaves(look: &LeafLook, greatest: f32) -> Thin {
     thin(
         &Painted::leaf(look.shape),
         middle,
-        greatest * painter.brightest(),
+        painter.brightest(),
         |[shade, tone, _, _], [_, _, wood, edge]| {
             let hue = middle.lerp(margin, edge);
             (hue.lerp(second(hue), tone) * (2.0 * shade)).lerp(TWIG * (2.0 * shade), wood)
@@ -110,7 +110,7 @@ mod tests {
             for season in [0.2, 1.0, 2.0] {
                 let look = LeafLook { shape, season, ..LeafLook::default() };
                 let hue = LeafPainter::new(&look).typical().middle;
-                let thin = leaves(&look, 1.0);
+                let thin = leaves(&look);
                 assert!(hue.max_element() * thin.strength <= 1.001, "{shape:?}");
                 let share = seen(&thin, hue) / hue;
                 assert!(share.y > 0.6 && share.y < 1.6, "{shape:?} in {season}: {share}");

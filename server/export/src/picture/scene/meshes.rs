@@ -111,8 +111,7 @@ fn wooden(
     look: &Appearance,
     motion: Option<&Swaying>,
 ) -> Vec<(Skin, Painted)> {
-    let [greatest, _] = style.dyes().greatest();
-    let bark = Bark::of(&look.bark, greatest);
+    let bark = Bark::of(&look.bark, style.dyes().greatest_of_bark());
     let mut meshes = Vec::new();
     let mut plants: BTreeMap<MetamerId, (Wood, Vec<Rider>)> = BTreeMap::new();
     for body in bodies.iter() {
@@ -170,9 +169,7 @@ fn borne(plant: &Plant, style: &Style, look: &Appearance, bodies: &Bodies) -> Ve
         let Cards { mesh, hues: colours, riders, grids, .. } = cards;
         (Skin::Leaf, Painted { mesh, colours, texture: Some(thin.texture), riders, grids })
     };
-    let [_, greatest] = style.dyes().greatest();
-    let mut meshes =
-        vec![painted(thin::leaves(&look.leaves, greatest), &|cards, id| foliage.add_leaves(cards, id))];
+    let mut meshes = vec![painted(thin::leaves(&look.leaves), &|cards, id| foliage.add_leaves(cards, id))];
     let look = foliage.look();
     let flowers = thin::flowers(&look.flowers);
     meshes.extend(flowers.map(|thin| painted(thin, &|cards, id| foliage.add_flowers(cards, id))));
