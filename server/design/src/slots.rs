@@ -122,11 +122,13 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2_000))]
+
         #[test]
         fn a_personal_slot_sleeps_only_where_there_is_no_room(
             count in 1usize..20,
             marks in prop::collection::vec(any::<u16>(), 0..6),
-            changes in prop::collection::vec(0usize..24, 1..20),
+            changes in prop::collection::vec(0usize..24, 1..=20),
         ) {
             let mut slots = first(count);
             let personal: BTreeSet<u16> = marks.iter().map(|mark| mark % count as u16).collect();
