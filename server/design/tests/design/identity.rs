@@ -87,7 +87,7 @@ proptest! {
     fn shaped_branches_stay_who_they_are_through_any_densities(
         first in 3u16..20,
         shaped in prop::collection::btree_set(0u16..3, 1..=3),
-        changes in prop::collection::vec(3u16..22, 1..12),
+        changes in prop::collection::vec(3u16..22, 1..=20),
     ) {
         let mut design = designed(&plain(first));
         for &ordinal in &shaped {

@@ -568,3 +568,20 @@ fn lm21_edits_and_values_have_bounds() {
     assert_eq!(crate::document::designing::held_bytes(&document.history.operations), first);
     assert_eq!(first, document.design_in_force().expect("there is one").text.len());
 }
+
+#[test]
+fn ds5_a_design_and_what_grows_on_it_come_to_the_same_on_however_many_threads() {
+    let played = || {
+        let mut document = designed();
+        for what in 0..6 {
+            apply(&mut document, &say(what, 0.75, None));
+        }
+        grow(&mut document, 3, None);
+        (document.hash(), wood(&document))
+    };
+    let [one, eight] = [1, 8].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("there are threads");
+        pool.install(played)
+    });
+    assert_eq!(one, eight);
+}
