@@ -61,7 +61,8 @@ fn watch(client: &Path) -> io::Result<()> {
     for entry in fs::read_dir(client)? {
         let entry = entry?;
         if !NOT_SOURCES.iter().any(|name| entry.file_name() == *name) {
-            println!("cargo::rerun-if-changed={}", entry.path().display());
+            // From this package, or checkouts that share a target folder would watch each other's.
+            println!("cargo::rerun-if-changed=../client/{}", entry.file_name().display());
         }
     }
     Ok(())
