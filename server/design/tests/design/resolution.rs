@@ -188,7 +188,7 @@ fn a_path_strip_shows_where_a_value_comes_from() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(150))]
+    #![proptest_config(ProptestConfig::with_cases(10_000))]
 
     #[test]
     fn values_are_those_of_the_definition_after_any_edits(picks in picks(24)) {
