@@ -14,7 +14,7 @@ use crate::{
 /// The materials of the wood of a design, beside that which changes nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Dyes {
-    /// Different ones, in the order in which rows have them.
+    /// Different ones, in the order of the branches that have them first.
     pub materials: Vec<Material>,
     /// How many rows after one another have which: 0 for none, else the place of the material counted from 1. From the
     /// first row of the wood on; empty where no row has any.

@@ -152,7 +152,7 @@ export class TreeTable {
 
   /**
    * What a tree has by chance follows from this number below 2²⁴, by the row of its seed. It comes of how the trunk begins,
-   * so that it is the same wherever the tree is shown; it stays when the trunk is bent.
+   * so that it is the same wherever the tree is shown; as long as a page is open it stays when the trunk is bent.
    */
   numberOf(seed: number): number {
     const known = this.numbers.get(seed);

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::to_proto::style_options;
 
-/// Designs that were let go, and whose wood keeps its colours, at most: the oldest goes first (`LM11`).
+/// Designs that were let go, and whose wood keeps its colours, at most: the oldest goes first (`DS14`).
 pub(in crate::document) const MOST_LET_GO: usize = 8;
 
 /// Where wood of designs stands that were let go, and its colours: they follow from the designs, but not in no time.
