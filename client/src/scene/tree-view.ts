@@ -74,6 +74,11 @@ export class TreeView {
     return Math.max(this.radii.until, this.places.until);
   }
 
+  /** Has the whole textures of what nearly every tree has painted, before they are drawn with. */
+  paint(): void {
+    for (const textures of this.textures) textures.paint();
+  }
+
   /** Whether whole textures are there and coarse ones still shown. */
   get ripe(): boolean {
     return this.textures.some(({ ripe }) => ripe);

@@ -146,7 +146,7 @@ export class Viewport {
     this.world.tree.changed();
     if (this.empty && this.table.rows > 0) {
       this.empty = false;
-      this.world.painter.begun = true;
+      if (!this.pause.on) this.world.paint();
       this.loop.open();
     }
     if (this.cardless && this.table.rows > LARGE) this.slowed(true);
@@ -370,7 +370,10 @@ export class Viewport {
 
   /** Waits for what the picture on the canvas will have in the end, though not for a tree that goes on growing. */
   private async untilWhole(stop: AbortSignal): Promise<void> {
-    if (!this.empty) void this.loadFiner();
+    if (!this.empty) {
+      this.world.paint();
+      void this.loadFiner();
+    }
     for (let waited = 0; waited < WHOLE_BY && (this.loading || this.world.awaited); waited += WHOLE_EVERY) {
       stop.throwIfAborted();
       await after(WHOLE_EVERY);
@@ -409,6 +412,7 @@ export class Viewport {
     const { scale, smooth } = this.loop.control.quality;
     this.screen.fit(scale, smooth);
     this.world.shadow.stale = true;
+    if (!this.empty) this.world.paint();
     this.loop.invalidate();
   };
 

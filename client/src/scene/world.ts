@@ -73,6 +73,12 @@ export class World {
     return [...this.environment.meshes, ...this.tree.essential, ...this.sun.essential];
   }
 
+  /** Has all textures painted that are drawn with, from now on. */
+  paint(): void {
+    this.painter.begun = true;
+    this.tree.paint();
+  }
+
   /** Whether something finer is there than what is shown. */
   get ripe(): boolean {
     return this.tree.ripe || this.finer?.ripe === true;

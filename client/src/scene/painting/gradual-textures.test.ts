@@ -58,6 +58,19 @@ describe("textures", () => {
     expect(ordered()).toEqual(["smooth coarse", "smooth whole"]);
   });
 
+  it("have their whole picture painted before they are drawn with, where that is asked for", () => {
+    painter.begun = false;
+    const bark = new GradualTextures("bark", painter as unknown as Painter, { early: true });
+    bark.choose("smooth");
+    finish();
+    painter.begun = true;
+    bark.paint();
+    const seldom = new GradualTextures("bark", painter as unknown as Painter);
+    seldom.choose("furrowed");
+    seldom.paint();
+    expect(ordered()).toEqual(["smooth coarse", "smooth whole"]);
+  });
+
   it("are coarse as soon as they are painted and whole when the time is right", () => {
     expect(side()).toBe(1);
     expect(textures.unfinished).toBe(true);

@@ -75,6 +75,11 @@ export class GradualTextures<S extends Sort> {
     if (this.early) this.orderCoarse();
   }
 
+  /** Has the whole picture painted before it is first drawn with, if the coarse one was. */
+  paint(): void {
+    if (this.early && this.kind !== null) this.painted();
+  }
+
   /** Whether the whole pictures are there and not yet shown. */
   get ripe(): boolean {
     return this.finer !== null;
