@@ -112,7 +112,7 @@ uniform vec4 uCrown; // centre x z, radius, how dense
 /** How much of the sky a crown leaves, taken as a whole. */
 float underCrown(vec2 at) {
   float under = distance(at, uCrown.xy) / max(uCrown.z, 0.1);
-  return 1.0 - uCrown.w * 0.42 * exp(-under * under * 1.4);
+  return 1.0 - uCrown.w * 0.55 * exp(-under * under * 1.4);
 }
 /** How much of the sky is seen, and how near a foot is: 1 at its rim. */
 vec2 aroundFeet(vec2 at, float wander) {

@@ -100,7 +100,7 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
   // The box must not show where it ends.
   vec2 within = abs(2.0 * (at - uCrownFrom.xz) / uCrownSize.xz - 1.0);
   float shelter = (1.0 - crown.w) * smoothstep(1.0, 0.45, max(max(within.x, within.y), 0.8 * length(within)));
-  open *= 1.0 - 0.62 * shelter;
+  open *= 1.0 - 0.8 * shelter;
   if (uShadowTaps > 1) open *= besideRoots(at);
   float broad = noise(at * 0.021, 11.0) * 0.6 + noise(at * 0.057, 0.5) * 0.4;
   float patches = noise(at * 0.09, 2.0) * 0.45 + noise(at.yx * 0.21 + 3.7, 3.0) * 0.3 + noise(at * 0.47, 13.0) * 0.25;
