@@ -23,7 +23,7 @@ fn main() {
 
 fn bench() {
     let tree = Followed::tree(METAMERS);
-    for radius in [3.0, 6.0, 10.0] {
+    for radius in [3.0, 6.0, 10.0, 12.0] {
         let (mut rounds, mut added, mut kept) = (Vec::new(), Vec::new(), 0);
         let (mut undo_rounds, mut undone) = (Vec::new(), Vec::new());
         for _ in 0..ROUNDS {
