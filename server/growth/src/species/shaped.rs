@@ -274,7 +274,7 @@ fn shrub() -> Species {
         botanical: "Viburnum opulus",
         sentence: "Many stems from one root, arching outwards, none of them a trunk.",
         appearance: Appearance::default()
-            .leafy(LeafKind::Lobed, [112, 146, 66])
+            .leafy(LeafKind::Palmate, [112, 146, 66])
             .turned(0.5, 1.0, 0.1)
             .barked(BarkKind::Smooth, [128, 112, 94])
             .carved(0.8, 0.5, 0.8)
