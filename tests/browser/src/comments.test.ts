@@ -13,8 +13,7 @@ import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();
 
-/** Small glass that is drawn all the time, so that pins are where the wood is. */
-const SEEN: Screen = { width: 1180, height: 760, detail: 0.2, watched: true };
+const SEEN: Screen = { width: 1180, height: 760, detail: 0.2 };
 
 const UPRIGHT: Screen = { width: 834, height: 1194, detail: 0.5 };
 /** A phone on its side. */
@@ -129,7 +128,7 @@ test("CT1, CT2: two pages talk about a place that rides with its branch, goes wi
 });
 
 test("CT5: what its author deletes comes back with Undo, and is gone for everyone when the page is closed", async () => {
-  const { tablet, address } = await workshop.fresh({ ...SEEN, watched: false });
+  const { tablet, address } = await workshop.fresh(SEEN);
   const tree = await save(tablet, "Rowan");
   await openComments(tablet);
   const said = (page: Tablet, text: string) => page.page.locator(".comment-text", { hasText: text });
@@ -143,7 +142,7 @@ test("CT5: what its author deletes comes back with Undo, and is gone for everyon
   await tablet.page.getByLabel("What you want to say").fill("Thinner here");
   await tablet.press(tablet.page.getByRole("button", { name: "Send" }));
   await said(tablet, "Thinner here").waitFor();
-  const other = await workshop.open(address, { ...SEEN, watched: false });
+  const other = await workshop.open(address, SEEN);
   await openComments(other);
   await other.press(other.page.locator(".comment-threads > li > button"));
   await said(other, "Thinner here").waitFor();
@@ -169,7 +168,7 @@ test("CT5: what its author deletes comes back with Undo, and is gone for everyon
 });
 
 test("CT6: the summary opens as a page of its own, and asks for nothing", async () => {
-  const { tablet } = await workshop.stem({ ...SEEN, watched: false });
+  const { tablet } = await workshop.stem(SEEN);
   const tree = await save(tablet, "<Elm>");
   await tablet.page.evaluate(async (tree) => {
     const headers = { "content-type": "application/json" };
@@ -232,7 +231,7 @@ async function muchToSay(tablet: Tablet, tree: string): Promise<void> {
 }
 
 test("CT6: the summary is printed whole, whatever is said and shown", async () => {
-  const { tablet } = await workshop.stem({ ...SEEN, watched: false });
+  const { tablet } = await workshop.stem(SEEN);
   const tree = await save(tablet, "Robiniapseudoacacia".repeat(4));
   await muchToSay(tablet, tree);
   const page = await tablet.page.context().newPage();

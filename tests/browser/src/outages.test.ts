@@ -8,7 +8,7 @@ const workshop = Workshop.withItsOwnServer();
 
 describe("without a server", () => {
   it("the page opens all the same, says so, and finds it again", async () => {
-    const { tablet, address } = await workshop.fresh();
+    const { tablet, address } = await workshop.fresh({ ...SMALL, kept: true });
     await tablet.page.evaluate(async () => {
       await navigator.serviceWorker.ready;
     });

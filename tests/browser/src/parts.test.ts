@@ -6,13 +6,8 @@ import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
 
-/** Loads the page again without the worker that keeps its files, and without those of a pattern. */
+/** Loads the page again without the files of a pattern. */
 async function reloadWithout(tablet: Tablet, files: string): Promise<void> {
-  await tablet.page.addInitScript(() => Reflect.deleteProperty(Navigator.prototype, "serviceWorker"));
-  await tablet.page.evaluate(async () => {
-    const workers = (await navigator.serviceWorker?.getRegistrations()) ?? [];
-    await Promise.all(workers.map((worker) => worker.unregister()));
-  });
   await tablet.page.route(files, (route) => route.abort());
   await tablet.page.reload();
   await tablet.untilReady();

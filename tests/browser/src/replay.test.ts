@@ -18,7 +18,7 @@ afterAll(() => rm(folder, { recursive: true, force: true }));
 
 /** A tree that two people have grown in turns. */
 async function grown(screen: Screen) {
-  const { tablet, address } = await workshop.fresh(screen);
+  const { tablet, address } = await workshop.fresh({ ...screen, moves: true });
   await workshop.act(address, [{ kind: "grow", steps: 4 }]);
   await tablet.until("one has grown it", ({ present }) => present === 4);
   await workshop.act(address, [

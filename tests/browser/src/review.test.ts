@@ -20,9 +20,9 @@ const UPRIGHT: Screen = { ...LANDSCAPE, width: 834, height: 1194 };
 /** As far as a finger turns the tree, in pixels. */
 const TURN = 90;
 
-/** Drawn all the time, so that pins are where the wood is; as people see it where pictures are kept. */
+/** As people see it where pictures are kept. */
 function seen(screen: Screen): Screen {
-  return { ...screen, detail: KEEPING ? 0.6 : 0.2, watched: true };
+  return { ...screen, detail: KEEPING ? 0.6 : 0.2, watched: KEEPING, moves: true };
 }
 
 /** Ann's page with a tree on it, places about its stem, and a link for Bo. */

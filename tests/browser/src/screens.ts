@@ -6,6 +6,10 @@ export interface Screen {
   readonly detail: number;
   /** Whether the picture is drawn all the time, and not only while one is taken of it: for tests of the drawing itself. */
   readonly watched?: boolean;
+  /** Whether what slides in moves, and a replay begins by itself, though the picture is not watched. */
+  readonly moves?: boolean;
+  /** Whether the page is kept by its service worker, which takes a copy of all its files each time one is opened anew. */
+  readonly kept?: boolean;
   /** Whether it has a mouse and no touch. */
   readonly mouse?: boolean;
 }

@@ -61,10 +61,12 @@ export class Tablet extends Glass {
   }
 
   static async open(browser: Browser, darkroom: Darkroom, address: string, screen = COARSE): Promise<Tablet> {
-    const { width, height, detail, watched = false, mouse = false } = screen;
+    const { width, height, detail, watched = false, moves = watched, kept = false, mouse = false } = screen;
     const viewport = { width, height };
     const context = await browser.newContext({
       viewport,
+      reducedMotion: moves ? "no-preference" : "reduce",
+      serviceWorkers: kept ? "allow" : "block",
       hasTouch: !mouse,
       isMobile: !mouse,
       deviceScaleFactor: detail,

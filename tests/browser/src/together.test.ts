@@ -8,8 +8,8 @@ import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();
 
-/** Small glass that is drawn all the time: the camera of one page follows that of the other. */
-const SEEN: Screen = { width: 900, height: 640, detail: 0.2, watched: true };
+/** Small glass: the camera of one page follows that of the other. */
+const SEEN: Screen = { width: 900, height: 640, detail: 0.2 };
 const WITH_MOUSE: Screen = { ...SEEN, mouse: true };
 /** As near as two pages of the same size show the same place, in pixels. */
 const NEAR = 4;
