@@ -2,10 +2,18 @@ import { randomUUID } from "node:crypto";
 import type { Page } from "playwright-core";
 import { PROTOCOL_VERSION } from "../../../client/src/wire/generated";
 
-/** Has a page do commands in a session, one after the other, over a WebSocket as the client's own. */
-export async function perform(page: Page, session: string, commands: readonly string[]): Promise<void> {
+/**
+ * Has a page do commands in a session, one after the other, over a WebSocket as the client's own, and waits until all that
+ * they ask for is `done`, or only until they are `acknowledged` and may still be growing.
+ */
+export async function perform(
+  page: Page,
+  session: string,
+  commands: readonly string[],
+  awaited: "done" | "acknowledged" = "done",
+): Promise<void> {
   const problem = await page.evaluate(
-    ({ protocol, client, session, commands }) =>
+    ({ protocol, client, session, commands, awaited }) =>
       new Promise<string | null>((resolve) => {
         // So many commands may be on their way; the server reads on while it grows.
         const ahead = 64;
@@ -36,10 +44,10 @@ export async function perform(page: Page, session: string, commands: readonly st
           if (message.type === "acknowledged") taken = message.id;
           if (message.type === "welcome" || message.type === "acknowledged") send();
           // What was taken may still be refused until it is done.
-          if (message.type === "done" && message.id === commands.length) end(null);
+          if (message.type === awaited && message.id === commands.length) end(null);
         };
       }),
-    { protocol: PROTOCOL_VERSION, client: randomUUID(), session, commands },
+    { protocol: PROTOCOL_VERSION, client: randomUUID(), session, commands, awaited },
   );
   if (problem !== null) throw new Error(problem);
 }

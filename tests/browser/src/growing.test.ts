@@ -45,6 +45,20 @@ test.each(Object.entries(HOLDS))("growth ends within a step of letting go: %s", 
   await tablet.until("it is one operation", (facts) => facts.step === begun);
 });
 
+/** Has the server grow on bit by bit until the page offers to stop it, and stand still then: a slow page sees it in time. */
+async function untilItCanBeStopped({ page }: Tablet): Promise<void> {
+  const button = page.getByRole("button", { name: "Stop", exact: true });
+  const tries = 50;
+  for (let tried = 0; tried < tries; tried++) {
+    server.pause();
+    const seen = button.waitFor({ timeout: 2000 }).then(() => true);
+    if (await seen.catch(() => false)) return;
+    server.resume();
+    await new Promise((done) => setTimeout(done, 100));
+  }
+  throw new Error("the page does not offer to stop what grows");
+}
+
 const STOPS = {
   "the button": (tablet: Tablet) => tablet.page.getByRole("button", { name: "Stop", exact: true }).tap(),
   Escape: (tablet: Tablet) => tablet.page.keyboard.press("Escape"),
@@ -52,9 +66,10 @@ const STOPS = {
 
 test.each(Object.entries(STOPS))("growth that someone else began can be stopped with %s", async (_, stop) => {
   const { tablet, address } = await workshop.fresh(SMALL);
-  await workshop.act(address, [{ kind: "grow", steps: 1000 }]);
-  await tablet.page.getByRole("button", { name: "Stop", exact: true }).waitFor();
+  await workshop.begin(address, [{ kind: "grow", steps: 1000 }]);
+  await untilItCanBeStopped(tablet);
   await stop(tablet);
+  server.resume();
   const { step } = await tablet.untilQuiet();
   expect(step).toBeLessThan(1000);
   expect(await tablet.page.locator(".note.full").count(), "nor did it end of itself").toBe(0);
@@ -80,10 +95,12 @@ test("a stroke that is stopped is over, though the finger goes on", async () => 
   const rise = way(seed, { x: seed.x, y: seed.y - 260 }, 40);
   await tablet.lead([rise.slice(0, 20)]);
   // Long growth of someone else keeps the button there.
-  await workshop.act(address, [{ kind: "grow", steps: 1000 }]);
-  const stop = tablet.page.getByRole("button", { name: "Stop", exact: true });
-  await stop.waitFor();
-  await stop.evaluate((button: HTMLElement) => button.click());
+  await workshop.begin(address, [{ kind: "grow", steps: 1000 }]);
+  await untilItCanBeStopped(tablet);
+  await tablet.page
+    .getByRole("button", { name: "Stop", exact: true })
+    .evaluate((button: HTMLElement) => button.click());
+  server.resume();
   const { sent } = await tablet.untilQuiet();
   for (const point of rise.slice(20)) await tablet.touch("touchMove", [point]);
   await tablet.frames();

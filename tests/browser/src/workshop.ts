@@ -87,11 +87,20 @@ export class Workshop<At extends RunningServer = RunningServer> {
   }
 
   /** Has a page without the client do commands in the session at an address. */
-  async act(address: string, commands: readonly object[]): Promise<void> {
+  act(address: string, commands: readonly object[]): Promise<void> {
+    return this.#act(address, commands, "done");
+  }
+
+  /** Has one begin them: what they ask for may still be growing. */
+  begin(address: string, commands: readonly object[]): Promise<void> {
+    return this.#act(address, commands, "acknowledged");
+  }
+
+  async #act(address: string, commands: readonly object[], awaited: "done" | "acknowledged"): Promise<void> {
     if (!this.#browser) throw new Error("the browser has not been started");
     const page = await this.#browser.newPage();
     await page.goto(`${this.server.address}/health`);
-    await perform(page, address.slice(address.lastIndexOf("/") + 1), inJson(commands));
+    await perform(page, address.slice(address.lastIndexOf("/") + 1), inJson(commands), awaited);
     await page.close();
   }
 
