@@ -17,13 +17,14 @@ export async function perform(
       new Promise<string | null>((resolve) => {
         // So many commands may be on their way; the server reads on while it grows.
         const ahead = 64;
-        let sent = 0;
-        let taken = 0;
+        // And so many may wait to be done: a thousand are refused.
+        const waiting = 900;
+        let [sent, taken, done] = [0, 0, 0];
         const socket = new WebSocket(`${location.origin.replace("http", "ws")}/api/v1/sessions/${session}/socket`);
         // Nothing is drawn here: frames that nobody answers are not sent again, and hold nothing up.
         socket.binaryType = "arraybuffer";
         const send = () => {
-          while (sent < commands.length && sent - taken < ahead) {
+          while (sent < commands.length && sent - taken < ahead && sent - done < waiting) {
             sent += 1;
             socket.send(`{"type":"command","id":${sent},"command":${commands[sent - 1]}}`);
           }
@@ -42,7 +43,8 @@ export async function perform(
           if (message.type === "refused") end(`line ${message.id}: ${JSON.stringify(message.problem)}`);
           if (message.type === "problem") end(JSON.stringify(message.problem));
           if (message.type === "acknowledged") taken = message.id;
-          if (message.type === "welcome" || message.type === "acknowledged") send();
+          if (message.type === "done") done = message.id;
+          if (["welcome", "acknowledged", "done"].includes(message.type)) send();
           // What was taken may still be refused until it is done.
           if (message.type === awaited && message.id === commands.length) end(null);
         };
