@@ -17,7 +17,7 @@ export async function perform(
       new Promise<string | null>((resolve) => {
         // So many commands may be on their way; the server reads on while it grows.
         const ahead = 64;
-        // And so many may wait to be done: a thousand are refused.
+        // And so many may wait to be done; a server takes 1,024 of one client at most (LM23).
         const waiting = 900;
         let [sent, taken, done] = [0, 0, 0];
         const socket = new WebSocket(`${location.origin.replace("http", "ws")}/api/v1/sessions/${session}/socket`);
