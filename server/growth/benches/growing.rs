@@ -5,6 +5,8 @@
 //! With `--threads N` it compares one thread with N of this build, by the wall; with `--busy M` beside so many threads that
 //! do nothing but keep processors busy.
 
+mod support;
+
 use std::{
     env, fs, hint,
     path::PathBuf,
@@ -14,7 +16,7 @@ use std::{
     time::Instant,
 };
 
-use espalier_growth::{NoObserver, ParameterValues, Parameters, Simulation, StepInput};
+use espalier_growth::{NoObserver, ParameterValues, Parameters, Simulation, StepInput, use_clock};
 use rayon::ThreadPoolBuilder;
 
 /// Thresholds of shedding: nothing is shed, or a fourteenth of what grows.
@@ -132,6 +134,7 @@ fn main() {
                 let threads: Option<usize> = words.next().and_then(|n| n.parse().ok());
                 let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(1)).use_current_thread();
                 pool.build_global().expect("the pool is made once");
+                use_clock(support::passed);
                 let clock = if threads.is_some() { wall } else { clock };
                 let Grown { steps, grown, living, milliseconds } = grow(metamers, threshold, clock);
                 return println!("{steps} {grown} {living} {milliseconds}");

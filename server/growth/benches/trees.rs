@@ -1,9 +1,11 @@
 //! Whole trees: grown from seed to so many living metamers by the full model, and the last step of that.
 
+mod support;
+
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion_main};
-use espalier_growth::{NoObserver, ParameterValues, Parameters, Simulation, StepInput};
+use espalier_growth::{NoObserver, ParameterValues, Parameters, Simulation, StepInput, use_clock};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 const THREADS: [usize; 2] = [1, 2];
@@ -59,6 +61,7 @@ fn last_step(kind: Kind, metamers: u32) -> Duration {
 
 /// Calls `bench` with a name for each kind of tree on each number of threads, and the threads.
 fn each_way(mut bench: impl FnMut(BenchmarkId, Kind, &ThreadPool)) {
+    use_clock(support::passed);
     for threads in THREADS {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
         for kind in KINDS {

@@ -29,8 +29,6 @@ use slots::Slots;
 use waves::Waves;
 use wood::Wood;
 
-/// Work smaller than this is not worth handing to other threads.
-const PARALLEL_FROM: usize = 8192;
 /// The canopy is packed anew when one part in so many of it has gone dark.
 const DARK_SHARE: usize = 16;
 /// Nodes whose light one more shadow may change, roughly: only speed depends on it. Few in tests, so that small

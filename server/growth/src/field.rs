@@ -10,7 +10,6 @@ mod chunk;
 
 use espalier_plant::{AxisId, reserve};
 use glam::{Vec3, Vec4};
-use rayon::prelude::*;
 
 use self::chunk::{Chunk, Seeker, Status};
 use crate::{
@@ -20,6 +19,7 @@ use crate::{
     parameter_table::ParameterTable,
     parameters::Parameters,
     random::{Draw, Purpose},
+    side_by_side::Work,
     space::{Bud, Cone, Space},
 };
 
@@ -28,6 +28,9 @@ use crate::{
 const SPACING: (f32, f32) = (0.5, 8.0);
 /// Chunks that one thread goes through at a time.
 const BATCH: usize = 64;
+
+/// Chunks of markers whose claimants are found.
+static RESOLVING: Work = Work::new(512);
 
 /// The markers of the lattice, as far as nodes and buds have touched it.
 #[derive(Clone, Debug)]
@@ -125,8 +128,8 @@ impl MarkerField {
             }
             seen
         };
-        let batches = self.statuses.all_mut().par_chunks_mut(BATCH).zip(self.chunks.par_chunks_mut(BATCH));
-        let batches: Vec<_> = batches.map(resolve).collect();
+        let batches = self.statuses.all_mut().chunks_mut(BATCH).zip(self.chunks.chunks_mut(BATCH));
+        let batches = RESOLVING.each(batches.len() * BATCH, batches, resolve);
         batches.into_iter().flatten().for_each(|(axis, offset)| visit(axis, offset));
     }
 

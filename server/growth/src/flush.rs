@@ -7,7 +7,6 @@ use std::{collections::BTreeSet, ops::Range};
 
 use espalier_plant::{AxisId, MetamerId};
 use glam::Vec3;
-use rayon::prelude::*;
 
 use crate::{
     claims::Region,
@@ -17,6 +16,7 @@ use crate::{
     scene::Scene,
     selection::Selection,
     shoot::{Aim, Draft},
+    side_by_side::Run,
 };
 
 /// Buds that are asked, and shoots that are drafted, by one thread at a time.
@@ -50,12 +50,13 @@ impl Growth {
         scene: &mut Scene,
         stroke: Option<Vec3>,
         selection: &Selection,
+        run: &Run<'_>,
     ) -> Range<usize> {
         let born = scene.plant.metamer_count();
         let led = self.grow_leaders(scene, stroke, selection);
-        let shoots = self.shoots(scene, &led);
-        if shoots.len() > BATCH && (rayon::current_num_threads() > 1 || cfg!(test)) {
-            self.grow_side_by_side(scene, born, &shoots, stroke);
+        let shoots = self.shoots(scene, &led, run);
+        if run.is_shared() {
+            self.grow_side_by_side(scene, born, &shoots, stroke, run);
             return born..scene.plant.metamer_count();
         }
         for id in (born..scene.plant.metamer_count()).map(MetamerId::new) {
@@ -71,7 +72,14 @@ impl Growth {
 
     /// The same as if they grew one after another: whether a zone of an earlier step is in the way does not depend on
     /// who grows first. So all are drafted as if each were the only one, and grow as far as those before let them.
-    fn grow_side_by_side(&self, scene: &mut Scene, born: usize, shoots: &[Shoot], stroke: Option<Vec3>) {
+    fn grow_side_by_side(
+        &self,
+        scene: &mut Scene,
+        born: usize,
+        shoots: &[Shoot],
+        stroke: Option<Vec3>,
+        run: &Run<'_>,
+    ) {
         let now = &*scene;
         let draft = |shoots: &[Shoot]| {
             let mut drafts = Vec::with_capacity(shoots.len());
@@ -82,7 +90,7 @@ impl Growth {
             }
             drafts
         };
-        let drafts: Vec<Vec<Draft>> = shoots.par_chunks(BATCH).map(draft).collect();
+        let drafts: Vec<Vec<Draft>> = run.each(shoots.chunks(BATCH), draft);
         let count = scene.plant.metamer_count() - born + drafts.iter().map(Vec::len).sum::<usize>();
         let mut newcomers = Newcomers::new(self.parameters.scene().occupancy_radius, count);
         for id in (born..scene.plant.metamer_count()).map(MetamerId::new) {
@@ -160,19 +168,17 @@ impl Growth {
     }
 
     /// What enabled buds will grow, the longest shoot first, of equally long ones the oldest.
-    fn shoots(&self, scene: &Scene, led: &BTreeSet<AxisId>) -> Vec<Shoot> {
+    fn shoots(&self, scene: &Scene, led: &BTreeSet<AxisId>, run: &Run<'_>) -> Vec<Shoot> {
         let axes: Vec<AxisId> = self.claims.claimants().filter(|axis| !led.contains(axis)).collect();
         let vigor = |&axis: &AxisId| self.canopy.bud_vigor(&scene.plant, axis, &self.parameters);
-        let vigors: Vec<f64> = match axes.len() {
-            ..=BATCH => axes.iter().map(vigor).collect(),
-            _ => axes.par_iter().with_min_len(BATCH).map(vigor).collect(),
-        };
-        let greatest = vigors.iter().copied().fold(0.0, f64::max);
+        let vigors = run.each(axes.chunks(BATCH), |axes| axes.iter().map(vigor).collect::<Vec<f64>>());
+        let vigors = vigors.iter().flatten();
+        let greatest = vigors.clone().copied().fold(0.0, f64::max);
         let shoot = |(&axis, &vigor): (&AxisId, &f64)| {
             let length = self.claims.of(axis)?.shoot_length(vigor, greatest, self.parameters.of(axis));
             (length > 0).then(|| Shoot::new(axis, length))
         };
-        let mut shoots: Vec<Shoot> = axes.iter().zip(&vigors).filter_map(shoot).collect();
+        let mut shoots: Vec<Shoot> = axes.iter().zip(vigors).filter_map(shoot).collect();
         shoots.sort_unstable();
         shoots
     }

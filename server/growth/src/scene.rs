@@ -11,11 +11,15 @@ use crate::{
     nearby_order::nearby_order,
     obstacles::{CLEARANCE, Obstacle, Obstacles},
     parameters::Parameters,
+    side_by_side::Work,
     space::{Bud, Space},
 };
 
 /// Metamers a scene may hold, dead ones included, unless another limit is set. What was undone does not count.
 pub const DEFAULT_METAMER_BUDGET: u32 = 1_000_000;
+
+/// Nodes that come or go in time.
+static MOVING: Work = Work::new(2048);
 
 /// Plants among obstacles. Light and space are those of the plants as they stand, after every step, edit and move in
 /// time.
@@ -181,7 +185,7 @@ impl Scene {
             came.iter().for_each(|&(id, node)| space.occupy(id, node));
             axes.for_each(|axis| replace_bud(plant, space, axis));
         };
-        rayon::join(update_shadows, update_space);
+        MOVING.both(went.len() + came.len(), update_shadows, update_space);
     }
 
     /// Lets a metamer leave whose node was here.

@@ -8,7 +8,6 @@ use std::{collections::BTreeSet, ops::Range};
 
 use espalier_plant::{AxisId, MetamerId, Plant};
 use glam::Vec3;
-use rayon::prelude::*;
 
 use crate::{
     brush::BrushPiece,
@@ -23,11 +22,16 @@ use crate::{
     scene::Scene,
     selection::Selection,
     shedding,
+    side_by_side::{Run, Work},
     space::Bud,
 };
 
 /// New nodes whose buds one thread describes at a time.
 const BATCH: usize = if cfg!(test) { 4 } else { 256 };
+
+/// Buds of which those that can will grow, and what has grown is entered into light and space: one kind of work, for
+/// shoots that are drafted side by side are entered later.
+static GROWING: Work = Work::new(2048);
 
 /// A limb through an envelope begins once there is wood this near to its beginning, in internodes.
 const BEGUN: f32 = 2.0;
@@ -63,14 +67,16 @@ impl Generator for Growth {
         let buds_enabled = self.claims.count();
 
         observer.enter(Phase::Growth);
+        let run = GROWING.begin(buds_enabled as usize);
         let stroke = input.pieces.iter().find_map(BrushPiece::direction);
-        let unentered = self.grow(scene, stroke, &selection);
+        let unentered = self.grow(scene, stroke, &selection, &run);
         let shares = self.shares(&scene.plant, born);
         self.claims = Claims::default();
         observer.enter(Phase::Girth);
         scene.plant.end_step();
         observer.enter(Phase::Space);
-        changed.extend(self.settle(scene, born, &unentered));
+        changed.extend(self.settle(scene, born, &unentered, &run));
+        run.end();
         self.see_light(scene, &changed, observer);
         StepOutcome { metamers_grown: (scene.plant.metamer_count() - born) as u32, buds_enabled, shares }
     }
@@ -288,7 +294,13 @@ impl Growth {
 
     /// Enters what has grown into light and space: the rows from `born` on, into space those that are not in it yet.
     /// Returns their nodes.
-    fn settle(&mut self, scene: &mut Scene, born: usize, unentered: &Range<usize>) -> Vec<Vec3> {
+    fn settle(
+        &mut self,
+        scene: &mut Scene,
+        born: usize,
+        unentered: &Range<usize>,
+        run: &Run<'_>,
+    ) -> Vec<Vec3> {
         let Self { parameters, field, .. } = self;
         let Scene { plant, space, shadows, obstacles, .. } = scene;
         let plant = &*plant;
@@ -313,12 +325,9 @@ impl Growth {
             buds
         };
         // Node by node, in batches of as many nodes.
-        let buds: Vec<Vec<(AxisId, Bud)>> = match new.len() {
-            ..=BATCH => vec![buds_at(&new)],
-            _ => new.par_chunks(BATCH).map(buds_at).collect(),
-        };
+        let buds: Vec<Vec<(AxisId, Bud)>> = run.each(new.chunks(BATCH), buds_at);
+        let update_shadows = || shadows.cast_all(nodes().map(|(_, node)| node));
         let update_space = || {
-            shadows.cast_all(nodes().map(|(_, node)| node));
             let unentered = nodes().filter(|(id, _)| unentered.contains(&id.index()));
             unentered.for_each(|(id, node)| space.occupy(id, node));
             buds.iter().flatten().for_each(|&(axis, bud)| space.place_bud(axis, bud));
@@ -333,7 +342,7 @@ impl Growth {
                 }
             }
         };
-        rayon::join(update_space, update_field);
+        run.both(update_field, || run.both(update_space, update_shadows));
         nodes().map(|(_, node)| node).collect()
     }
 }

@@ -5,19 +5,24 @@
 
 use espalier_plant::{Plant, reserve};
 use glam::Vec3;
-use rayon::prelude::*;
 
-use super::{Canopy, NODES_IN_SHADOW, PARALLEL_FROM, node::Node, response, wood::Slotted};
+use super::{Canopy, NODES_IN_SHADOW, node::Node, response, wood::Slotted};
 use crate::{
     cells::bits,
     light::{ShadowGrid, Spot},
     parameter_table::ParameterTable,
     scene::Scene,
+    side_by_side::Work,
     vigor::{self, Sums},
 };
 
 /// Nodes that are looked at together: one bit each.
 const GROUP: usize = 64;
+/// Nodes that one thread looks at at a time.
+const BATCH: usize = if cfg!(test) { GROUP } else { 32 * GROUP };
+
+/// Nodes whose light is read.
+static READING: Work = Work::new(1 << 14);
 
 /// What light at the nodes follows from.
 #[derive(Clone, Copy)]
@@ -103,13 +108,20 @@ impl Canopy {
             });
         }
         self.is_partly_read = !are_few;
-        let put_in = |(number, (((nodes, spots), light), sums)): (usize, (_, &mut [Sums]))| {
-            let which = if are_few { u64::MAX } else { bearing(nodes) };
-            reader.put_in(Group { first: number * GROUP, nodes, spots, light, sums }, which, reads_all);
+        type Columns<'a> = (((&'a [Node], &'a [Spot]), &'a mut [f32]), &'a mut [Sums]);
+        let put_in = |(number, (((nodes, spots), light), sums)): (usize, Columns<'_>)| {
+            let groups = nodes.chunks(GROUP).zip(spots.chunks(GROUP));
+            let groups = groups.zip(light.chunks_mut(GROUP)).zip(sums.chunks_mut(GROUP));
+            for (group, (((nodes, spots), light), sums)) in groups.enumerate() {
+                let which = if are_few { u64::MAX } else { bearing(nodes) };
+                let first = number * BATCH + group * GROUP;
+                reader.put_in(Group { first, nodes, spots, light, sums }, which, reads_all);
+            }
         };
-        let groups = nodes.par_chunks(GROUP).zip(spots.par_chunks(GROUP));
-        let groups = groups.zip(light.par_chunks_mut(GROUP)).zip(sums.par_chunks_mut(GROUP));
-        groups.enumerate().with_min_len(PARALLEL_FROM / 2 / GROUP).for_each(put_in);
+        let count = nodes.len();
+        let batches = nodes.chunks(BATCH).zip(spots.chunks(BATCH));
+        let batches = batches.zip(light.chunks_mut(BATCH)).zip(sums.chunks_mut(BATCH));
+        READING.each(count, batches.enumerate(), put_in);
     }
 
     /// Reads the light that has been left for whoever draws the plant.

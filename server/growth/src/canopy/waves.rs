@@ -1,10 +1,18 @@
 //! Vigor flows up wave by wave: through many nodes at once.
 
 use super::{NOWHERE, node::Node, plants::Plants, wood::Slotted};
-use crate::vigor::{Split, Sums};
+use crate::{
+    side_by_side::Work,
+    vigor::{Split, Sums},
+};
 
 /// Waves smaller than this are not worth handing to other threads.
-const PARALLEL_FROM: usize = if cfg!(test) { 4 } else { 2048 };
+const SHARED_FROM: usize = if cfg!(test) { 4 } else { 8192 };
+/// Nodes that one thread goes through at a time, roughly.
+const PIECE: usize = if cfg!(test) { 2 } else { 2048 };
+
+/// Nodes that vigor flows through.
+static FLOWING: Work = Work::new(1 << 15);
 
 /// The nodes of a canopy in runs: each node's parent stands before its wave, or right before the node itself.
 ///
@@ -45,12 +53,20 @@ impl Waves {
         plants: &Plants,
         gain: f64,
     ) {
+        let run = FLOWING.begin(nodes.len());
         let mut starts = self.starts.iter().map(|&start| start as usize).peekable();
         while let Some(start) = starts.next() {
             let end = starts.peek().copied().unwrap_or(nodes.len());
             let (below, wave) = vigors[..end].split_at_mut(start);
-            Wave { nodes, wood, sums, plants, gain, below }.share_out(wave, start);
+            let all = Wave { nodes, wood, sums, plants, gain, below };
+            if run.is_shared() && wave.len() >= SHARED_FROM {
+                let pieces = all.pieces(wave, start).into_iter();
+                run.each(pieces, |(first, vigors)| all.share_out(vigors, first));
+            } else {
+                all.share_out(wave, start);
+            }
         }
+        run.end();
     }
 }
 
@@ -67,17 +83,21 @@ struct Wave<'a> {
 }
 
 impl Wave<'_> {
+    /// Parts of the wave, which begins at this slot, each with its first slot. None ends amid a shoot.
+    fn pieces<'v>(&self, mut vigors: &'v mut [f64], mut first: usize) -> Vec<(usize, &'v mut [f64])> {
+        let mut pieces = Vec::with_capacity(vigors.len() / PIECE + 1);
+        while !vigors.is_empty() {
+            let begins = |at: &usize| self.wood.parent(first + at) as usize != first + at - 1;
+            let end = (PIECE.min(vigors.len())..vigors.len()).find(begins).unwrap_or(vigors.len());
+            let (piece, rest) = vigors.split_at_mut(end);
+            pieces.push((first, piece));
+            (vigors, first) = (rest, first + end);
+        }
+        pieces
+    }
+
     /// Lets vigor flow through a part of the wave that begins with a shoot, in this slot.
     fn share_out(self, vigors: &mut [f64], first: usize) {
-        if vigors.len() >= PARALLEL_FROM {
-            // Not amid a shoot.
-            let begins = |at: &usize| self.wood.parent(first + at) as usize != first + at - 1;
-            if let Some(middle) = (vigors.len() / 2..vigors.len()).find(begins) {
-                let (left, right) = vigors.split_at_mut(middle);
-                rayon::join(|| self.share_out(left, first), || self.share_out(right, first + middle));
-                return;
-            }
-        }
         let nodes = &self.nodes[first..first + vigors.len()];
         let sums = &self.sums[first..first + vigors.len()];
         let mut before = 0.0;

@@ -1,6 +1,6 @@
 //! Exact distances on a pixel grid, by lower envelopes of parabolas (Felzenszwalb and Huttenlocher 2012).
 
-use rayon::prelude::*;
+use crate::side_by_side::Work;
 
 /// Values of pixels, row by row.
 #[derive(Clone, Debug)]
@@ -23,7 +23,8 @@ impl Raster {
     fn transposed(&self) -> Self {
         let (width, height) = (self.width, self.height());
         let mut turned = Self::filled(height, width, 0.0);
-        turned.values.par_chunks_mut(ROWS * height).enumerate().for_each(|(tile, rows)| {
+        let pieces = turned.values.chunks_mut(ROWS * height).enumerate();
+        TURNING.each(self.values.len(), pieces, |(tile, rows)| {
             let left = tile * ROWS;
             let columns = rows.len() / height;
             for top in (0..height).step_by(ROWS) {
@@ -41,6 +42,11 @@ impl Raster {
 
 /// Rows handed to a thread at once.
 const ROWS: usize = 16;
+
+/// Rows that become columns, by pixels.
+static TURNING: Work = Work::new(1 << 15);
+/// Envelopes of rows, by pixels.
+static ENVELOPES: Work = Work::new(1 << 15);
 
 /// Replaces each value f(x) by the least of f(s) + |x − s|² over all pixels s. Infinite values do not count.
 pub(super) fn lower_envelope(mut raster: Raster) -> Raster {
@@ -89,12 +95,11 @@ fn step_from(beside: &[f32], row: &mut [f32]) {
 
 fn envelopes_of_rows(raster: &mut Raster) {
     let width = raster.width;
-    raster.values.par_chunks_mut(ROWS * width).for_each_init(
-        || Parabolas::new(width),
-        |parabolas, rows| {
-            rows.chunks_exact_mut(width).for_each(|row| parabolas.replace(row));
-        },
-    );
+    let pixels = raster.values.len();
+    ENVELOPES.each(pixels, raster.values.chunks_mut(ROWS * width), |rows| {
+        let mut parabolas = Parabolas::new(width);
+        rows.chunks_exact_mut(width).for_each(|row| parabolas.replace(row));
+    });
 }
 
 /// The parabolas that make up the lower envelope of one row.
