@@ -179,7 +179,7 @@ impl Growth {
             (length > 0).then(|| Shoot::new(axis, length))
         };
         let mut shoots: Vec<Shoot> = axes.iter().zip(vigors).filter_map(shoot).collect();
-        shoots.sort_unstable();
+        run.sort(&mut shoots);
         shoots
     }
 }

@@ -137,6 +137,14 @@ impl Run<'_> {
         }
     }
 
+    /// Sorts values no two of which are equal.
+    pub(crate) fn sort<T: Ord + Send>(&self, values: &mut [T]) {
+        match self.way {
+            Way::Alone => values.sort_unstable(),
+            Way::Shared => values.par_sort_unstable(),
+        }
+    }
+
     /// Ends it.
     pub(crate) fn end(self) {
         if let Some((clock, began)) = self.began {
@@ -189,6 +197,9 @@ mod tests {
                 let run = Run { work: &work, items: 100, way, began: None };
                 let pieces: Vec<usize> = (0..100).collect();
                 let sums = run.each(pieces.chunks(7), |piece| piece.iter().sum::<usize>());
+                let mut numbers: Vec<u64> = (0..10_000).map(|n| n * 7919 % 10_007).collect();
+                run.sort(&mut numbers);
+                assert!(numbers.is_sorted());
                 (sums, run.both(|| 1, || "two"))
             })
         });
