@@ -21,6 +21,7 @@ use crate::{
     parameter_table::ParameterTable,
     parameters::Parameters,
     scene::Scene,
+    side_by_side::Run,
     vigor::{self, Split, Sums},
 };
 use node::Node;
@@ -177,7 +178,7 @@ impl Canopy {
     }
 
     /// Lets light flow down and vigor up.
-    pub(crate) fn distribute_vigor(&mut self, plant: &Plant, parameters: &ParameterTable) {
+    pub(crate) fn distribute_vigor(&mut self, plant: &Plant, parameters: &ParameterTable, run: &Run<'_>) {
         let lambda = |seed| f64::from(parameters.scene().apical_control_at(plant.age(seed)));
         self.plants.set_lambdas(lambda);
         let dark = self.gather_light(plant, parameters);
@@ -193,7 +194,7 @@ impl Canopy {
         self.bud_vigors.clear();
         let gain = f64::from(parameters.scene().vigor_gain) / vigor::UNIT;
         let Self { nodes, wood, sums, vigors, plants, waves, .. } = self;
-        waves.share_out(nodes, wood.of(plant), sums, vigors, plants, gain);
+        waves.share_out(nodes, wood.of(plant), sums, vigors, (plants, gain), run);
     }
 
     /// Tips before bases. Returns how many nodes no light flows through.

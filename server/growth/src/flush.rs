@@ -19,8 +19,10 @@ use crate::{
     side_by_side::Run,
 };
 
-/// Buds that are asked, and shoots that are drafted, by one thread at a time.
+/// Shoots that are drafted by one thread at a time.
 const BATCH: usize = if cfg!(test) { 4 } else { 256 };
+/// Buds that are asked by one thread at a time.
+const ASKED: usize = if cfg!(test) { 4 } else { 2048 };
 
 /// A bud that will grow: the complement of its length in the upper half of a number, its axis in the lower. So those
 /// that grow first come first, and two are compared as one number.
@@ -171,7 +173,7 @@ impl Growth {
     fn shoots(&self, scene: &Scene, led: &BTreeSet<AxisId>, run: &Run<'_>) -> Vec<Shoot> {
         let axes: Vec<AxisId> = self.claims.claimants().filter(|axis| !led.contains(axis)).collect();
         let vigor = |&axis: &AxisId| self.canopy.bud_vigor(&scene.plant, axis, &self.parameters);
-        let vigors = run.each(axes.chunks(BATCH), |axes| axes.iter().map(vigor).collect::<Vec<f64>>());
+        let vigors = run.each(axes.chunks(ASKED), |axes| axes.iter().map(vigor).collect::<Vec<f64>>());
         let vigors = vigors.iter().flatten();
         let greatest = vigors.clone().copied().fold(0.0, f64::max);
         let shoot = |(&axis, &vigor): (&AxisId, &f64)| {

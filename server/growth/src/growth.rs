@@ -21,8 +21,12 @@ use crate::{
     parameters::Parameters,
     random::{Draw, Purpose},
     scene::Scene,
+    side_by_side::{Run, Work},
     state::SimulationState,
 };
+
+/// Metamers whose light and vigor are made those of the present after a change.
+static SEEING: Work = Work::new(1 << 15);
 
 /// Markers of an envelope per cubic internode, at least: with fewer a narrow neck may have a gap that no bud sees
 /// across.
@@ -68,7 +72,7 @@ impl Growth {
             claims: Claims::default(),
             kept: Vec::new(),
         };
-        growth.see_light(scene, &[], &mut NoObserver);
+        growth.see_all_light(scene);
         growth
     }
 
@@ -202,7 +206,7 @@ impl Growth {
     pub fn look(&mut self, scene: &Scene) {
         if self.is_blind {
             self.is_blind = false;
-            self.see_light(scene, &[], &mut NoObserver);
+            self.see_all_light(scene);
         }
     }
 
@@ -218,18 +222,33 @@ impl Growth {
         let gone = shift.metamers_out.iter().map(|&(_, place)| place);
         let came = shift.metamers_in.iter().map(|&id| scene.plant.metamers().end(id));
         let changed: Vec<Vec3> = gone.chain(came).collect();
-        self.see_light(scene, &changed, &mut NoObserver);
+        let run = SEEING.begin(scene.plant.living_count() as usize);
+        self.see_light(scene, &changed, &mut NoObserver, &run);
+        run.end();
+    }
+
+    /// Makes light and vigor those of the present, where shadows may have come or gone anywhere.
+    fn see_all_light(&mut self, scene: &Scene) {
+        let run = SEEING.begin(scene.plant.living_count() as usize);
+        self.see_light(scene, &[], &mut NoObserver, &run);
+        run.end();
     }
 
     /// Makes light and vigor those of the present, after shadows have come or gone at these nodes. Where the
     /// canopy was forgotten, everything is read.
-    pub(crate) fn see_light(&mut self, scene: &Scene, changed: &[Vec3], observer: &mut impl Observer) {
+    pub(crate) fn see_light(
+        &mut self,
+        scene: &Scene,
+        changed: &[Vec3],
+        observer: &mut impl Observer,
+        run: &Run<'_>,
+    ) {
         let Self { canopy, parameters, .. } = self;
         observer.enter(Phase::Light);
         canopy.follow(&scene.plant, parameters);
-        canopy.read_light(scene, changed, parameters);
+        canopy.read_light(scene, changed, parameters, run);
         observer.enter(Phase::Vigor);
-        canopy.distribute_vigor(&scene.plant, parameters);
+        canopy.distribute_vigor(&scene.plant, parameters, run);
     }
 }
 

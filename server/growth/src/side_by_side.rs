@@ -17,6 +17,9 @@ use self::pace::{Pace, Way};
 
 type Clock = fn() -> Duration;
 
+/// Fewer pieces are not worth another thread.
+const LEAST_PIECES: usize = if cfg!(test) { 2 } else { 8 };
+
 static CLOCK: OnceLock<Clock> = OnceLock::new();
 
 /// Hands over a clock for the whole process: the time since some moment, always the same one. With it the simulation
@@ -120,6 +123,9 @@ impl Run<'_> {
             Way::Alone => pieces.map(work).collect(),
             Way::Shared => {
                 let pieces: Vec<P> = pieces.collect();
+                if pieces.len() < LEAST_PIECES {
+                    return pieces.into_iter().map(work).collect();
+                }
                 pieces.into_par_iter().with_max_len(1).map(work).collect()
             }
         }

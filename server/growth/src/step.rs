@@ -29,9 +29,9 @@ use crate::{
 /// New nodes whose buds one thread describes at a time.
 const BATCH: usize = if cfg!(test) { 4 } else { 256 };
 
-/// Buds of which those that can will grow, and what has grown is entered into light and space: one kind of work, for
-/// shoots that are drafted side by side are entered later.
-static GROWING: Work = Work::new(2048);
+/// Buds that have claimed something, and all that follows from that in a step: one kind of work, for a second thread keeps
+/// the first waiting even after it has done its part.
+static GROWING: Work = Work::new(4096);
 
 /// A limb through an envelope begins once there is wood this near to its beginning, in internodes.
 const BEGUN: f32 = 2.0;
@@ -76,8 +76,8 @@ impl Generator for Growth {
         scene.plant.end_step();
         observer.enter(Phase::Space);
         changed.extend(self.settle(scene, born, &unentered, &run));
+        self.see_light(scene, &changed, observer, &run);
         run.end();
-        self.see_light(scene, &changed, observer);
         StepOutcome { metamers_grown: (scene.plant.metamer_count() - born) as u32, buds_enabled, shares }
     }
 

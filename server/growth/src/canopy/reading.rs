@@ -12,7 +12,7 @@ use crate::{
     light::{ShadowGrid, Spot},
     parameter_table::ParameterTable,
     scene::Scene,
-    side_by_side::Work,
+    side_by_side::Run,
     vigor::{self, Sums},
 };
 
@@ -20,9 +20,6 @@ use crate::{
 const GROUP: usize = 64;
 /// Nodes that one thread looks at at a time.
 const BATCH: usize = if cfg!(test) { GROUP } else { 32 * GROUP };
-
-/// Nodes whose light is read.
-static READING: Work = Work::new(1 << 14);
 
 /// What light at the nodes follows from.
 #[derive(Clone, Copy)]
@@ -82,7 +79,13 @@ impl Reader<'_> {
 
 impl Canopy {
     /// Reads the light: where shadows have come or gone at these nodes, or everywhere. Puts in what all buds make of it.
-    pub(crate) fn read_light(&mut self, scene: &Scene, changed: &[Vec3], parameters: &ParameterTable) {
+    pub(crate) fn read_light(
+        &mut self,
+        scene: &Scene,
+        changed: &[Vec3],
+        parameters: &ParameterTable,
+        run: &Run<'_>,
+    ) {
         let Scene { plant, space, shadows, obstacles, .. } = scene;
         let Self { nodes, propensities, wood, spots, sky, light, sums, slots, .. } = self;
         let is_new = spots.is_empty();
@@ -118,10 +121,9 @@ impl Canopy {
                 reader.put_in(Group { first, nodes, spots, light, sums }, which, reads_all);
             }
         };
-        let count = nodes.len();
         let batches = nodes.chunks(BATCH).zip(spots.chunks(BATCH));
         let batches = batches.zip(light.chunks_mut(BATCH)).zip(sums.chunks_mut(BATCH));
-        READING.each(count, batches.enumerate(), put_in);
+        run.each(batches.enumerate(), put_in);
     }
 
     /// Reads the light that has been left for whoever draws the plant.

@@ -2,17 +2,14 @@
 
 use super::{NOWHERE, node::Node, plants::Plants, wood::Slotted};
 use crate::{
-    side_by_side::Work,
+    side_by_side::Run,
     vigor::{Split, Sums},
 };
 
 /// Waves smaller than this are not worth handing to other threads.
 const SHARED_FROM: usize = if cfg!(test) { 4 } else { 8192 };
 /// Nodes that one thread goes through at a time, roughly.
-const PIECE: usize = if cfg!(test) { 2 } else { 2048 };
-
-/// Nodes that vigor flows through.
-static FLOWING: Work = Work::new(1 << 15);
+const PIECE: usize = if cfg!(test) { 2 } else { 1024 };
 
 /// The nodes of a canopy in runs: each node's parent stands before its wave, or right before the node itself.
 ///
@@ -50,10 +47,9 @@ impl Waves {
         wood: Slotted<'_>,
         sums: &[Sums],
         vigors: &mut [f64],
-        plants: &Plants,
-        gain: f64,
+        (plants, gain): (&Plants, f64),
+        run: &Run<'_>,
     ) {
-        let run = FLOWING.begin(nodes.len());
         let mut starts = self.starts.iter().map(|&start| start as usize).peekable();
         while let Some(start) = starts.next() {
             let end = starts.peek().copied().unwrap_or(nodes.len());
@@ -66,7 +62,6 @@ impl Waves {
                 all.share_out(wave, start);
             }
         }
-        run.end();
     }
 }
 
