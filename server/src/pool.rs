@@ -6,7 +6,7 @@ mod turns;
 use std::{
     num::NonZeroUsize,
     panic::{AssertUnwindSafe, catch_unwind},
-    sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError, mpsc},
+    sync::{Arc, Condvar, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError, mpsc},
     thread,
     time::{Duration, Instant},
 };
@@ -92,9 +92,16 @@ impl Turn<'_> {
     }
 }
 
+/// Time since this was first asked.
+fn passed() -> Duration {
+    static BEGAN: LazyLock<Instant> = LazyLock::new(Instant::now);
+    BEGAN.elapsed()
+}
+
 impl SimulationPool {
     /// A pool of this many threads, or one for each core.
     pub fn new(threads: Option<NonZeroUsize>) -> Result<Self, ThreadPoolBuildError> {
+        espalier_growth::use_clock(passed);
         let cores = thread::available_parallelism();
         let threads = threads.or(cores.ok()).map_or(1, NonZeroUsize::get);
         let wide = ThreadPoolBuilder::new()

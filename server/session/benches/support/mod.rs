@@ -2,6 +2,7 @@
 
 use std::{
     fmt,
+    sync::LazyLock,
     time::{Duration, Instant},
 };
 
@@ -11,8 +12,10 @@ use espalier_session::{Document, Principal, delta, style_options};
 use glam::Vec3;
 
 /// Runs a bench where the server simulates: on a thread of the pool. From outside, each task would first have to wake
-/// one.
+/// one. The simulation has a clock, as there.
 pub fn on_the_pool(bench: impl FnOnce() + Send) {
+    static BEGUN: LazyLock<Instant> = LazyLock::new(Instant::now);
+    espalier_growth::use_clock(|| BEGUN.elapsed());
     rayon::scope(|_| bench());
 }
 
