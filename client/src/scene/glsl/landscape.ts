@@ -1,17 +1,22 @@
 /** Fields and meadows of far land: how much lighter or darker, where they can still be told apart. */
 export const FIELDS = /* glsl */ `
+uniform float uCloudDrift;
 vec3 fieldsAt(vec2 at, float distance) {
   vec2 shown = 1.0 - smoothstep(vec2(260.0, 900.0), vec2(1100.0, 3600.0), vec2(distance));
   float near = noise(at * 0.021, 11.0) - 0.5;
   float far = noise(at * 0.0058, 4.0) - 0.5;
   float much = uGround == GRASS ? 1.0 : 0.4;
-  return vec3(1.0) + much * (near * shown.x * vec3(0.34, 0.22, 0.30) + far * shown.y * vec3(0.46, 0.26, 0.34));
+  vec3 fields = vec3(1.0) + much * (near * shown.x * vec3(0.34, 0.22, 0.30) + far * shown.y * vec3(0.46, 0.26, 0.34));
+  // Heaps of clouds cast shadows, which drift with them; far ones run together.
+  float heaped = smoothstep(0.05, 0.25, uSkyParts.x) * (1.0 - smoothstep(0.55, 0.8, uSkyParts.x));
+  vec2 under = at * 0.0105 + 9.0 * uCloudDrift;
+  float shade = smoothstep(0.47, 0.66, noise(under, 16.0) * 0.7 + noise(under * 3.1, 7.0) * 0.3);
+  return fields * (1.0 - 0.55 * heaped * shade * mix(0.35, 1.0, shown.y));
 }
 `;
 
 /** Clouds, stars, hills and far trees: what a sky has before it. */
 export const LANDSCAPE = /* glsl */ `${FIELDS}
-uniform float uCloudDrift;
 /** Mist at the feet of what is far off, and how it is lit from one side. */
 vec3 range(vec3 behind, vec3 sight, float seed, float low, float high, float rough, vec3 hue, vec3 mist, float lifted) {
   vec2 towards = normalize(sight.xz);
@@ -22,10 +27,11 @@ vec3 range(vec3 behind, vec3 sight, float seed, float low, float high, float rou
   if (inside <= 0.0) return behind;
   float height = clamp((sight.y - low * 0.3) / max(top, 1e-3), 0.0, 1.0);
   // Woods and clearings, drawn out along the slopes; flanks that look to the sun are lighter.
-  float woods = noise(vec2(towards.x * 34.0 + towards.y * 21.0, sight.y * 420.0), seed + 1.0) - 0.5;
+  vec2 slope = vec2(towards.x * 52.0 + towards.y * 33.0, sight.y * 110.0);
+  float woods = smoothstep(0.34, 0.66, noise(slope, seed + 1.0) * 0.65 + noise(slope * vec2(3.7, 3.3), seed + 6.0) * 0.35) - 0.5;
   float ahead = noise((towards + 0.02 * uSun.zx * vec2(1.0, -1.0)) * 6.0, seed + 5.0);
   float flank = ahead - noise(towards * 6.0, seed + 5.0);
-  vec3 land = hue * (1.0 + rough * (0.30 * woods + 2.2 * flank));
+  vec3 land = hue * (1.0 + rough * (0.42 * woods + 2.6 * flank));
   return mix(behind, mix(mist, land, mix(lifted, 1.0, smoothstep(0.0, 0.9, height))), inside);
 }
 /** A line of trees along the edge of a field. */
@@ -141,11 +147,11 @@ vec3 before(vec3 sky, vec3 sight) {
   float snowy = uGround == SNOW ? 1.0 : 0.0;
   float bare = uGround == SAND ? 1.0 : 0.0;
   vec3 air = AIR_COLOUR + uGlowColour * 0.30 * pow(towards, 4.0);
-  vec3 leafy = mix(mix(vec3(0.034, 0.048, 0.022), lit, bare), vec3(0.16, 0.17, 0.19), snowy);
+  vec3 leafy = mix(mix(vec3(0.038, 0.062, 0.022), lit, bare), vec3(0.16, 0.17, 0.19), snowy);
   if (bare < 0.5) leafy *= ambient(UP) * 1.1 + SUN_COLOUR * 0.45 * max(uSun.y, 0.15);
   if (uSkyParts.z > 0.0) {
-    vec3 far = mix(mix(leafy, lit, 0.25), air, 0.80);
-    vec3 near = mix(mix(leafy, lit, 0.35), air, 0.52);
+    vec3 far = mix(mix(leafy, lit, 0.25), air, 0.74);
+    vec3 near = mix(mix(leafy, lit, 0.35), air, 0.42);
     sky = mix(sky, range(sky, sight, 3.0, 0.024, 0.088, 0.5, far, mix(air, HORIZON_COLOUR, 0.18), 0.55), uSkyParts.z);
     sky = mix(sky, range(sky, sight, 8.0, 0.006, 0.052, 1.0, near, air, 0.5), uSkyParts.z);
   }

@@ -85,7 +85,7 @@ const HOURS: readonly Hour[] = [
     sun: [3.2, 2.56, 1.82],
     above: [0.42, 0.54, 0.74],
     zenith: [0.14, 0.31, 0.61],
-    middle: [0.42, 0.61, 0.82],
+    middle: [0.34, 0.56, 0.84],
     horizon: [1.02, 0.93, 0.79],
     glow: [0.32, 0.26, 0.18],
   },
@@ -94,7 +94,7 @@ const HOURS: readonly Hour[] = [
     sun: [3.3, 2.92, 2.36],
     above: [0.42, 0.57, 0.8],
     zenith: [0.13, 0.31, 0.62],
-    middle: [0.4, 0.62, 0.87],
+    middle: [0.32, 0.56, 0.88],
     horizon: [1, 0.98, 0.91],
     glow: [0.22, 0.19, 0.14],
   },
@@ -103,7 +103,7 @@ const HOURS: readonly Hour[] = [
     sun: [3.3, 3.06, 2.66],
     above: [0.43, 0.58, 0.8],
     zenith: [0.12, 0.3, 0.62],
-    middle: [0.38, 0.61, 0.88],
+    middle: [0.3, 0.55, 0.89],
     horizon: [0.99, 0.99, 0.95],
     glow: [0.2, 0.18, 0.14],
   },
@@ -116,8 +116,8 @@ const MOON_ELEVATION = 38;
 const MOON_ASIDE = 130;
 /** A light lower than this casts shadows longer than any map. */
 const LOWEST_LIGHT = 4;
-/** How much brighter the sky is to look at than what it gives to see by, as eyes and films have it. */
-const SKY_GAIN = 1.7;
+/** How much brighter the sky is to look at than what it gives to see by, as eyes and films have it: most at its rim. */
+const SKY_GAIN = { zenith: 1.25, middle: 1.3, horizon: 1.55, cloud: 1.7 } as const;
 /** Tone mapping flattens colours; a little more saturation restores them. By moonlight eyes see hardly any. */
 const DAY_VIVID = 1.42;
 const NIGHT_VIVID = 0.8;
@@ -151,15 +151,17 @@ export function skyLight({ sky, ground, backdrop, sun_azimuth, sun_elevation }: 
     case "meadow":
     case "clear": {
       const below = bounced(hour, towards, BOUNCE[ground]);
-      const cloud = scale(mix(mix(hour.horizon, gray(hour.horizon), 0.4), hour.sun, 0.16), 1.3 * SKY_GAIN);
-      const [zenith, middle, horizon] = [hour.zenith, hour.middle, hour.horizon].map((hue) => scale(hue, SKY_GAIN));
+      const cloud = scale(mix(mix(hour.horizon, gray(hour.horizon), 0.4), hour.sun, 0.16), 1.3 * SKY_GAIN.cloud);
+      const zenith = scale(hour.zenith, SKY_GAIN.zenith);
+      const middle = scale(hour.middle, SKY_GAIN.middle);
+      const horizon = scale(hour.horizon, SKY_GAIN.horizon);
       return {
         ...common,
         ...hour,
-        zenith: zenith!,
-        middle: middle!,
-        horizon: horizon!,
-        air: airOf(middle!, horizon!),
+        zenith,
+        middle,
+        horizon,
+        air: airOf(middle, horizon),
         below,
         cloud,
         stars: sky === "clear" ? stars : 0.5 * stars,
