@@ -97,6 +97,7 @@ uniform sampler2D uSprigRelief;
 // Leaves of a pixel or two stay apart, or a sprig would be a blot.
 #define paintedAt(at) texture(uSprigColour, at, -1.0)
 #define reliefAt(at) texture(uSprigRelief, at, -1.0)
+#define aroundAt(at) texture(uSprigColour, at, 3.0).a
 #else
 uniform sampler2D uLeafColour; // half the brightness, second hue, sheerness, coverage
 uniform sampler2D uLeafRelief; // normal across and along, wood, margin
@@ -110,6 +111,8 @@ vec4 paintedAt(vec2 at) {
   float finer = exp2(-0.35 * uLeafForm.y);
   return textureGrad(uLeafColour, at, finer * across, finer * up);
 }
+/** How much is covered around a place. */
+float aroundAt(vec2 at) { return vTwig > 0.5 ? texture(uSprigColour, at, 3.0).a : texture(uLeafColour, at, 3.0).a; }
 vec4 reliefAt(vec2 at) {
   vec2 across = dFdx(at);
   vec2 up = dFdy(at);

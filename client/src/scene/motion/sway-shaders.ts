@@ -211,9 +211,19 @@ const WEATHER = /* glsl */ `
 uniform vec2 uWeather; // how far snow covers what it lies on, how wet it is
 vec3 weathered(vec3 albedo, vec3 normal) {
   albedo *= mix(1.0, 0.64, uWeather.y);
-  return mix(albedo, vec3(0.84, 0.87, 0.93), uWeather.x * smoothstep(0.12, 0.5, normal.y));
+  return mix(albedo, vec3(0.84, 0.87, 0.93), min(1.0, 1.3 * uWeather.x) * smoothstep(-0.05, 0.4, normal.y));
 }
 `;
+/** Snow on leaves that look up is thicker than they are: it fills what is open between them. */
+const HEAPED: Change = {
+  from: line("vec4 painted = paintedAt(vPicture);"),
+  to: `vec4 painted = paintedAt(vPicture);
+  float heaped = min(1.0, 1.3 * uWeather.x) * smoothstep(0.15, 0.6, abs(normalize(vNormal).y)) * float(dot(vNormal, cameraPosition - vWorld) * vNormal.y > 0.0);
+  if (heaped > 0.0) {
+    float around = aroundAt(vPicture);
+    painted.a = max(painted.a, heaped * smoothstep(0.10, 0.35, around));
+  }`,
+};
 const LIES_ON: readonly Change[] = ["vLight", "vLight.x"].map((light) => ({
   from: line(`if (${light} < 0.0) albedo = condemned(albedo);`),
   to: `albedo = weathered(albedo, normal); if (${light} < 0.0) albedo = condemned(albedo);`,
@@ -223,7 +233,9 @@ const WEATHERED: Change = { from: line("void main()"), to: `${WEATHER}void main(
 /** The same fragment shader for what stands in rain and snow; one that draws no colour of rows is left as it is. */
 export function weathering(shader: string): string {
   const lies = LIES_ON.find(({ from }) => from.test(shader));
-  return lies ? apply(apply(shader, lies), WEATHERED) : shader;
+  if (!lies) return shader;
+  const white = apply(apply(shader, lies), WEATHERED);
+  return HEAPED.from.test(white) ? apply(white, HEAPED) : white;
 }
 
 function apply(shader: string, { from, to }: Change): string {
