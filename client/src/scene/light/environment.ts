@@ -76,14 +76,15 @@ export class Environment {
 
   /** Passes the places of trunks and the extent of the crown to the ground. */
   update(table: TreeTable): void {
-    let found = 0;
+    const thickest = new Map<number, number>();
+    for (let row = 0; row < table.rows; row += 1) {
+      const seed = table.parent[row]!;
+      if (seed < 0 || table.parent[seed]! >= 0) continue;
+      thickest.set(seed, Math.max(thickest.get(seed) ?? 0, radiusOf(table.radiusCode[row]!)));
+    }
     for (const foot of this.feet) foot.w = 0;
-    for (let row = 0; row < table.rows && found < MOST_FEET; row += 1) {
-      if (table.parent[row]! >= 0) continue;
-      const first = table.successor[row]!;
-      const radius = first < 0 ? 0 : radiusOf(table.radiusCode[first]!);
-      this.feet[found]!.set(table.position[3 * row]!, table.numberOf(row), table.position[3 * row + 2]!, radius);
-      found += 1;
+    for (const [i, [seed, radius]] of [...thickest].slice(0, MOST_FEET).entries()) {
+      this.feet[i]!.set(table.position[3 * seed]!, table.numberOf(seed), table.position[3 * seed + 2]!, radius);
     }
     const { min, max } = table.bounds();
     const reach = 0.5 * Math.max(max[0] - min[0], max[2] - min[2]);
