@@ -25,8 +25,10 @@ void main() {
   vec2 clump = vec2(noise(tuft.xy * 0.55, 31.0), noise(tuft.xy * 0.33, 37.0));
   vec2 at = tuft.xy + 0.62 * (own.xy - 0.5);
   vec2 feet = aroundFeet(at, noise(at * 1.7, 12.0) - 0.5);
-  float grows = tuft.w * (1.0 - smoothstep(0.35, 0.95, feet.y));
-  float tall = (0.24 + 0.40 * own.z) * (0.35 + 1.35 * smoothstep(0.25, 0.85, clump.x)) * grows;
+  // Around a trunk the ground is trodden, but against it tufts stand that nothing reaches, and they are taller.
+  float hem = smoothstep(0.70, 0.96, feet.y) * smoothstep(0.30, 0.55, clump.x + 0.3 * (own.x - 0.5));
+  float grows = tuft.w * mix(1.0 - smoothstep(0.35, 0.95, feet.y), 1.0, hem);
+  float tall = (0.24 + 0.40 * own.z) * (0.35 + 1.35 * smoothstep(0.25, 0.85, clump.x)) * (1.0 + 1.1 * hem) * grows;
   float turn = 6.2832 * own.w;
   vec2 lean = 0.55 * vec2(cos(turn), sin(turn)) + 0.7 * (vec2(clump.y, noise(tuft.xy * 0.33, 41.0)) - 0.5);
   float t = blade.z;
