@@ -22,7 +22,7 @@ export const LEVELS: readonly Level[] = [
 const CURVED_STRIP = LEVELS.length - 2;
 const STRAIGHT_STRIP = LEVELS.length - 1;
 /** A strip shorter than this, in pixels, needs no curve. */
-const SHORT = 18;
+const SHORT = 11;
 /** A metamer keeps its level until it is so much larger or smaller than the level is for: none flickers between two. */
 const SLACK = 1.15;
 /** The radii between which a metamer keeps each level. */
