@@ -2,7 +2,8 @@ import { BufferAttribute, BufferGeometry, CircleGeometry, Mesh, Vector2, Vector3
 import { type Background, DEFAULT_APPEARANCE, type Ground } from "../../wire/generated";
 import { MOST_FEET } from "../glsl/environment";
 import type { Materials, Uniforms } from "../materials";
-import { radiusOf, type TreeTable } from "../table/tree-table";
+import type { TreeTable } from "../table/tree-table";
+import { trunkFeet } from "../table/trunk-feet";
 import { harmonicsOf, hemisphereOf } from "./sky-harmonics";
 import { skyLight } from "./sky-light";
 
@@ -76,14 +77,8 @@ export class Environment {
 
   /** Passes the places of trunks and the extent of the crown to the ground. */
   update(table: TreeTable): void {
-    const thickest = new Map<number, number>();
-    for (let row = 0; row < table.rows; row += 1) {
-      const seed = table.parent[row]!;
-      if (seed < 0 || table.parent[seed]! >= 0) continue;
-      thickest.set(seed, Math.max(thickest.get(seed) ?? 0, radiusOf(table.radiusCode[row]!)));
-    }
     for (const foot of this.feet) foot.w = 0;
-    for (const [i, [seed, radius]] of [...thickest].slice(0, MOST_FEET).entries()) {
+    for (const [i, { seed, radius }] of trunkFeet(table).slice(0, MOST_FEET).entries()) {
       this.feet[i]!.set(table.position[3 * seed]!, table.numberOf(seed), table.position[3 * seed + 2]!, radius);
     }
     const { min, max } = table.bounds();
