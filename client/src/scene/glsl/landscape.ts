@@ -89,14 +89,16 @@ vec3 heaps(vec3 sky, vec3 sight, float base, float size, float seed, float share
   float stands = 0.7 * noise(around * 0.42, seed) + 0.3 * noise(around * 1.1, seed + 1.0);
   float tall = smoothstep(0.62 - 0.55 * share, 0.90 - 0.55 * share, stands);
   if (tall <= 0.0) return sky;
-  float thick = heapAt(around, up, tall, seed);
+  // Towards the end of a row of heaps they shrink: or they would end on an upright line.
+  float less = 0.45 * (1.0 - smoothstep(0.0, 0.35, tall));
+  float thick = heapAt(around, up, tall, seed) - less;
   float wisps = noise(vec3(around * 5.0, up * 9.0)) - 0.5;
   float cover = smoothstep(0.0, 0.07, thick) * smoothstep(-0.10, 0.10, up + 0.16 * wisps);
   if (cover <= 0.0) return sky;
   // Light comes from the sun's side and from above; what lies behind more of a cloud is darker, and its base is darkest.
   vec2 along = vec2(-towards.y, towards.x);
   vec2 toSun = normalize(vec2(dot(uSun.xz, along), 0.35 + uSun.y)) * 0.17;
-  float behind = max(heapAt(around + along * toSun.x, up + toSun.y, tall, seed), 0.0);
+  float behind = max(heapAt(around + along * toSun.x, up + toSun.y, tall, seed) - less, 0.0);
   float light = exp(-5.0 * behind) * mix(0.45, 1.0, smoothstep(-0.1, 0.55, up));
   float facing = 0.5 + 0.5 * dot(normalize(uSun.xz), -towards);
   vec3 dark = mix(uCloudColour * 0.46, uMiddleColour * 0.72, 0.6);
