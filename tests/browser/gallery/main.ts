@@ -1,6 +1,7 @@
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { join, resolve } from "node:path";
 import { launchBrowser } from "../src/browser";
+import { watchDrawing } from "../src/drawing-faults";
 import { Server } from "../src/server";
 import { chosen, readCatalogue, readScript, treesOf } from "./catalogue";
 import { loopOf } from "./loop";
@@ -24,7 +25,7 @@ export async function main(words: readonly string[]): Promise<number> {
   const entries = chosen(await readCatalogue(), names);
   await mkdir(out, { recursive: true });
   const server = new Server();
-  const browser = await launchBrowser();
+  const browser = watchDrawing(await launchBrowser());
   let failed = 0;
   try {
     await server.start();

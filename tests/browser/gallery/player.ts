@@ -1,4 +1,5 @@
 import type { Browser, Page } from "playwright-core";
+import { takeDrawingFaults } from "../src/drawing-faults";
 import { Darkroom } from "../src/picture";
 import type { RunningServer } from "../src/server";
 import { Tablet } from "../src/tablet";
@@ -106,7 +107,8 @@ export class Player {
         await tablet.untilQuiet();
         pictures.unshift(await atRest(tablet.page));
       }
-      if (tablet.errors.length > 0) throw new Error(tablet.errors.join("; "));
+      const faults = [...tablet.errors, ...takeDrawingFaults()];
+      if (faults.length > 0) throw new Error(faults.join("; "));
       return pictures;
     } finally {
       await tablet.close();
