@@ -88,10 +88,10 @@ float besideRoots(vec2 at) {
   }
   return open;
 }
-/** Daisies and buttercups where grass is open: they stand in companies, and are lost where they are smaller than pixels. */
-vec3 flowered(vec3 grass, vec2 at, vec2 towards, float pixel, float sheltered) {
-  float company = smoothstep(0.50, 0.78, noise(at * 0.16, 17.0) * 0.6 + noise(at * 0.55, 4.0) * 0.4);
-  float many = 0.55 * company * (1.0 - smoothstep(0.05, 0.4, sheltered)) * (1.0 - smoothstep(0.10, 0.26, pixel));
+/** Daisies and buttercups where grass is open: they grow in patches, and are left out where they are smaller than pixels. */
+vec3 flowered(vec3 grass, vec2 at, float pixel, float sheltered) {
+  float patch_ = smoothstep(0.50, 0.78, noise(at * 0.16, 17.0) * 0.6 + noise(at * 0.55, 4.0) * 0.4);
+  float many = 0.55 * patch_ * (1.0 - smoothstep(0.05, 0.4, sheltered)) * (1.0 - smoothstep(0.10, 0.26, pixel));
   if (many <= 0.0) return grass;
   const float APART = 0.42;
   vec2 cell = floor(at / APART);
@@ -191,7 +191,7 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
     float grazed = 1.0 - 0.6 * uSun.y;
     surface.albedo *= max(0.35, 1.0 + 1.6 * (height - 0.5) - 1.0 * grazed * shaded);
     surface.albedo = mix(surface.albedo, vec3(0.128, 0.132, 0.052), 0.35 * smoothstep(0.55, 0.8, height));
-    surface.albedo = flowered(surface.albedo, at, eye.xz / away, shorter, shelter + foot);
+    surface.albedo = flowered(surface.albedo, at, shorter, shelter + foot);
     surface.albedo = mix(surface.albedo, soil, 0.8 * foot * (1.0 - 0.55 * smoothstep(0.4, 0.62, height)));
   }
   if (uGround != SNOW && uLeafForm.y < 0.5) {

@@ -22,7 +22,7 @@ void main() {
 }
 `;
 
-/** Unfired clay: matt, of no colour that a plant has, and a little darker where it meets the ground. */
+/** Unfired clay: matt, of no colour that a plant has, and a little darker where it meets the ground; moss and soil lie on it. */
 export const OBSTACLE_FRAGMENT = /* glsl */ `${HEAD}${NOISE}${LIGHT}
 in vec3 vWorld;
 centroid in vec3 vPlace;

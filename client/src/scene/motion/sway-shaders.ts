@@ -209,20 +209,21 @@ export function swaying(shader: string): string {
 /** What lies on what is drawn: wet it is darker, and snow lies on what looks up. */
 const WEATHER = /* glsl */ `
 uniform vec2 uWeather; // how far snow covers what it lies on, how wet it is
+/** How much of what looks up is white. */
+float snowCover() { return min(1.0, 1.3 * uWeather.x); }
 vec3 weathered(vec3 albedo, vec3 normal) {
   albedo *= mix(1.0, 0.64, uWeather.y);
-  return mix(albedo, vec3(0.84, 0.87, 0.93), min(1.0, 1.3 * uWeather.x) * smoothstep(-0.05, 0.4, normal.y));
+  return mix(albedo, vec3(0.84, 0.87, 0.93), snowCover() * smoothstep(-0.05, 0.4, normal.y));
 }
 `;
 /** Snow on leaves that look up is thicker than they are: it fills what is open between them. */
 const HEAPED: Change = {
   from: line("vec4 painted = paintedAt(vPicture);"),
   to: `vec4 painted = paintedAt(vPicture);
-  float heaped = min(1.0, 1.3 * uWeather.x) * smoothstep(0.15, 0.6, abs(normalize(vNormal).y)) * float(dot(vNormal, cameraPosition - vWorld) * vNormal.y > 0.0);
-  if (heaped > 0.0) {
-    float around = aroundAt(vPicture);
-    painted.a = max(painted.a, heaped * smoothstep(0.10, 0.35, around));
-  }`,
+  // Of a leaf that is seen from below the snow lies on the other side.
+  bool seenFromAbove = dot(vNormal, cameraPosition - vWorld) * vNormal.y > 0.0;
+  float heaped = seenFromAbove ? snowCover() * smoothstep(0.15, 0.6, abs(normalize(vNormal).y)) : 0.0;
+  if (heaped > 0.0) painted.a = max(painted.a, heaped * smoothstep(0.10, 0.35, aroundAt(vPicture)));`,
 };
 const LIES_ON: readonly Change[] = ["vLight", "vLight.x"].map((light) => ({
   from: line(`if (${light} < 0.0) albedo = condemned(albedo);`),
