@@ -26,7 +26,7 @@ static CLOCK: OnceLock<Clock> = OnceLock::new();
 /// finds out whether more threads than one are worth it; without, all threads of the pool do what is large. The first
 /// that is handed over counts. Plants do not depend on it.
 pub fn use_clock(clock: fn() -> Duration) {
-    // Whoever comes later has the same in mind.
+    // A clock is there already: any one will do.
     let _ = CLOCK.set(clock);
 }
 
