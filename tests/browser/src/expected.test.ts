@@ -210,6 +210,26 @@ describe("files", () => {
     return { name: download.suggestedFilename(), bytes: await readFile(path) };
   };
 
+  it("what was chosen last is chosen again, and nothing else while it is not known what the server writes", async () => {
+    const { tablet } = await workshop.stem(LANDSCAPE);
+    const { page } = tablet;
+    await fileOf(tablet, "Skeleton (JSON)");
+    let answer = () => {};
+    const held = new Promise<void>((done) => {
+      answer = done;
+    });
+    await page.route("**/api/v1/formats", (route) => held.then(() => route.continue()));
+    await page.reload();
+    await tablet.tap("Download");
+    const file = dialog(tablet).getByRole("button", { name: "Download file" });
+    await file.waitFor();
+    expect(await dialog(tablet).getByRole("radio", { checked: true }).count()).toBe(0);
+    expect(await file.isEnabled()).toBe(false);
+    answer();
+    await dialog(tablet).getByRole("radio", { name: "Skeleton (JSON)", checked: true }).waitFor();
+    expect(await file.isEnabled()).toBe(true);
+  });
+
   it("a picture of the view and the skeleton come under the tree's name", async () => {
     const { tablet, metamers } = await workshop.stem(LANDSCAPE);
     const { page } = tablet;

@@ -7,7 +7,7 @@ import {
   type SavedTree,
 } from "../../../wire/generated";
 import { cameraOptions } from "../../library/export-camera";
-import { type ExportChoice, optionsOf } from "../../library/export-choice";
+import { type ExportChoice, FIRST_CHOICE, optionsOf } from "../../library/export-choice";
 import { amountOf, bytesExpected } from "../../library/export-size";
 import { isDrawn, MOST_DRAWN, pixelsDrawn } from "../../library/picture-size";
 import type { Studio } from "../../studio";
@@ -147,6 +147,8 @@ function OnPage({ studio }: { studio: Studio }) {
     studio.settings.exportChoice.value = { ...choice, ...part };
   };
   const format = formats?.find(({ ending }) => ending === choice.format);
+  // What was chosen last is not known to be written yet; nothing else is chosen in its place.
+  const awaited = formats === undefined && choice.format !== FIRST_CHOICE.format;
   const screen = studio.stage.pixels();
   const options = format && optionsOf(choice, format, viewOf(studio, screen));
   const sizes = sizesOf(screen);
@@ -177,11 +179,11 @@ function OnPage({ studio }: { studio: Studio }) {
         legend={say("sheets.download.format")}
         name="format"
         values={["picture", ...(formats ?? []).map(({ ending }) => ending)]}
-        chosen={format ? choice.format : "picture"}
+        chosen={format || awaited ? choice.format : "picture"}
         text={(ending) => say(formats?.find((format) => format.ending === ending)?.label ?? "exports.picture")}
         onChoose={(format) => choose({ format })}
       />
-      <p class="quiet">{say(format?.text ?? "exports.picture.text")}</p>
+      {!awaited && <p class="quiet">{say(format?.text ?? "exports.picture.text")}</p>}
       {formats === null && <Lost askAgain={askAgain} />}
       {format ? (
         <>
@@ -189,14 +191,16 @@ function OnPage({ studio }: { studio: Studio }) {
           {options && <TooMuch format={format} options={options} />}
         </>
       ) : (
-        <Segments
-          legend={say("sheets.download.size")}
-          name="size"
-          values={sizes.map((_, i) => String(i))}
-          chosen={String(chosen)}
-          text={(i) => `${sizes[Number(i)]?.width} × ${sizes[Number(i)]?.height}`}
-          onChoose={(i) => setChosen(Number(i))}
-        />
+        !awaited && (
+          <Segments
+            legend={say("sheets.download.size")}
+            name="size"
+            values={sizes.map((_, i) => String(i))}
+            chosen={String(chosen)}
+            text={(i) => `${sizes[Number(i)]?.width} × ${sizes[Number(i)]?.height}`}
+            onChoose={(i) => setChosen(Number(i))}
+          />
+        )
       )}
       <div class="actions">
         {format && options && (
@@ -209,7 +213,7 @@ function OnPage({ studio }: { studio: Studio }) {
         <button
           type="submit"
           class="primary"
-          disabled={format && options ? !isDrawn(format, options) : size === undefined}
+          disabled={format && options ? !isDrawn(format, options) : awaited || size === undefined}
         >
           {say("sheets.download.act")}
         </button>

@@ -125,12 +125,21 @@ export function ExportOptions({ format, choice, choose, sees = false }: OptionsP
   );
 }
 
+/** What the server said last that it writes: a sheet that is opened again need not wait for it. */
+let known: readonly ExportFormat[] | undefined;
+
 /** What the server writes: undefined until it has answered, null where it has not. */
 export function useFormats() {
-  const [formats, set] = useState<readonly ExportFormat[] | null | undefined>();
+  const [formats, set] = useState<readonly ExportFormat[] | null | undefined>(known);
   const load = () => {
-    set(undefined);
-    ask<ExportFormat[]>("GET", "/api/v1/formats").then(set, () => set(null));
+    set(known);
+    ask<ExportFormat[]>("GET", "/api/v1/formats").then(
+      (answer) => {
+        known = answer;
+        set(answer);
+      },
+      () => set(known ?? null),
+    );
   };
   useEffect(load, []);
   return [formats, load] as const;
