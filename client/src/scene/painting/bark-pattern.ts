@@ -97,37 +97,41 @@ function furrowed(): BarkPattern {
   };
 }
 
-/** Pine: long plates of thin scales, layer upon layer, fox-red where they came off, deep between them. */
+/** Pine: long plates of thin scales, layer upon layer, fox-red where they came off, dark and deep between them. */
 function plated(): BarkPattern {
   const bends = turbulence(3, 2, 4, 31);
-  const plates = cells(7, 2, 1, 37);
-  const scales = cells(11, 5, 1, 34);
-  const layers = turbulence(7, 4, 5, 33);
+  const plates = cells(9, 3, 1, 37);
+  const scales = cells(19, 11, 1, 34);
+  const layers = turbulence(7, 5, 5, 33);
   const flutes = waves(9, 3, 36);
-  const grain = turbulence(56, 34, 2, 35);
+  const grain = turbulence(60, 44, 3, 35);
+  const clouds = turbulence(4, 3, 3, 38);
   const cell = noCell();
   return (u, v, out) => {
     const bend = bends(u, v);
     const fine = layers(u, v);
     const rough = grain(u, v);
-    const x = u + 0.08 * bend + 0.018 * fine;
-    const y = v + 0.16 * bends(v, u) + 0.03 * layers(v, u);
+    const x = u + 0.07 * bend + 0.02 * fine + 0.003 * rough;
+    const y = v + 0.14 * bends(v, u) + 0.035 * layers(v, u);
     const { nearest, second, chance } = plates(x, y, cell);
     // Furrows are wide and run on along the stem; from side to side plates only part.
     const gap = second - nearest;
-    const furrow =
-      step(0, 0.24, gap + 0.09 * fine) * (0.6 + 0.4 * step(0.02, 0.32, Math.abs(flutes(x, y)) + 0.4 * gap));
-    const scale = scales(x + 0.02 * rough, y, cell);
-    // Scales lie on each other, the topmost in the middle of a plate: each ends in a thin lip.
-    const level = 2.4 * step(0, 0.6, gap) + 1.7 * scale.chance + 1.8 * fine + 0.8 * chance;
+    const furrow = step(0, 0.2, gap + 0.1 * fine) * (0.6 + 0.4 * step(0.03, 0.26, Math.abs(flutes(x, y)) + 0.4 * gap));
+    const scale = scales(x + 0.012 * rough, y + 0.02 * fine, cell);
+    // Scales lie on each other, the topmost in the middle of a plate: each ends in a thin lip over the next.
+    const level = 3.4 * step(0, 0.7, gap) + 1.5 * scale.chance + 2.4 * fine + 0.8 * chance;
     const rest = level - Math.floor(level);
-    const lip = step(0.8, 1, rest);
-    const layer = Math.min(1, Math.max(0, 0.2 * (Math.floor(level) + lip)));
-    out.height = furrow * (0.34 + 0.62 * layer) + 0.045 * rough;
-    const deep = 1 - step(0.06, 0.5, out.height);
-    out.third = 0.72 * deep;
-    out.second = 0.45 * (1 - step(0.3, 0.75, layer + 0.12 * fine)) * (1 - out.third);
-    out.shade = 0.7 + 0.34 * layer + 0.16 * (scale.chance - 0.5) + 0.1 * (1 - rest) + 0.16 * rough;
+    const layer = Math.min(1, Math.max(0, 0.16 * (Math.floor(level) + step(0.7, 1, rest))));
+    const edge = step(0, 0.22, scale.second - scale.nearest);
+    out.height = furrow * (0.34 + 0.5 * layer + 0.1 * edge) + 0.06 * rough;
+    const deep = 1 - step(0.1, 0.66, furrow);
+    const bare = 1 - step(0.25, 0.7, layer + 0.2 * fine + 0.12 * clouds(u, v));
+    out.third = 0.85 * deep;
+    out.second = (0.28 * bare + 0.1 * chance) * (1 - out.third);
+    out.shade =
+      (0.72 + 0.26 * layer + 0.24 * (chance - 0.5) + 0.2 * (scale.chance - 0.5) + 0.24 * rough + 0.12 * clouds(u, v)) *
+      (0.8 + 0.2 * edge) *
+      (0.78 + 0.22 * step(0, 0.3, rest));
   };
 }
 

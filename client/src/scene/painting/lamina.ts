@@ -260,7 +260,7 @@ function needle(random: Random): Parts {
       const angle = lean + spread * (0.8 + 0.6 * random());
       const far = length * (0.88 + 0.16 * random());
       const to: Point = [from[0] + Math.sin(angle) * far, Math.min(0.99, from[1] + Math.cos(angle) * far)];
-      needles.push({ from, to, width: [0.0135, 0.007], out });
+      needles.push({ from, to, width: [0.0115, 0.006], out });
     }
   };
   // How far those of each layer stand aside: seen from the side, the ones in the middle point at the eye and look short.
@@ -269,7 +269,7 @@ function needle(random: Random): Parts {
     [0.9, 0.92],
     [0.45, 0.66],
   ] as const) {
-    const rows = 7;
+    const rows = 9;
     for (let row = 0; row < rows; row += 1) {
       for (const sign of [-1, 1]) {
         const out = Math.min(1, (row + 0.25 * (sign + 1) + 0.6 * random()) / rows);

@@ -26,7 +26,7 @@ export function leafLevels(kind: LeafKind, side: number): Levels[] {
     (lamina, i) => (side: number) => paintLeaf({ ...lamina, reach }, seeded(7 + i), side),
   );
   const single = atlasLevels(paintings, side, isSpray(kind) ? Math.min(side, COARSEST_SPRAY) : side);
-  return [{ ...single, reach }, sprigLevels(paintings, single)];
+  return [{ ...single, reach }, sprigLevels(paintings, single, side)];
 }
 
 function specimens(kind: LeafKind) {

@@ -3,11 +3,11 @@ import { seeded } from "./leaf-painter";
 import { LeafTile } from "./leaf-tile";
 import { SPRIG_LEAVES, SPRIG_REACH, TILE_MARGIN } from "./measures";
 
-/** Texels along each side of a sprig's tile: it is never seen near. */
-export const SPRIG_SIDE = 64;
+/** Texels along each side of a sprig's tile at its finest: it is never seen near. */
+const SPRIG_SIDE = 128;
 
-/** Texels along each side of the leaves it is put together from: about as many as they get in it. */
-const LEAF_SIDE = 32;
+/** Times as many texels as each of the leaves has that a sprig is put together from: about as many as they get in it. */
+const LEAVES_ACROSS = 2;
 /** Share of the card that leaves would cover if none lay over another. */
 const DENSITY = 0.3;
 /** Places tried for each leaf, of which the one furthest from all others is taken. */
@@ -28,18 +28,19 @@ interface Placed {
 
 /**
  * Sprigs put together from single leaves, whose levels are given too. `span` says how many leaves long they are, so that
- * one covers exactly as much as the leaves it stands for.
+ * one covers exactly as much as the leaves it stands for. Where single leaves have few texels, so have they.
  */
-export function sprigLevels(leaves: readonly Painting[], single: Levels): Levels {
-  const tiles = leaves.map((leaf) => leaf(LEAF_SIDE));
+export function sprigLevels(leaves: readonly Painting[], single: Levels, leafSide: number): Levels {
+  const side = Math.min(SPRIG_SIDE, LEAVES_ACROSS * leafSide);
+  const tiles = leaves.map((leaf) => leaf(side / LEAVES_ACROSS));
   const reach = tiles[0]!.reach;
   // Of a leaf's length squared.
   const area = 2 * reach * (1 + 2 * TILE_MARGIN) ** 2 * covered(single);
   const span = Math.sqrt((SPRIG_LEAVES * area) / DENSITY);
-  const sprigs = leaves.map((_, i) => sprig(tiles, span, seeded(53 + i)));
+  const sprigs = leaves.map((_, i) => sprig(tiles, span, side, seeded(53 + i)));
   const levels = atlasLevels(
     sprigs.map((tile) => () => tile),
-    SPRIG_SIDE,
+    side,
   );
   const card = 2 * SPRIG_REACH * (1 + 2 * TILE_MARGIN) ** 2;
   return { ...levels, span: Math.sqrt((SPRIG_LEAVES * area) / (card * Math.max(0.02, covered(levels)))) };
@@ -55,8 +56,8 @@ function covered({ colour }: Levels): number {
 }
 
 /** One picture: leaves strewn evenly, each somewhat another way. */
-function sprig(tiles: readonly LeafTile[], span: number, random: () => number): LeafTile {
-  const made = new LeafTile(SPRIG_REACH, SPRIG_SIDE);
+function sprig(tiles: readonly LeafTile[], span: number, side: number, random: () => number): LeafTile {
+  const made = new LeafTile(SPRIG_REACH, side);
   const placed: Placed[] = [];
   for (let i = 0; i < SPRIG_LEAVES; i += 1) placed.push(placedAmong(placed, span, random));
   for (const [i, place] of placed.entries()) stamp(made, tiles[i % tiles.length]!, place, span);
