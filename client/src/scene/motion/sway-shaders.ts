@@ -213,7 +213,7 @@ uniform vec2 uWeather; // how far snow covers what it lies on, how wet it is
 float snowCover() { return min(1.0, 1.3 * uWeather.x); }
 vec3 weathered(vec3 albedo, vec3 normal) {
   albedo *= mix(1.0, 0.64, uWeather.y);
-  return mix(albedo, vec3(0.84, 0.87, 0.93), snowCover() * smoothstep(-0.05, 0.4, normal.y));
+  return mix(albedo, vec3(0.81, 0.87, 0.97), snowCover() * smoothstep(-0.05, 0.4, normal.y));
 }
 `;
 /** Snow on leaves that look up is thicker than they are: it fills what is open between them. */
@@ -223,7 +223,12 @@ const HEAPED: Change = {
   // Of a leaf that is seen from below the snow lies on the other side.
   bool seenFromAbove = dot(vNormal, cameraPosition - vWorld) * vNormal.y > 0.0;
   float heaped = seenFromAbove ? snowCover() * smoothstep(0.15, 0.6, abs(normalize(vNormal).y)) : 0.0;
-  if (heaped > 0.0) painted.a = max(painted.a, heaped * smoothstep(0.10, 0.35, aroundAt(vPicture)));`,
+  // A heap is round, and the card it lies on is not.
+  vec2 inward = 0.5 - abs(fract(2.0 * vPicture) - 0.5);
+  heaped *= smoothstep(0.02, 0.16, min(inward.x, inward.y));
+  if (heaped > 0.0) painted.a = max(painted.a, heaped * smoothstep(0.10, 0.35, aroundAt(vPicture)));
+  // The light that comes through a leaf does not come through the snow on it.
+  painted.b *= 1.0 - heaped;`,
 };
 const LIES_ON: readonly Change[] = ["vLight", "vLight.x"].map((light) => ({
   from: line(`if (${light} < 0.0) albedo = condemned(albedo);`),
