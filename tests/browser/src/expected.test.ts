@@ -146,6 +146,8 @@ describe("the brush and the picture", () => {
     const widest = await radius();
     expect(widest).toBeGreaterThan(10);
     expect(widest).toBeLessThan(20);
+    // What is dragged after it is said would say it again.
+    await tablet.untilQuiet();
     await tooWide.tap();
     // All of its way does something.
     const radii = [widest];

@@ -108,6 +108,7 @@ vec4 paintedAt(vec2 at) {
   vec2 across = dFdx(at);
   vec2 up = dFdy(at);
   if (vTwig > 0.5) return textureGrad(uSprigColour, at, 0.5 * across, 0.5 * up);
+  // Needles run together to lobes in a picture that is no finer than the card.
   float finer = exp2(-1.1 * uLeafForm.y);
   return textureGrad(uLeafColour, at, finer * across, finer * up);
 }
