@@ -220,15 +220,17 @@ vec3 weathered(vec3 albedo, vec3 normal) {
 const HEAPED: Change = {
   from: line("vec4 painted = paintedAt(vPicture);"),
   to: `vec4 painted = paintedAt(vPicture);
-  // Of a leaf that is seen from below the snow lies on the other side.
-  bool seenFromAbove = dot(vNormal, cameraPosition - vWorld) * vNormal.y > 0.0;
-  float heaped = seenFromAbove ? snowCover() * smoothstep(0.15, 0.6, abs(normalize(vNormal).y)) : 0.0;
-  // A heap is round, and the card it lies on is not.
-  vec2 inward = 0.5 - abs(fract(2.0 * vPicture) - 0.5);
-  heaped *= smoothstep(0.02, 0.16, min(inward.x, inward.y));
-  if (heaped > 0.0) painted.a = max(painted.a, heaped * smoothstep(0.10, 0.35, aroundAt(vPicture)));
-  // The light that comes through a leaf does not come through the snow on it.
-  painted.b *= 1.0 - heaped;`,
+  if (snowCover() > 0.0) {
+    // Of a leaf that is seen from below the snow lies on the other side.
+    bool seenFromAbove = dot(vNormal, cameraPosition - vWorld) * vNormal.y > 0.0;
+    float heaped = seenFromAbove ? snowCover() * smoothstep(0.15, 0.6, abs(normalize(vNormal).y)) : 0.0;
+    // A heap is round: it ends before the leaf's picture, one of two by two, does.
+    vec2 inward = 0.5 - abs(fract(2.0 * vPicture) - 0.5);
+    heaped *= smoothstep(0.02, 0.16, min(inward.x, inward.y));
+    painted.a = max(painted.a, heaped * smoothstep(0.10, 0.35, aroundAt(vPicture)));
+    // The light that comes through a leaf does not come through the snow on it.
+    painted.b *= 1.0 - heaped;
+  }`,
 };
 const LIES_ON: readonly Change[] = ["vLight", "vLight.x"].map((light) => ({
   from: line(`if (${light} < 0.0) albedo = condemned(albedo);`),
