@@ -227,6 +227,7 @@ describe("files", () => {
     await file.waitFor();
     expect(await dialog(tablet).getByRole("radio", { checked: true }).count()).toBe(0);
     expect(await file.isEnabled()).toBe(false);
+    await dialog(tablet).getByText("Asking the server what it makes…").waitFor();
     answer();
     await dialog(tablet).getByRole("radio", { name: "Skeleton (JSON)", checked: true }).waitFor();
     expect(await file.isEnabled()).toBe(true);

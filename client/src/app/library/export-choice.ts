@@ -1,8 +1,11 @@
 import type { ExportFormat } from "../../wire/generated";
 
+/** The format that the page makes itself. */
+export const PICTURE = "picture";
+
 /** What a person chose to download last. */
 export interface ExportChoice {
-  /** `picture`, which the page makes, or the ending of a file that the server writes. */
+  /** `PICTURE`, or the ending of a file that the server writes. */
   readonly format: string;
   readonly lod: string;
   readonly frames: string;
@@ -23,7 +26,7 @@ export interface ExportChoice {
 }
 
 export const FIRST_CHOICE: ExportChoice = {
-  format: "picture",
+  format: PICTURE,
   lod: "0",
   frames: "36",
   on: [],

@@ -43,6 +43,7 @@ export const EXPORTS = {
   "exports.author": ["Author", "Urheber"],
   "exports.licence": ["Licence", "Lizenz"],
   "exports.about": ["About {megabytes} MB", "Etwa {megabytes} MB"],
+  "exports.asking": ["Asking the server what it makes…", "Der Server wird gefragt, was er macht…"],
   "exports.lost": ["The server does not say what else it makes.", "Der Server sagt nicht, was er sonst noch macht."],
   "exports.again": ["Ask again", "Noch einmal fragen"],
 } as const;

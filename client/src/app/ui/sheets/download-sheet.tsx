@@ -7,7 +7,7 @@ import {
   type SavedTree,
 } from "../../../wire/generated";
 import { cameraOptions } from "../../library/export-camera";
-import { type ExportChoice, FIRST_CHOICE, optionsOf } from "../../library/export-choice";
+import { type ExportChoice, optionsOf, PICTURE } from "../../library/export-choice";
 import { amountOf, bytesExpected } from "../../library/export-size";
 import { isDrawn, MOST_DRAWN, pixelsDrawn } from "../../library/picture-size";
 import type { Studio } from "../../studio";
@@ -71,6 +71,7 @@ function OfLibrary({ studio, tree }: { studio: Studio; tree: SavedTree }) {
           <TooMuch format={format} options={optionsOf(choice, format)} />
         </>
       )}
+      {formats === undefined && <p class="quiet">{say("exports.asking")}</p>}
       {formats === null && <Lost askAgain={askAgain} />}
       <div class="actions">
         <button
@@ -147,8 +148,8 @@ function OnPage({ studio }: { studio: Studio }) {
     studio.settings.exportChoice.value = { ...choice, ...part };
   };
   const format = formats?.find(({ ending }) => ending === choice.format);
-  // What was chosen last is not known to be written yet; nothing else is chosen in its place.
-  const awaited = formats === undefined && choice.format !== FIRST_CHOICE.format;
+  // Whether the server writes what was chosen last is not known yet; nothing else is shown as chosen meanwhile.
+  const awaited = formats === undefined && choice.format !== PICTURE;
   const screen = studio.stage.pixels();
   const options = format && optionsOf(choice, format, viewOf(studio, screen));
   const sizes = sizesOf(screen);
@@ -178,12 +179,12 @@ function OnPage({ studio }: { studio: Studio }) {
       <Segments
         legend={say("sheets.download.format")}
         name="format"
-        values={["picture", ...(formats ?? []).map(({ ending }) => ending)]}
-        chosen={format || awaited ? choice.format : "picture"}
+        values={[PICTURE, ...(formats ?? []).map(({ ending }) => ending)]}
+        chosen={format || awaited ? choice.format : PICTURE}
         text={(ending) => say(formats?.find((format) => format.ending === ending)?.label ?? "exports.picture")}
         onChoose={(format) => choose({ format })}
       />
-      {!awaited && <p class="quiet">{say(format?.text ?? "exports.picture.text")}</p>}
+      <p class="quiet">{say(awaited ? "exports.asking" : (format?.text ?? "exports.picture.text"))}</p>
       {formats === null && <Lost askAgain={askAgain} />}
       {format ? (
         <>
