@@ -1,4 +1,5 @@
 import { type Mesh, type Object3D, Vector3 } from "three";
+import { leafHash } from "../leaf-hash";
 
 /** Of what reaches below one height and above the other, in internodes, the ground is covered. */
 const HIGH = 0.45;
@@ -8,6 +9,9 @@ const KEEPS = 0.6;
 
 /** A square of the ground as a number, from its column and its line. */
 export const cellOf = (column: number, line: number) => column * 65_536 + line;
+
+/** From a square to those beside it. */
+const AROUND = [cellOf(1, 0), cellOf(-1, 0), cellOf(0, 1), cellOf(0, -1)] as const;
 
 /** The squares of the ground, so wide, in which something lies: grass does not grow through it. */
 export function coveredCells(bodies: readonly Object3D[], side: number): Set<number> {
@@ -26,6 +30,18 @@ export function coveredCells(bodies: readonly Object3D[], side: number): Set<num
     }
   }
   return covered;
+}
+
+/** The same without some of the squares at its rim, and a few behind those: grass grows over an edge that lies low. */
+export function frayed(covered: ReadonlySet<number>): Set<number> {
+  const open = (cell: number) => AROUND.some((step) => !covered.has(cell + step));
+  return new Set(
+    [...covered].filter((cell) => {
+      const chance = leafHash(cell) & 255;
+      if (open(cell)) return chance < 70;
+      return chance < 200 || !AROUND.some((step) => open(cell + step));
+    }),
+  );
 }
 
 /** Adds the squares whose middles lie in a triangle seen from above, or hardly outside it. */

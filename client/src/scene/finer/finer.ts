@@ -152,7 +152,9 @@ export class Finer {
     this.season = season;
     this.rough.value = ROUGHNESS[appearance.leaves.shape];
     this.drift.value = cloudDrift(appearance.background);
-    this.grassy = appearance.background.ground === "grass" && appearance.background.sky !== "studio";
+    const { ground, sky } = appearance.background;
+    this.grassy = ground !== "plain" && sky !== "studio";
+    this.tufts.sparse = ground !== "grass";
   }
 
   /** Chooses what is drawn of the grass, for a picture that stays or one that moves. */

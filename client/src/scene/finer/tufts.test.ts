@@ -1,6 +1,6 @@
 import { BoxGeometry, Matrix4, Mesh, PerspectiveCamera } from "three";
 import { describe, expect, it } from "vitest";
-import { cellOf, coveredCells } from "./covered";
+import { cellOf, coveredCells, frayed } from "./covered";
 import { MOST_TUFTS, tuftsAt } from "./tufts";
 
 /** What an eye sees that looks at the origin from so far, turned around it. */
@@ -22,7 +22,7 @@ const places = (tufts: Float32Array) => {
 
 describe("tufts of grass", () => {
   const { eye, sight } = seenFrom(0);
-  const tufts = tuftsAt(eye, sight, 120);
+  const tufts = tuftsAt(eye, sight, 250);
 
   it("are many and never too many", () => {
     expect(tufts.length / 4).toBeGreaterThan(4000);
@@ -32,7 +32,7 @@ describe("tufts of grass", () => {
   it("are the same ones whenever they are seen, and grow into the picture", () => {
     const before = places(tufts);
     const turned = seenFrom(0.02);
-    const after = places(tuftsAt(turned.eye, turned.sight, 120));
+    const after = places(tuftsAt(turned.eye, turned.sight, 250));
     const kept = [...before].filter(([place]) => after.has(place));
     expect(kept.length).toBeGreaterThan(0.9 * before.size);
     const changes = kept.map(([place, tall]) => Math.abs(after.get(place)! - tall));
@@ -41,14 +41,24 @@ describe("tufts of grass", () => {
 
   it("stand nowhere but before the eye, and no further than they are seen", () => {
     for (let at = 0; at < tufts.length; at += 4) {
-      expect(Math.hypot(tufts[at]! - eye[0], eye[1], tufts[at + 1]! - eye[2])).toBeLessThanOrEqual(120);
+      expect(Math.hypot(tufts[at]! - eye[0], eye[1], tufts[at + 1]! - eye[2])).toBeLessThanOrEqual(340);
       expect(tufts[at + 3]).toBeGreaterThanOrEqual(0);
       expect(tufts[at + 3]).toBeLessThanOrEqual(1);
     }
   });
 
+  it("stand in few bunches on sand, the same ones from everywhere", () => {
+    const few = tuftsAt(eye, sight, 250, undefined, true);
+    expect(few.length / 4).toBeGreaterThan(30);
+    expect(few.length).toBeLessThan(tufts.length / 5);
+    const turned = seenFrom(0.02);
+    const after = places(tuftsAt(turned.eye, turned.sight, 250, undefined, true));
+    const kept = [...places(few).keys()].filter((place) => after.has(place));
+    expect(kept.length).toBeGreaterThan(0.8 * (few.length / 4));
+  });
+
   it("are none from too high above", () => {
-    expect(tuftsAt([0, 200, 1], seenFrom(0).sight, 120)).toHaveLength(0);
+    expect(tuftsAt([0, 350, 1], seenFrom(0).sight, 250)).toHaveLength(0);
   });
 });
 
@@ -69,12 +79,21 @@ describe("what lies on the ground", () => {
 
   it("has no grass grow through it", () => {
     const { eye, sight } = seenFrom(0);
-    const tufts = tuftsAt(eye, sight, 120, coveredCells([path], 0.42));
+    const tufts = tuftsAt(eye, sight, 250, coveredCells([path], 0.42));
     let inside = 0;
     for (let at = 0; at < tufts.length; at += 4) {
       if (tufts[at]! > 1 && tufts[at]! < 5 && Math.abs(tufts[at + 1]!) < 20) inside += 1;
     }
     expect(inside).toBe(0);
+  });
+
+  it("frays at its rim alone", () => {
+    const left = frayed(covered);
+    expect(left.size).toBeGreaterThan(0.6 * covered.size);
+    expect(left.size).toBeLessThan(0.9 * covered.size);
+    for (let column = 4; column <= 7; column += 1) {
+      for (let line = -30; line <= 30; line += 1) expect(left.has(cellOf(column, line))).toBe(true);
+    }
   });
 
   it("covers nothing from high above it", () => {

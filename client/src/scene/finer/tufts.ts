@@ -4,18 +4,20 @@ import { TUFT_BLADES } from "../glsl/blades";
 import { ItemTexture } from "../item-texture";
 import { leafHash } from "../leaf-hash";
 import type { Fineness } from "../rendering/fineness";
-import { cellOf, coveredCells } from "./covered";
+import { cellOf, coveredCells, frayed } from "./covered";
+import { unmownAt } from "./meadow";
 
 /** Tufts at most. */
 export const MOST_TUFTS = 26_000;
 /** Side of the square in which one stands, in internodes, and squares of a block along each side. */
 const CELL = 0.42;
 const BLOCK = 16;
-/** Grass as tall as this is not drawn where it is not so many pixels tall. */
-const TALL = 0.45;
-const SEEN = 3;
+/** How tall grass is that is mown, and that is not. It is not drawn where it is fewer pixels tall than this. */
+const MOWN = 0.45;
+const UNMOWN = 1.6;
+const SEEN = 4;
 /** And none is drawn beyond this, in internodes. */
-const FARTHEST = 150;
+const FARTHEST = 340;
 /** Over the last share of the way to where it ends it shrinks away. */
 const SHRINKS = 0.35;
 /** Joints of a blade: two sides at each but the last. */
@@ -28,6 +30,8 @@ export class Tufts {
   private readonly items = new ItemTexture(Float32Array, 1);
   /** Where none grow. */
   private covered: ReadonlySet<number> = new Set();
+  /** Whether they stand here and there alone, as they do on sand. */
+  sparse = false;
   /** What they were placed for. */
   private seen = "";
 
@@ -49,7 +53,7 @@ export class Tufts {
 
   /** These lie on the ground. */
   cover(bodies: readonly Object3D[]): void {
-    this.covered = coveredCells(bodies, CELL);
+    this.covered = frayed(coveredCells(bodies, CELL));
     this.seen = "";
   }
 
@@ -58,12 +62,11 @@ export class Tufts {
     this.mesh.visible = shown && detailed;
     if (!this.mesh.visible) return;
     const sight = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
-    const seen = `${sight.elements.map((value) => value.toPrecision(6))} ${Math.round(pixels)}`;
+    const seen = `${sight.elements.map((value) => value.toPrecision(6))} ${Math.round(pixels)} ${this.sparse}`;
     if (seen === this.seen) return;
     this.seen = seen;
-    const reach = Math.min(FARTHEST, (TALL * pixels) / SEEN);
     const { x, y, z } = camera.position;
-    const found = tuftsAt([x, y, z], sight, reach, this.covered);
+    const found = tuftsAt([x, y, z], sight, pixels / SEEN, this.covered, this.sparse);
     this.items.reserve(found.length / 4);
     this.items.numbers.set(found);
     if (found.length > 0) this.items.touch(0, found.length / 4);
@@ -83,16 +86,20 @@ export class Tufts {
   }
 }
 
-/** Of the tufts that an eye sees as far as `reach`: place across, a random number, and how tall each is. */
+/** Of the tufts that an eye sees, those an internode tall as far as `reach`: place across, a random number, and how tall each is. */
 export function tuftsAt(
   eye: readonly [number, number, number],
   sight: Matrix4,
   reach: number,
   covered: ReadonlySet<number> = new Set(),
+  sparse = false,
 ): Float32Array<ArrayBuffer> {
   const found: number[] = [];
   const side = CELL * BLOCK;
-  const across = Math.sqrt(Math.max(0, reach * reach - eye[1] * eye[1]));
+  const reachAt = (x: number, z: number) =>
+    Math.min(FARTHEST, reach * (MOWN + (UNMOWN - MOWN) * (sparse ? 0.5 : unmownAt(x, z))));
+  const farthest = Math.min(FARTHEST, reach * UNMOWN);
+  const across = Math.sqrt(Math.max(0, farthest * farthest - eye[1] * eye[1]));
   if (across === 0) return new Float32Array(0);
   const frustum = new Frustum().setFromProjectionMatrix(sight);
   const ball = new Sphere(new Vector3(), 0.75 * side + 1);
@@ -108,9 +115,13 @@ export function tuftsAt(
     }
   }
   // So many would stand in what is seen; if they are too many, each has so much less of a chance.
-  const dense = blocks.reduce((sum, [distance]) => sum + BLOCK * BLOCK * thinned(distance / reach), 0);
-  const share = Math.min(1, (0.92 * MOST_TUFTS) / Math.max(1, dense));
+  const dense = blocks.reduce((sum, [distance, i, k]) => {
+    const all = distance / reachAt((i + 0.5) * side, (k + 0.5) * side);
+    return sum + (all < 1 ? BLOCK * BLOCK * thinned(all) : 0);
+  }, 0);
+  const share = Math.min(1, (0.92 * MOST_TUFTS) / Math.max(1, sparse ? dense / 20 : dense));
   for (const [, i, k] of blocks.sort((a, b) => a[0] - b[0])) {
+    const bunch = sparse ? bunchOf(i, k) : null;
     for (let cell = 0; cell < BLOCK * BLOCK; cell += 1) {
       const column = i * BLOCK + (cell % BLOCK);
       const line = k * BLOCK + Math.floor(cell / BLOCK);
@@ -119,15 +130,25 @@ export function tuftsAt(
       const x = (column + u / 1023) * CELL;
       const z = (line + v / 1023) * CELL;
       const distance = Math.hypot(x - eye[0], eye[1], z - eye[2]);
-      const chance = share * thinned(distance / reach);
+      const far = distance / reachAt(x, z);
+      const chance = share * thinned(far);
       const rank = w / 1023;
-      if (distance > reach || rank >= chance || covered.has(cellOf(column, line))) continue;
+      if (far > 1 || rank >= chance || covered.has(cellOf(column, line))) continue;
+      if (bunch && Math.hypot(x / side - i - bunch[0], z / side - k - bunch[1]) > bunch[2]) continue;
       // The next to go with distance are small already, and all are where grass ends.
-      const tall = Math.min(1, (chance - rank) / (0.25 * chance)) * Math.min(1, (1 - distance / reach) / SHRINKS);
+      const tall = Math.min(1, (chance - rank) / (0.25 * chance)) * Math.min(1, (1 - far) / SHRINKS);
       if (found.length < 4 * MOST_TUFTS) found.push(x, z, rank / chance, tall);
     }
   }
   return new Float32Array(found);
+}
+
+/** Where in a block of sparse ground tufts stand together, and how far from there, in shares of its side. */
+function bunchOf(i: number, k: number): readonly [u: number, v: number, radius: number] {
+  const hash = leafHash(leafHash(i + 7919) + k);
+  const [u, v, w] = [hash & 255, (hash >>> 8) & 255, (hash >>> 16) & 255];
+  // Most blocks bear none.
+  return [0.2 + (0.6 * u) / 255, 0.2 + (0.6 * v) / 255, w < 185 ? 0 : 0.04 + (0.13 * (w - 185)) / 70];
 }
 
 /** How many of all tufts are drawn at a share of the way to where they end. */

@@ -11,6 +11,8 @@ export const TUFT_BLADES = 5;
 /** Tufts of grass: each blade is a strip that bends over. */
 export const BLADE_VERTEX = /* glsl */ `${HEAD}${itemsOf("sampler2D", 1)}${NOISE}${LIGHT}${GROUND_SUN}
 ${DISTANCE}${FEET}${CROWN_FIELD}${GRASS_COLOUR}
+/** What grows on earth, sand and snow is dry. */
+const vec3 DRY[5] = vec3[5](vec3(0), vec3(0.150, 0.140, 0.062), vec3(0.300, 0.235, 0.115), vec3(0.105, 0.084, 0.060), vec3(0));
 in vec3 blade; // which one of its tuft, side −1 to 1, along 0 to 1
 out vec3 vColour;
 void main() {
@@ -23,18 +25,22 @@ void main() {
   }
   vec4 own = fract((tuft.z + 0.137 * blade.x) * vec4(57.31, 131.7, 313.3, 709.9) + blade.x * 0.618);
   vec2 clump = vec2(noise(tuft.xy * 0.55, 31.0), noise(tuft.xy * 0.33, 37.0));
-  vec2 at = tuft.xy + 0.62 * (own.xy - 0.5);
+  vec2 at = tuft.xy + 0.8 * (own.xy - 0.5);
   vec2 feet = aroundFeet(at, noise(at * 1.7, 12.0) - 0.5);
   // Around a trunk the ground is trodden, but against it tufts stand that nothing reaches, and they are taller.
   float hem = smoothstep(0.70, 0.96, feet.y) * smoothstep(0.30, 0.55, clump.x + 0.3 * (own.x - 0.5));
   float grows = tuft.w * mix(1.0 - smoothstep(0.35, 0.95, feet.y), 1.0, hem);
-  float tall = (0.24 + 0.40 * own.z) * (0.35 + 1.35 * smoothstep(0.25, 0.85, clump.x)) * (1.0 + 1.1 * hem) * grows;
+  // In drifts it was never mown: there it is taller, and some of its stalks bear seeds.
+  float unmown = uGround == GRASS ? unmownAt(at) : 0.45;
+  float stalk = blade.x < 0.5 ? step(0.62, own.w) * unmown : 0.0;
+  float tall = (0.24 + 0.40 * own.z) * (0.35 + 1.35 * smoothstep(0.25, 0.85, clump.x)) * (1.0 + 1.1 * hem + 2.6 * unmown) * grows;
+  tall = mix(tall, max(1.25 * tall, 1.5 + 0.6 * own.x) * min(grows * 1.2, 1.0), stalk);
   float turn = 6.2832 * own.w;
   vec2 lean = 0.55 * vec2(cos(turn), sin(turn)) + 0.7 * (vec2(clump.y, noise(tuft.xy * 0.33, 41.0)) - 0.5);
   float t = blade.z;
   float away = distance(cameraPosition, vec3(at.x, 0.0, at.y));
   // Never thinner than most of a pixel.
-  float half_ = max(0.019 * (0.6 + 0.8 * own.x), 0.34 * away / max(uView.w, 1.0)) * (1.0 - 0.92 * t) * step(1e-3, grows);
+  float half_ = max(0.019 * (0.6 + 0.8 * own.x), 0.45 * away / max(uView.w, 1.0)) * (1.0 - 0.92 * t) * step(1e-3, grows);
   vec3 bend = vec3(lean.x, 0.0, lean.y) * tall * t * t;
   vec3 world = vec3(at.x, -0.02, at.y) + vec3(0.0, tall * (t - 0.22 * t * t * length(lean)), 0.0) + bend;
   vec3 eye = normalize(cameraPosition - world);
@@ -46,8 +52,9 @@ void main() {
   float shelter = (1.0 - crown.w) * smoothstep(1.0, 0.45, max(max(within.x, within.y), 0.8 * length(within)));
   float open = feet.x * (1.0 - 0.62 * shelter);
   float sun = groundSun(vec3(at.x, 0.0, at.y));
-  vec3 albedo = grassAt(at, cameraPosition.y / max(away, 1e-3)) * (0.72 + 0.56 * own.y) * mix(0.55, 1.75, t);
-  albedo = mix(albedo, vec3(0.19, 0.165, 0.085), 0.30 * t * smoothstep(0.55, 0.95, own.w * 0.5 + clump.y * 0.6));
+  vec3 albedo = (uGround == GRASS ? grassAt(at, cameraPosition.y / max(away, 1e-3)) : DRY[uGround]) * (0.72 + 0.56 * own.y) * mix(0.55, 1.75, t);
+  albedo = mix(albedo, (uGround == GRASS ? vec3(0.205, 0.175, 0.088) : DRY[uGround]) * mix(0.7, 1.35, t), max(stalk * 0.85, 0.30 * unmown * t));
+  if (uGround == GRASS) albedo = mix(albedo, vec3(0.19, 0.165, 0.085), 0.30 * t * smoothstep(0.55, 0.95, own.w * 0.5 + clump.y * 0.6));
   // What shines through a blade that stands against the sun is yellower than what it reflects.
   float against = pow(max(0.0, -dot(eye, uSun)), 3.0);
   vec3 lit = albedo * (ambient(normal) * open * mix(0.8, 1.1, t) + SUN_COLOUR * mix(facingSun(UP), facingSun(normal), 0.45) * sun * mix(0.7, 1.0, open));

@@ -1,11 +1,12 @@
+import { UNMOWN } from "../finer/meadow";
+import { CHANCES } from "./chances";
 import { CROWN_FIELD } from "./crown";
 import { MOST_FEET } from "./environment";
 import { FIELDS } from "./landscape";
 import { ROOTS } from "./roots";
 
 /** The colour of grass where it grows. */
-export const GRASS_COLOUR = /* glsl */ `
-/** What lies flat is drawn out across the view where that grazes the ground, so that small patches are left out there. */
+export const GRASS_COLOUR = /* glsl */ `${UNMOWN}/** What lies flat is drawn out across the view where that grazes the ground, so that small patches are left out there. */
 vec3 grassAt(vec2 at, float grazing) {
   float broad = noise(at * 0.021, 11.0) * 0.6 + noise(at * 0.057, 0.5) * 0.4;
   vec3 patches = vec3(noise(at * 0.09, 2.0), noise(at.yx * 0.21 + 3.7, 3.0), noise(at * 0.47, 13.0)) - 0.5;
@@ -17,7 +18,7 @@ vec3 grassAt(vec2 at, float grazing) {
 `;
 
 /** What the ground is made of and what lies on it, as finely as it is seen. */
-export const GROUND_SURFACE = /* glsl */ `${CROWN_FIELD}${FIELDS}${GRASS_COLOUR}
+export const GROUND_SURFACE = /* glsl */ `${CHANCES}${CROWN_FIELD}${FIELDS}${GRASS_COLOUR}
 uniform vec4 uBarkShape; // relief, root flare, collar, smoothing
 ${ROOTS}uniform vec4 uLeafSeason; // size, presence, fresh, turned
 uniform vec4 uLeafTraits; // shift by vigor, orientation, withered
@@ -33,11 +34,6 @@ float sward(vec2 at, float blurred) {
   vec4 parts = vec4(noise(at * wave.x, 8.0), noise(at.yx * wave.y, 5.0), noise(at * wave.z, 15.0), noise(at.yx * wave.w, 6.0));
   return 0.5 + dot(vec4(0.22, 0.34, 0.34, 0.30) * shown, parts - 0.5);
 }
-vec3 hashed(vec2 cell) {
-  vec3 p = fract(vec3(cell.xyx) * vec3(0.1031, 0.1030, 0.0973));
-  p += dot(p, p.yxz + 33.33);
-  return fract((p.xxy + p.yzz) * p.zyx);
-}
 /** Leaves that have fallen, so many of them: their colour, and how much of the ground they cover here. */
 vec4 litterAt(vec2 at, float many, float pixel) {
   float side = 0.9 * max(uLeafSize, 0.12);
@@ -50,9 +46,9 @@ vec4 litterAt(vec2 at, float many, float pixel) {
   vec2 cell = floor(place);
   for (int i = 0; i < 9; i++) {
     vec2 other = cell + vec2(float(i % 3) - 1.0, float(i / 3) - 1.0);
-    vec3 own = hashed(other);
+    vec3 own = chances(other);
     if (own.z > many) continue;
-    vec3 more = hashed(other + 71.3);
+    vec3 more = chances(other + 71.3);
     vec2 from = place - other - own.xy;
     float turn = 6.2832 * more.x;
     from = vec2(from.x * cos(turn) + from.y * sin(turn), from.y * cos(turn) - from.x * sin(turn));
@@ -95,7 +91,7 @@ vec3 flowered(vec3 grass, vec2 at, float pixel, float sheltered) {
   if (many <= 0.0) return grass;
   const float APART = 0.42;
   vec2 cell = floor(at / APART);
-  vec3 own = hashed(cell + 13.7);
+  vec3 own = chances(cell + 13.7);
   if (own.z > many) return grass;
   vec2 from = (at / APART - cell - mix(vec2(0.22), vec2(0.78), own.xy)) * APART;
   float wide = 0.055 + 0.03 * own.x;
@@ -132,10 +128,17 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
   } else if (uGround == SAND) {
     float bend = noise(at * 0.07, 4.0) * 9.0;
     float shown = near * (1.0 - smoothstep(0.3, 1.2, blurred));
-    float ripple = sin(at.x * 1.9 + at.y * 0.8 + bend + 1.5 * noise(at * 0.45, 9.0));
+    // Ripples part and meet; their lee sides are steep. Between drifts of them the sand lies smooth.
+    float phase = at.x * 2.3 + at.y * 1.0 + bend + 2.6 * noise(at * 0.31, 9.0) + 0.8 * noise(at * 1.1, 5.0);
+    float crest = fract(phase / 6.2831853);
+    float slope = crest < 0.72 ? 0.39 : -1.0;
+    slope *= smoothstep(0.0, 0.06, crest) * smoothstep(0.0, 0.06, abs(crest - 0.72)) * smoothstep(1.0, 0.94, crest);
+    float rippled = shown * smoothstep(0.30, 0.52, noise(at * 0.06, 21.0));
+    float grains = (noise(at * 9.0, 3.0) + noise(at * 23.0, 7.0) - 1.0) * (1.0 - smoothstep(0.03, 0.12, shorter));
     surface.albedo = mix(vec3(0.430, 0.330, 0.225), vec3(0.530, 0.430, 0.310), broad * 0.5 + patches * 0.5);
-    surface.albedo *= 1.0 + near * (fine - 0.5) * 0.14 + shown * ripple * 0.035;
-    surface.normal = normalize(vec3(ripple * 0.10 * shown, 1.0, (broad - 0.5) * 0.25));
+    surface.albedo *= 1.0 + near * (fine - 0.5) * 0.14 + 0.16 * grains - 0.05 * rippled * (crest - 0.4);
+    float dunes = noise(at * 0.03 + vec2(0.4, 0.0), 33.0) - noise(at * 0.03, 33.0);
+    surface.normal = normalize(vec3(-0.9 * slope * rippled * 0.36 - 0.7 * dunes, 1.0, -0.4 * slope * rippled * 0.36 + (broad - 0.5) * 0.25));
   } else if (uGround == SNOW) {
     // Drifts, hollows that are blue with sky, a crust that sparkles near by, and wells around stems.
     float step_ = 0.35;
@@ -151,7 +154,7 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
     float hollow = clamp(1.2 - 0.7 * drift.x, 0.0, 1.0);
     surface.albedo = mix(vec3(0.88, 0.90, 0.93), vec3(0.74, 0.80, 0.90), 0.30 * hollow * smoothstep(-0.05, 0.2, eye.y / away) + 0.25 * foot);
     surface.albedo *= 0.965 + 0.05 * fine * near;
-    vec3 grain = hashed(floor(at / 0.05));
+    vec3 grain = chances(floor(at / 0.05));
     vec3 towards = normalize(eye / away + uSun);
     float glint = pow(max(dot(normalize(surface.normal + 0.8 * (grain - 0.5)), towards), 0.0), 220.0);
     surface.albedo += 2.2 * step(0.75, glint) * (1.0 - smoothstep(8.0, 26.0, away));
@@ -191,6 +194,7 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
     float grazed = 1.0 - 0.6 * uSun.y;
     surface.albedo *= max(0.35, 1.0 + 1.6 * (height - 0.5) - 1.0 * grazed * shaded);
     surface.albedo = mix(surface.albedo, vec3(0.128, 0.132, 0.052), 0.35 * smoothstep(0.55, 0.8, height));
+    surface.albedo *= mix(vec3(1.0), vec3(1.03, 0.99, 0.86), unmownAt(met) * smoothstep(0.0, 0.12, eye.y / away));
     surface.albedo = flowered(surface.albedo, at, shorter, shelter + foot);
     surface.albedo = mix(surface.albedo, soil, 0.8 * foot * (1.0 - 0.55 * smoothstep(0.4, 0.62, height)));
   }
