@@ -66,6 +66,7 @@ vec3 landAt(float distance, vec3 sight) { return farGround(); }
 
 /** Pale at the horizon and deeper above; before it what \`scene\` has, which is loaded after the first picture. */
 export const skyFragment = (scene = EMPTY) => /* glsl */ `${HEAD}${NOISE}${LIGHT}${DITHER}
+vec3 standing(vec3 behind, vec3 sight) { return behind; }
 uniform vec3 uZenithColour;
 uniform vec3 uGlowColour;
 uniform vec3 uCloudColour;
@@ -90,7 +91,7 @@ void main() {
   // The ground's own edge lies a little below where land without end would meet the sky.
   float distance = cameraPosition.y / max(-sight.y, 1e-4);
   vec3 land = inAir(landAt(distance, sight), distance);
-  colour = vec4(dithered(finished(mix(land, sky, smoothstep(-0.0024, 0.0012, sight.y)))), 1.0);
+  colour = vec4(dithered(finished(standing(mix(land, sky, smoothstep(-0.0024, 0.0012, sight.y)), sight))), 1.0);
 }
 `;
 

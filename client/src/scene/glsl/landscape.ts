@@ -1,3 +1,5 @@
+import { COPSES } from "./copses";
+
 /** Fields and meadows of far land: how much lighter or darker, where they can still be told apart. */
 export const FIELDS = /* glsl */ `
 uniform float uCloudDrift;
@@ -167,4 +169,4 @@ vec3 landAt(float distance, vec3 sight) {
   if (uGround == PLAIN) return farGround();
   return farGround() * fieldsAt(cameraPosition.xz + sight.xz * distance, distance);
 }
-`;
+${COPSES}`;
