@@ -33,7 +33,7 @@ vec3 range(vec3 behind, vec3 sight, float seed, float low, float high, float rou
   float woods = smoothstep(0.34, 0.66, noise(slope, seed + 1.0) * 0.65 + noise(slope * vec2(3.7, 3.3), seed + 6.0) * 0.35) - 0.5;
   float ahead = noise((towards + 0.02 * uSun.zx * vec2(1.0, -1.0)) * 6.0, seed + 5.0);
   float flank = ahead - noise(towards * 6.0, seed + 5.0);
-  vec3 land = hue * (1.0 + rough * (0.42 * woods + 2.6 * flank));
+  vec3 land = hue * (1.0 + rough * (0.24 * woods + 2.6 * flank));
   return mix(behind, mix(mist, land, mix(lifted, 1.0, smoothstep(0.0, 0.9, height))), inside);
 }
 /** A line of trees along the edge of a field. */
@@ -73,14 +73,14 @@ float cloudAt(vec2 at) {
 /** How thick a heap is at a place in a picture of it, whose unit is how high heaps are; lumps are round from outside. */
 float heapAt(vec2 around, float up, float tall, float seed) {
   vec3 at = TURN * vec3(around, up);
-  float lumps = 0.50 * noise(at * 1.4 + seed);
+  float lumps = 0.56 * noise(at * 1.4 + seed);
   at = TURN * at;
-  lumps += 0.24 * (1.0 - abs(2.0 * noise(at * 2.9 + seed) - 1.0));
+  lumps += 0.24 * noise(at * 2.9 + seed);
   at = TURN * at;
-  lumps += 0.14 * (1.0 - abs(2.0 * noise(at * 6.1 - seed) - 1.0));
+  lumps += 0.12 * abs(2.0 * noise(at * 6.1 - seed) - 1.0);
   at = TURN * at;
-  lumps += 0.08 * (1.0 - abs(2.0 * noise(at * 13.0 + seed) - 1.0)) + 0.05 * noise(TURN * at * 29.0);
-  return lumps + 0.62 * tall - 0.70 - 0.46 * max(up, 0.0);
+  lumps += 0.07 * abs(2.0 * noise(at * 13.0 + seed) - 1.0) + 0.05 * noise(TURN * at * 29.0);
+  return lumps + 0.62 * tall - 0.63 - 0.46 * max(up, 0.0);
 }
 /** Heaps of clouds that stand side by side on one level base, seen from the side. */
 vec3 heaps(vec3 sky, vec3 sight, float base, float size, float seed, float share, float haze) {
@@ -89,13 +89,13 @@ vec3 heaps(vec3 sky, vec3 sight, float base, float size, float seed, float share
   vec2 towards = normalize(sight.xz);
   vec2 around = towards / size;
   float stands = 0.7 * noise(around * 0.42, seed) + 0.3 * noise(around * 1.1, seed + 1.0);
-  float tall = smoothstep(0.62 - 0.55 * share, 0.90 - 0.55 * share, stands);
+  float tall = smoothstep(0.56 - 0.55 * share, 1.02 - 0.55 * share, stands);
   if (tall <= 0.0) return sky;
   // Towards the end of a row of heaps they shrink: or they would end on an upright line.
-  float less = 0.45 * (1.0 - smoothstep(0.0, 0.35, tall));
+  float less = 0.55 * (1.0 - smoothstep(0.0, 0.65, tall));
   float thick = heapAt(around, up, tall, seed) - less;
   float wisps = noise(vec3(around * 5.0, up * 9.0)) - 0.5;
-  float cover = smoothstep(0.0, 0.07, thick) * smoothstep(-0.10, 0.10, up + 0.16 * wisps);
+  float cover = smoothstep(0.0, 0.11, thick) * smoothstep(-0.10, 0.10, up + 0.16 * wisps);
   if (cover <= 0.0) return sky;
   // Light comes from the sun's side and from above; what lies behind more of a cloud is darker, and its base is darkest.
   vec2 along = vec2(-towards.y, towards.x);
