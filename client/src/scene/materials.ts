@@ -18,7 +18,7 @@ import {
   skyFragment,
 } from "./glsl/environment";
 import { LEAF_DEPTH_FRAGMENT, leafFragment, leafVertex } from "./glsl/leaf";
-import { OBSTACLE_FRAGMENT, OBSTACLE_VERTEX, PLANE_SHOWN } from "./glsl/obstacle";
+import { OBSTACLE_VERTEX, obstacleFragment, PLANE_SHOWN } from "./glsl/obstacle";
 import { ornamentDepthFragment, ornamentFragment, ornamentVertex } from "./glsl/ornament";
 import { DEPTH_FRAGMENT } from "./glsl/shadow";
 import { SKELETON_FRAGMENT, SKELETON_VERTEX } from "./glsl/skeleton";
@@ -43,7 +43,7 @@ export function makeMaterials(uniforms: Uniforms) {
   const shader = (vertexShader: string, fragmentShader: string, options: object = {}) =>
     new RawShaderMaterial({ glslVersion: GLSL3, uniforms, vertexShader, fragmentShader, ...options });
   const clay = (defines: object, options: object = {}) =>
-    shader(OBSTACLE_VERTEX, OBSTACLE_FRAGMENT, { defines, side: DoubleSide, ...options });
+    shader(OBSTACLE_VERTEX, obstacleFragment(), { defines, side: DoubleSide, ...options });
   // A plane often lies in the very ground; it then shows, and its soft edge with it.
   const over = {
     transparent: true,

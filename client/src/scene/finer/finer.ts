@@ -11,11 +11,13 @@ import {
 import type { Appearance, LeafKind } from "../../wire/generated";
 import { BLADE_FRAGMENT, BLADE_VERTEX } from "../glsl/blades";
 import { branchFragment } from "../glsl/branch";
+import { CLAY } from "../glsl/clay";
 import { CROWN_LIGHT, IN_CROWN } from "../glsl/crown";
 import { groundFragment, skyFragment } from "../glsl/environment";
 import { GROUND_SURFACE } from "../glsl/ground";
 import { LANDSCAPE } from "../glsl/landscape";
 import { leafFragment, leafVertex } from "../glsl/leaf";
+import { obstacleFragment } from "../glsl/obstacle";
 import { ornamentFragment, ornamentVertex } from "../glsl/ornament";
 import { OLD_WOOD } from "../glsl/wood";
 import type { Materials, Uniforms } from "../materials";
@@ -86,6 +88,7 @@ export class Finer {
     this.tufts = new Tufts(blade);
     const leaf = { vertexShader: leafVertex(IN_CROWN), fragmentShader: leafFragment(CROWN_LIGHT) };
     const wood = { fragmentShader: branchFragment(OLD_WOOD) };
+    const clay = { fragmentShader: obstacleFragment(CLAY) };
     const ornament = (name: "Flower" | "Fruit") => ({
       vertexShader: ornamentVertex(name, IN_CROWN),
       fragmentShader: ornamentFragment(name, CROWN_LIGHT),
@@ -99,6 +102,12 @@ export class Finer {
       [materials.sprig, leaf],
       [materials.flower, ornament("Flower")],
       [materials.fruit, ornament("Fruit")],
+      [materials.clay, clay],
+      [materials.clayChosen, clay],
+      [materials.clayClosed, clay],
+      [materials.clayClosedChosen, clay],
+      [materials.clayPlane, clay],
+      [materials.clayPlaneChosen, clay],
     ];
     this.setAppearance(stage.appearance);
     this.changed();
