@@ -20,7 +20,11 @@ void main() {
 const PAPER = /* glsl */ `
 uniform vec3 uPaper;
 uniform vec4 uSkyParts; // clouds, stars, hills, studio
-vec3 paper(float up) { return uPaper * (1.0 - 0.10 * smoothstep(0.05, 0.9, up)); }
+/** The lamp's pool of light is brightest where one looks. */
+vec3 paper(vec3 sight) {
+  float aside = 1.0 + dot(sight, vec3(viewMatrix[0].z, viewMatrix[1].z, viewMatrix[2].z));
+  return uPaper * (1.03 - min(1.9 * aside, 0.3) - 0.10 * smoothstep(0.05, 0.9, sight.y));
+}
 `;
 
 /** The ground as a whole, and how the air before it pales it. */
@@ -62,11 +66,11 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
 const EMPTY = /* glsl */ `
 vec3 before(vec3 sky, vec3 sight) { return sky; }
 vec3 landAt(float distance, vec3 sight) { return farGround(); }
+vec3 standing(vec3 behind, vec3 sight) { return behind; }
 `;
 
 /** Pale at the horizon and deeper above; before it what \`scene\` has, which is loaded after the first picture. */
 export const skyFragment = (scene = EMPTY) => /* glsl */ `${HEAD}${NOISE}${LIGHT}${DITHER}
-vec3 standing(vec3 behind, vec3 sight) { return behind; }
 uniform vec3 uZenithColour;
 uniform vec3 uGlowColour;
 uniform vec3 uCloudColour;
@@ -76,7 +80,7 @@ ${PAPER}${DISTANCE}${scene}
 void main() {
   vec3 sight = normalize(vSight);
   if (uSkyParts.w > 0.5) {
-    colour = vec4(dithered(paper(sight.y)), 1.0);
+    colour = vec4(dithered(paper(sight)), 1.0);
     return;
   }
   float up = max(sight.y, 0.0);
@@ -157,7 +161,7 @@ void main() {
     vec3 most = SUN_COLOUR * uSun.y + SKY_COLOUR;
     vec3 lit = (SUN_COLOUR * uSun.y * sun + SKY_COLOUR * open) / max(most, 1e-3);
     if (studio) {
-      colour = vec4(dithered(paper(0.0) * mix(pow(lit, vec3(0.6)), vec3(1.0), rim)), 1.0);
+      colour = vec4(dithered(paper(-eye / away) * mix(pow(lit, vec3(0.6)), vec3(1.0), rim)), 1.0);
       return;
     }
     lit = mix(lit * HORIZON_COLOUR * 0.9, farGround(), rim);
@@ -170,7 +174,7 @@ void main() {
   vec3 lit = surface.albedo * (ambient(surface.normal) * open + SUN_COLOUR * facingSun(surface.normal) * sun * mix(0.7, 1.0, open));
   vec3 seen = finished(studio ? hazed(lit, away) : inAir(mix(lit, farGround(), rim), away));
   if (uShown.x < 0.5) seen = mix(unlit(surface.albedo), seen, rim);
-  colour = vec4(dithered(studio ? mix(seen, paper(0.0), rim) : seen), 1.0);
+  colour = vec4(dithered(studio ? mix(seen, paper(-eye / away), rim) : seen), 1.0);
 }
 `;
 

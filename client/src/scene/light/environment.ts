@@ -4,7 +4,7 @@ import { MOST_FEET } from "../glsl/environment";
 import type { Materials, Uniforms } from "../materials";
 import type { TreeTable } from "../table/tree-table";
 import { trunkFeet } from "../table/trunk-feet";
-import { harmonicsOf, hemisphereOf } from "./sky-harmonics";
+import { harmonicsOf, studioOf } from "./sky-harmonics";
 import { skyLight } from "./sky-light";
 
 /** The ground goes on to this far, and further for a tree that is seen from further off. */
@@ -103,7 +103,7 @@ export class Environment {
     colours.uSun.value.set(...light.towards).normalize();
     colours.uSunColour.value.set(...light.sun);
     colours.uSkyColour.value.set(...light.above);
-    const around = background.sky === "studio" ? hemisphereOf(light) : harmonicsOf(light);
+    const around = background.sky === "studio" ? studioOf(light) : harmonicsOf(light);
     for (const [i, colour] of colours.uAmbient.value.entries()) colour.set(...around[i]!);
     colours.uHorizonColour.value.set(...light.horizon);
     colours.uAirColour.value.set(...light.air);

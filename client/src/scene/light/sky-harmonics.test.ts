@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { DEFAULT_APPEARANCE } from "../../wire/generated";
 import type { Vec3 } from "../vector";
-import { type Harmonics, harmonicsOf, hemisphereOf, skyAt } from "./sky-harmonics";
+import { type Harmonics, harmonicsOf, skyAt, studioOf } from "./sky-harmonics";
 import { skyLight } from "./sky-light";
 
 const under = (sun_elevation: number, sky: "meadow" | "overcast" | "clear" = "clear") =>
@@ -73,13 +73,31 @@ describe("light from all around", () => {
     }
   });
 
-  it("is of a studio what a soft box and the floor give", () => {
+  describe("in a studio", () => {
     const light = skyLight({ ...DEFAULT_APPEARANCE.background, sky: "studio" });
-    const harmonics = hemisphereOf(light);
-    for (const y of [1, 0.3, -0.4, -1]) {
-      const [red] = ambient(harmonics, [Math.sqrt(1 - y * y), y, 0]);
-      const share = 0.5 + 0.5 * y;
-      expect(red).toBeCloseTo(0.8 * (0.55 * light.below[0] * (1 - share) + light.above[0] * share), 6);
-    }
+    const harmonics = studioOf(light);
+    const [x, , z] = light.towards;
+    const sun = Math.atan2(x, z);
+    const redAt = (y: number, turn: number) => {
+      const flat = Math.sqrt(1 - y * y);
+      return ambient(harmonics, [flat * Math.sin(sun + turn), y, flat * Math.cos(sun + turn)])[0]!;
+    };
+
+    it("is on the average around what a soft box and the floor give", () => {
+      for (const y of [1, 0.3, -0.4, -1]) {
+        const around = [0, 0.25, 0.5, 0.75].map((turn) => redAt(y, 2 * Math.PI * turn));
+        const share = 0.5 + 0.5 * y;
+        const mean = around.reduce((sum, red) => sum + red, 0) / 4;
+        expect(mean).toBeCloseTo(0.8 * (0.55 * light.below[0] * (1 - share) + light.above[0] * share), 6);
+      }
+    });
+
+    it("is brightest beside the lamp, and darkest between the walls", () => {
+      const [lamp, left, across, right] = [0, 1, 2, 3].map((quarter) => redAt(0, (Math.PI / 2) * quarter));
+      expect(lamp).toBeGreaterThan(1.2 * across!);
+      expect(across).toBeGreaterThan(1.2 * left!);
+      expect(left).toBeCloseTo(right!, 6);
+      expect(left).toBeGreaterThan(0.1);
+    });
   });
 });

@@ -10,6 +10,9 @@ const TAKEN = 0.8;
 const BELOW = 0.55;
 /** Clouds, where the sky is full of them, are so much of what is seen of it. */
 const CLOUDED = 0.55;
+/** How much lighter a studio's walls are than what lies between them, and its lamp's side than the other. */
+const WALLS = 0.42;
+const LAMP = 0.22;
 
 /** Nine colours, for the polynomials of `ambient` in `glsl/common.ts`. */
 export type Harmonics = readonly Vec3[];
@@ -35,11 +38,16 @@ export function harmonicsOf(light: SkyLight): Harmonics {
   return sums;
 }
 
-/** The light of a soft box above and of the floor: no side of it differs from another. */
-export function hemisphereOf({ above, below }: Pick<SkyLight, "above" | "below">): Harmonics {
-  const nothing: Vec3 = [0, 0, 0];
-  const of = (sign: 1 | -1) => [0, 1, 2].map((c) => 0.5 * TAKEN * (above[c]! + sign * BELOW * below[c]!));
-  return [of(1) as unknown as Vec3, of(-1) as unknown as Vec3, ...Array.from({ length: 7 }, () => nothing)];
+/** The light of a soft box above and of the floor, and of two walls: one beside the lamp, one across from it. */
+export function studioOf({ above, below, towards: [x, , z] }: SkyLight): Harmonics {
+  const of = (share: number, low = 0) =>
+    [0, 1, 2].map((c) => 0.5 * TAKEN * (share * above[c]! + low * BELOW * below[c]!)) as unknown as Vec3;
+  const wide = Math.max(x * x + z * z, 1e-6);
+  const far = Math.sqrt(wide);
+  const none = of(0);
+  // What looks to neither wall is darker: round wood is seen to be round.
+  const walls = [of((4 * WALLS * x * z) / wide), of((WALLS * (x * x - z * z)) / wide)] as const;
+  return [of(1, 1), of(1, -1), of((LAMP * z) / far), of((LAMP * x) / far), none, none, none, ...walls];
 }
 
 /** What the sky's shader shows in a direction, without what stands before it; stars give no light. */
