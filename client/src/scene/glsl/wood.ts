@@ -1,4 +1,5 @@
 import type { WoodLook } from "./branch";
+import { CHANCES } from "./chances";
 import { CROWN_FIELD } from "./crown";
 
 /** What settles on wood and dyes it as it ages: moss where it is damp and dark, lichen in patches where it is light. */
@@ -21,6 +22,44 @@ vec3 overgrown(vec3 albedo, vec3 smoothed, float radius, float light, Bark bark)
   float lichen = 0.42 * age * (1.0 - moss) * smoothstep(0.57, 0.63, grown) * (0.4 + 0.6 * light) * smoothstep(0.35, 0.75, bark.height);
   albedo = mix(albedo, vec3(0.070, 0.082, 0.026) * (0.7 + 0.6 * fine), moss);
   return mix(albedo, mix(vec3(0.30, 0.32, 0.26), vec3(0.33, 0.26, 0.12), step(0.64, noise(vWorld * 0.35))), lichen);
+}
+`;
+
+/** What years have left on old wood: it swells here and there, and bears scars where limbs were shed. */
+const GNARLED = /* glsl */ `${CHANCES}
+/** How far the surface leans, and in \`albedo\` how dark it is inside a scar. */
+vec3 gnarled(vec3 crosswise, vec3 upwards, vec3 smoothed, inout vec3 albedo) {
+  float radius = vBark.z;
+  float old = smoothstep(0.22, 0.8, radius) * (1.0 - vBearing.w);
+  if (old <= 0.0) return vec3(0.0);
+  vec3 lean = vec3(0.0);
+  for (int i = 0; i < 2; i++) {
+    float wave = (i == 0 ? 0.75 : 1.7) / (0.5 + radius);
+    vec3 at = vWorld * wave + 5.0 * float(i);
+    float here = noise(at);
+    vec3 rises = vec3(noise(at + vec3(0.1, 0.0, 0.0)), noise(at + vec3(0.0, 0.1, 0.0)), noise(at + vec3(0.0, 0.0, 0.1))) - here;
+    lean -= (i == 0 ? 1.5 : 0.8) * rises;
+  }
+  lean -= smoothed * dot(lean, smoothed);
+  float octave = log2(radius / THINNEST);
+  float thick = THINNEST * exp2(floor(octave));
+  float whole_ = smoothstep(0.0, 0.12, fract(octave)) * smoothstep(1.0, 0.88, fract(octave));
+  vec2 place = vec2(vBark.x * 3.0, vBark.y / (6.5 * thick));
+  vec2 cell = floor(place);
+  vec2 own = chances(vec2(mod(cell.x, 3.0), cell.y) + 17.0 * floor(octave)).xy;
+  vec2 more = chances(vec2(mod(cell.x, 3.0), cell.y) + 91.0).xy;
+  if (more.x > 0.34) return lean * old;
+  float wide = mix(0.30, 0.55, more.y) * thick;
+  vec2 from = (place - cell - mix(vec2(0.3), vec2(0.7), own)) * vec2(2.0944 * radius, 6.5 * thick) / (wide * vec2(1.0, 1.25));
+  float far = length(from);
+  if (far > 2.2) return lean * old;
+  // A lip of younger wood around it, and a hollow within.
+  float lip = exp(-pow((far - 0.85) / 0.42, 2.0));
+  float steep = -2.0 * (far - 0.85) / 0.1764 * lip * 0.34 * whole_;
+  lean -= steep * (crosswise * from.x + upwards * from.y) / max(far, 0.15);
+  albedo *= mix(1.0, mix(0.34, 1.0, smoothstep(0.15, 0.75, far + 0.25 * (noise(vWorld * 5.0 / thick) - 0.5))), 0.85 * whole_ * old);
+  albedo *= 1.0 + 0.12 * lip * whole_ * old;
+  return lean * old;
 }
 `;
 
@@ -53,13 +92,17 @@ float ridged(vec3 crosswise, vec3 upwards, vec3 smoothed, float height) {
 export const OLD_WOOD: WoodLook = {
   declared: `${CROWN_FIELD}${OVERGROWN}
 #ifndef RIBBON
+${GNARLED}
 ${SELF_SHADE}
 #endif
 `,
   covered: /* glsl */ `
   vec4 crown = crownAt(vWorld + smoothed * min(1.4 * vBark.z + 0.3, 3.0));
 #ifndef RIBBON
-  if (vBark.w < 0.0 && uShown.z > 0.5) albedo = overgrown(albedo, smoothed, vBark.z, abs(vLight), bark);
+  if (vBark.w < 0.0 && uShown.z > 0.5) {
+    albedo = overgrown(albedo, smoothed, vBark.z, abs(vLight), bark);
+    if (rounded) normal = normalize(normal + gnarled(crosswise, cross(crosswise, smoothed), smoothed, albedo));
+  }
 #endif
 `,
   lit: /* glsl */ `
