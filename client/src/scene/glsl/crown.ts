@@ -1,3 +1,4 @@
+import { NOISE } from "./common";
 import type { Crown } from "./leaf";
 
 /** The crown as a cloud (\`crown-field.ts\`). */
@@ -26,11 +27,16 @@ out vec4 vCrown;
  * Light on something thin in a crown. Which of its sides the sun is on is told by the crown, which of them is seen by the
  * eye: so the crown is round, and leaves that are seen from below glow.
  */
-export const CROWN_LIGHT = /* glsl */ `
+export const CROWN_LIGHT = /* glsl */ `${NOISE}
 in vec4 vCrown;
+uniform vec3 uCrownSize;
 uniform float uLeafRough;
 uniform float uLeafSize;
 vec3 thinLit(vec3 albedo, vec3 normal, vec3 sight, vec3 world, float sheer, float gloss, float exposure, float open) {
+  // Parts of a crown as large as a bough are lighter or darker than others, and warmer or cooler.
+  vec3 bough = world * (7.0 / max(uCrownSize.x, 4.0));
+  float drift = smoothstep(0.25, 0.75, noise(bough) * 0.6 + noise(bough * 2.3 + 5.0) * 0.4);
+  albedo *= mix(vec3(0.76, 0.84, 0.92), vec3(1.16, 1.11, 0.98), drift);
   float sure = min(1.0, length(vCrown.xyz));
   vec3 out_ = vCrown.xyz / max(sure, 1e-3);
   vec3 upper = dot(normal, out_) < 0.0 ? -normal : normal;
