@@ -14,6 +14,7 @@ use glam::{Vec3, Vec4};
 use self::chunk::{Chunk, Seeker, Status};
 use crate::{
     cells::{CellBox, bits},
+    claims::Sighting,
     directory::Directory,
     obstacles::Obstacles,
     parameter_table::ParameterTable,
@@ -112,37 +113,33 @@ impl MarkerField {
     }
 
     /// Finds the claimants of all markers whose claimants have gone: moved on, or died. The buds that have not moved
-    /// are those of the time before. Calls `visit` with every claimed marker's claimant, and where it sees the marker
-    /// from itself.
+    /// are those of the time before. Returns in batches every claimed marker's claimant, and where it sees the marker.
     pub(crate) fn resolve(
         &mut self,
         space: &Space,
         parameters: &ParameterTable,
         obstacles: &Obstacles,
-        mut visit: impl FnMut(AxisId, Vec3),
-    ) {
+    ) -> Vec<Vec<Sighting>> {
         let resolve = |(statuses, chunks): (&mut [Status], &mut [Chunk])| {
-            let mut seen: Vec<(AxisId, Vec3)> = Vec::new();
+            let mut seen = Vec::new();
             for (status, chunk) in statuses.iter_mut().zip(chunks).filter(|(status, _)| status.claimed != 0) {
                 chunk.resolve(status, space, parameters, obstacles, |axis, offset| seen.push((axis, offset)));
             }
             seen
         };
         let batches = self.statuses.all_mut().chunks_mut(BATCH).zip(self.chunks.chunks_mut(BATCH));
-        let batches = RESOLVING.each(batches.len() * BATCH, batches, resolve);
-        batches.into_iter().flatten().for_each(|(axis, offset)| visit(axis, offset));
+        RESOLVING.each(batches.len() * BATCH, batches, resolve)
     }
 
-    /// Calls `visit` with each marker and its claimant where only these buds may claim: those that are nearer do not count.
+    /// Each claimant, and where it sees its marker, where only these buds may claim: those that are nearer do not count.
     pub(crate) fn claims_among(
         &mut self,
         buds: impl Iterator<Item = (AxisId, Bud)>,
         parameters: &ParameterTable,
         obstacles: &Obstacles,
-        mut visit: impl FnMut(Vec3, AxisId),
-    ) {
-        // Each free marker that one of the buds perceives, by its place, with who perceives it.
-        let mut perceived: Vec<([u32; 3], f32, AxisId)> = Vec::new();
+    ) -> Vec<Sighting> {
+        // Each free marker that one of the buds perceives, by its place, with who perceives it, and where.
+        let mut perceived: Vec<([u32; 3], f32, Sighting)> = Vec::new();
         for (axis, bud) in buds {
             let cone = Cone::new(parameters.of(axis));
             let (low, high) = reach(bud, parameters.of(axis));
@@ -153,16 +150,18 @@ impl MarkerField {
                     if cone.holds(distance_squared, offset.dot(bud.direction))
                         && !obstacles.hides(bud.position, marker)
                     {
-                        perceived.push((marker.to_array().map(f32::to_bits), distance_squared, axis));
+                        perceived.push((
+                            marker.to_array().map(f32::to_bits),
+                            distance_squared,
+                            (axis, offset),
+                        ));
                     }
                 }
             });
         }
-        perceived.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+        perceived.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.0.cmp(&b.2.0)));
         perceived.dedup_by_key(|&mut (place, ..)| place);
-        for (place, _, axis) in perceived {
-            visit(Vec3::from_array(place.map(f32::from_bits)), axis);
-        }
+        perceived.into_iter().map(|(.., seen)| seen).collect()
     }
 
     /// Calls `visit` with every chunk that meets the box from `low` to `high`, its status, and which of its cells do.

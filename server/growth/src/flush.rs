@@ -171,16 +171,18 @@ impl Growth {
 
     /// What enabled buds will grow, the longest shoot first, of equally long ones the oldest.
     fn shoots(&self, scene: &Scene, led: &BTreeSet<AxisId>, run: &Run<'_>) -> Vec<Shoot> {
-        let axes: Vec<AxisId> = self.claims.claimants().filter(|axis| !led.contains(axis)).collect();
-        let vigor = |&axis: &AxisId| self.canopy.bud_vigor(&scene.plant, axis, &self.parameters);
-        let vigors = run.each(axes.chunks(ASKED), |axes| axes.iter().map(vigor).collect::<Vec<f64>>());
+        let buds: Vec<(AxisId, Region)> =
+            self.claims.claimants().filter(|(axis, _)| !led.contains(axis)).collect();
+        let vigor =
+            |&(axis, _): &(AxisId, Region)| self.canopy.bud_vigor(&scene.plant, axis, &self.parameters);
+        let vigors = run.each(buds.chunks(ASKED), |buds| buds.iter().map(vigor).collect::<Vec<f64>>());
         let vigors = vigors.iter().flatten();
         let greatest = vigors.clone().copied().fold(0.0, f64::max);
-        let shoot = |(&axis, &vigor): (&AxisId, &f64)| {
-            let length = self.claims.of(axis)?.shoot_length(vigor, greatest, self.parameters.of(axis));
+        let shoot = |(&(axis, region), &vigor): (&(AxisId, Region), &f64)| {
+            let length = region.shoot_length(vigor, greatest, self.parameters.of(axis));
             (length > 0).then(|| Shoot::new(axis, length))
         };
-        let mut shoots: Vec<Shoot> = axes.iter().zip(vigors).filter_map(shoot).collect();
+        let mut shoots: Vec<Shoot> = buds.iter().zip(vigors).filter_map(shoot).collect();
         run.sort(&mut shoots);
         shoots
     }

@@ -59,7 +59,7 @@ pub(crate) fn step(simulation: &mut Simulation, input: &StepInput) {
         .collect();
     let greatest = vigors.iter().map(|&(.., vigor)| vigor).fold(0.0, f64::max);
     for (axis, claimed, vigor) in vigors {
-        let length = claimed.shoot_length(vigor, greatest, plain.parameters.of(axis));
+        let length = claimed.region.shoot_length(vigor, greatest, plain.parameters.of(axis));
         shoots.push((length, axis, claimed));
     }
     shoots.sort_by_key(|&(length, axis, _)| (core::cmp::Reverse(length), axis));
@@ -133,8 +133,7 @@ fn claims(plain: &mut Growth, scene: &Scene, input: &StepInput) -> Claims {
     };
     let buds: Vec<AxisId> =
         all_axes(plant).filter(|&axis| plant.is_axis_alive(axis) && descends(axis)).collect();
-    let mut claims = Claims::default();
-    claims.clear(plant.axis_count());
+    let (mut sown, mut free) = (Vec::new(), Vec::new());
     for (marker, source) in markers {
         let nearest = buds
             .iter()
@@ -149,10 +148,10 @@ fn claims(plain: &mut Growth, scene: &Scene, input: &StepInput) -> Claims {
         if let Some((_, axis)) = nearest {
             let offset = marker - plant.bud_position(axis);
             match source {
-                None => claims.add(axis, offset),
-                Some(source) => claims.add_sown(axis, offset, source),
+                None => free.push((axis, offset)),
+                Some(source) => sown.push(((axis, offset), source)),
             }
         }
     }
-    claims
+    Claims::gather(plant.axis_count(), &sown, &[free], false)
 }

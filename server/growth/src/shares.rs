@@ -19,7 +19,7 @@ impl Growth {
     /// The shares of the metamers from `born` on, while what buds have claimed is still known. A leader's are those of the
     /// stroke it follows, another bud's those of the stroke of most markers it has claimed.
     pub(crate) fn shares(&self, plant: &Plant, born: usize) -> Vec<Share> {
-        if !self.claims.count_strokes {
+        if !self.claims.counts_strokes() {
             return Vec::new();
         }
         let led = self.guides.iter().filter_map(|(&stroke, guide)| Some((guide.leader?, stroke)));

@@ -167,35 +167,26 @@ impl Growth {
             self.make_field(scene);
         }
         let is_shared = self.is_shared(input);
-        let Self { markers, claims, parameters, field, .. } = self;
+        let Self { markers, parameters, field, .. } = self;
         let Scene { plant, space, obstacles, .. } = scene;
-        claims.clear(plant.axis_count());
-        claims.count_strokes = is_shared;
-        for &Marker { position: marker, source, .. } in markers.as_slice() {
+        let claim_sown = |&Marker { position: marker, source, .. }: &Marker| {
             let sees = |axis| space.bud(axis).is_some_and(|bud| !obstacles.hides(bud.position, marker));
             let counts = |axis| selection.includes(axis) && (obstacles.is_empty() || sees(axis));
-            if let Some((axis, _)) = space.nearest_perceiving(marker, parameters, counts) {
-                let offset = marker - plant.bud_position(axis);
-                claims.add_sown(axis, offset, source);
+            let (axis, _) = space.nearest_perceiving(marker, parameters, counts)?;
+            Some(((axis, marker - plant.bud_position(axis)), source))
+        };
+        let sown: Vec<_> = markers.as_slice().iter().filter_map(claim_sown).collect();
+        let mut free = Vec::new();
+        if let Some(field) = field.as_mut().filter(|_| input.autonomous) {
+            free = field.resolve(space, parameters, obstacles);
+            space.forget_moves();
+            if !selection.is_everyone() {
+                let axes = (0..plant.axis_count()).map(AxisId::new).filter(|&axis| selection.includes(axis));
+                let buds = axes.filter_map(|axis| Some((axis, space.bud(axis)?)));
+                free = vec![field.claims_among(buds, parameters, obstacles)];
             }
         }
-        let Some(field) = field.as_mut().filter(|_| input.autonomous) else { return };
-        field.resolve(space, parameters, obstacles, |axis, offset| {
-            if selection.is_everyone() {
-                claims.add(axis, offset);
-            }
-        });
-        space.forget_moves();
-        if !selection.is_everyone() {
-            let claim = |marker, axis| {
-                if let Some(bud) = space.bud(axis) {
-                    claims.add(axis, marker - bud.position);
-                }
-            };
-            let axes = (0..plant.axis_count()).map(AxisId::new).filter(|&axis| selection.includes(axis));
-            let buds = axes.filter_map(|axis| Some((axis, space.bud(axis)?)));
-            field.claims_among(buds, parameters, obstacles, claim);
-        }
+        self.claims = Claims::gather(plant.axis_count(), &sown, &free, is_shared);
     }
 
     /// Makes the field, if there is none.
