@@ -11,7 +11,7 @@ mod chunk;
 use espalier_plant::{AxisId, reserve};
 use glam::{Vec3, Vec4};
 
-use self::chunk::{Chunk, Seeker, Status};
+use self::chunk::{Chunk, Seeker, Status, TAKEN};
 use crate::{
     cells::{CellBox, bits},
     claims::Sighting,
@@ -103,10 +103,10 @@ impl MarkerField {
                 let marker = chunk.marker(cell);
                 let near = (marker - place).length_squared() <= radius * radius;
                 if near && !space.is_occupied(marker, radius, |_| true) {
-                    // Who claims it is unknown: as if a bud at this very place had gone.
+                    // Who claims it is unknown: until that is found, nobody else does.
                     status.free |= 1 << cell;
                     status.claimed |= 1 << cell;
-                    chunk.set_claim(cell, (nobody(), -1.0));
+                    chunk.set_claim(cell, (nobody(), TAKEN));
                 }
             }
         });

@@ -1,7 +1,7 @@
 //! The markers of 4 × 4 × 4 cells, and who claims them.
 
 use espalier_plant::AxisId;
-use glam::{Vec3, Vec4};
+use glam::{BVec4A, Vec3, Vec4};
 
 use super::Lattice;
 use crate::{
@@ -36,10 +36,13 @@ struct Row {
     x: [f32; ROW],
     y: [f32; ROW],
     z: [f32; ROW],
-    /// Squared distance to the bud that claims the marker, infinite for none. Should that bud have gone, the
-    /// others are at least as far away.
+    /// Squared distance to the bud that claims the marker, infinite for none, [`TAKEN`] for a marker that is not free.
+    /// Should that bud have gone, the others are at least as far away.
     nearest: [f32; ROW],
 }
+
+/// Nearer than any bud can be.
+pub(super) const TAKEN: f32 = -1.0;
 
 /// A bud that looks for markers.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +53,7 @@ pub(super) struct Seeker {
 }
 
 impl Row {
-    const NONE: Self = Self { x: [0.0; ROW], y: [0.0; ROW], z: [0.0; ROW], nearest: [f32::INFINITY; ROW] };
+    const NONE: Self = Self { x: [0.0; ROW], y: [0.0; ROW], z: [0.0; ROW], nearest: [TAKEN; ROW] };
 
     /// Offsets of the markers from a place, coordinate by coordinate.
     #[inline(always)]
@@ -65,12 +68,12 @@ impl Row {
     /// Which of the markers, with these offsets and their squares, a bud perceives no farther away than their claimants
     /// do.
     #[inline(always)]
-    fn seen(&self, [dx, dy, dz]: [Vec4; 3], squares: Vec4, seeker: &Seeker) -> u32 {
+    fn seen(&self, [dx, dy, dz]: [Vec4; 3], squares: Vec4, seeker: &Seeker) -> BVec4A {
         let Seeker { direction, cone, .. } = seeker;
         let dots = dx * direction.x + dy * direction.y + dz * direction.z;
         let near = squares.cmple(Vec4::from_array(self.nearest).min(Vec4::splat(cone.far_squared)));
         let ahead = (dots * dots.abs()).cmpge(squares * cone.signed_cos_squared);
-        (near & ahead).bitmask()
+        near & ahead
     }
 }
 
@@ -84,7 +87,10 @@ impl Chunk {
             let Some(marker) = lattice.marker_in(cell_at(at, cell)) else { continue };
             let (row, lane) = (&mut chunk.rows[cell / ROW], cell % ROW);
             [row.x[lane], row.y[lane], row.z[lane]] = marker.to_array();
-            chunk.valid |= u64::from(marker.y > 0.0 && !obstacles.contains(marker)) << cell;
+            if marker.y > 0.0 && !obstacles.contains(marker) {
+                chunk.valid |= 1 << cell;
+                row.nearest[lane] = f32::INFINITY;
+            }
         }
         chunk
     }
@@ -116,41 +122,44 @@ impl Chunk {
             let row = cell / ROW % (CELLS / ROW);
             let offsets @ [dx, dy, dz] = self.rows[row].offsets(place);
             let squares = dx * dx + dy * dy + dz * dz;
-            free &= !(u64::from(squares.cmple(Vec4::splat(zone_squared)).bitmask()) << cell);
-            let is_free = (free >> cell) as u32;
-            let seen = buds.each_ref().map(|bud| self.rows[row].seen(offsets, squares, bud) & is_free);
-            if seen.iter().fold(0, |all, seen| all | seen) & 0xf == 0 {
+            let taken = squares.cmple(Vec4::splat(zone_squared));
+            let seen = buds.each_ref().map(|bud| self.rows[row].seen(offsets, squares, bud) & !taken);
+            if seen.iter().fold(taken, |any, &seen| any | seen).bitmask() == 0 {
                 continue;
             }
+            let nearest = &mut self.rows[row].nearest;
+            *nearest = Vec4::select(taken, Vec4::splat(TAKEN), Vec4::from_array(*nearest)).to_array();
+            free &= !(u64::from(taken.bitmask()) << cell);
             for (bud, mut seen) in buds.iter().zip(seen) {
                 if !obstacles.is_empty() {
                     seen &= self.not_hidden(row, place, obstacles);
                 }
-                claimed |= u64::from(self.claim_in(row, bud.axis, seen & 0xf, squares)) << cell;
+                self.claim_in(row, bud.axis, seen, squares);
+                claimed |= u64::from(seen.bitmask()) << cell;
             }
         }
         *status = Status { free, claimed: claimed & free };
     }
 
-    /// A bud claims those of the markers of a row that it has seen and is nearest to. Returns which.
+    /// A bud claims those of the markers of a row that it has seen and is nearest to; the others have been claimed before.
     #[inline(always)]
-    fn claim_in(&mut self, row: usize, axis: AxisId, seen: u32, squares: Vec4) -> u32 {
-        let (squares, nearest, claimants) =
-            (squares.to_array(), &mut self.rows[row].nearest, &mut self.claimants[row]);
-        // Of equally near ones the oldest claims.
-        let wins: [bool; ROW] = core::array::from_fn(|lane| {
-            (seen >> lane & 1 != 0) & ((squares[lane] < nearest[lane]) | (axis < claimants[lane]))
+    fn claim_in(&mut self, row: usize, axis: AxisId, seen: BVec4A, squares: Vec4) {
+        let (nearest, claimants) = (&mut self.rows[row].nearest, &mut self.claimants[row]);
+        let before = Vec4::from_array(*nearest);
+        *nearest = Vec4::select(seen, squares, before).to_array();
+        // Of equally near ones the oldest claims. Masks as numbers, so that four are compared at once.
+        let [seen, nearer]: [[u32; ROW]; 2] = [seen, squares.cmplt(before)].map(Into::into);
+        *claimants = core::array::from_fn(|lane| {
+            let is_oldest = axis < claimants[lane];
+            if (seen[lane] != 0) & ((nearer[lane] != 0) | is_oldest) { axis } else { claimants[lane] }
         });
-        *nearest = core::array::from_fn(|lane| if wins[lane] { squares[lane] } else { nearest[lane] });
-        *claimants = core::array::from_fn(|lane| if wins[lane] { axis } else { claimants[lane] });
-        (0..ROW).fold(0, |all, lane| all | u32::from(wins[lane]) << lane)
     }
 
     /// Which of the markers of a row no obstacle hides from a place.
     #[inline(never)]
-    fn not_hidden(&self, row: usize, place: Vec3, obstacles: &Obstacles) -> u32 {
+    fn not_hidden(&self, row: usize, place: Vec3, obstacles: &Obstacles) -> BVec4A {
         let is_seen = |lane: usize| !obstacles.hides(place, self.marker(row * ROW + lane));
-        (0..ROW).fold(0, |all, lane| all | u32::from(is_seen(lane)) << lane)
+        BVec4A::from([0, 1, 2, 3].map(is_seen))
     }
 
     /// Who claims a marker, and how far away it is, squared.
