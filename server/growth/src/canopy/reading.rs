@@ -53,13 +53,13 @@ impl Reader<'_> {
         self.sky.get(slot).map_or(exposure, |sky| exposure * sky)
     }
 
-    /// Q = bL^κ of the buds at a node.
+    /// Q = bL^κ of the buds at a node, of which the lateral ones have these propensities in all.
     #[inline(always)]
-    fn input(self, slot: usize, node: Node, light: f32) -> Sums {
+    fn input(self, slot: usize, node: Node, propensities: f32, light: f32) -> Sums {
         let axis = self.plant.metamers().axis(self.wood.id(slot));
         let response = response(light, self.parameters.of(axis));
         let main = if node.is_tip() { vigor::quantised(response) } else { 0 };
-        Sums { main, lateral: vigor::quantised(response * self.propensities[slot]) }
+        Sums { main, lateral: vigor::quantised(response * propensities) }
     }
 
     /// Puts in what the buds at those nodes of a group make of light, which is read before if `reads` holds.
@@ -67,12 +67,19 @@ impl Reader<'_> {
     fn put_in(self, group: Group<'_>, which: u64, reads: bool) {
         let Group { first, nodes, spots, light, sums } = group;
         sums.fill(Sums::default());
+        // All as long as each other, so that one look at a number says that it belongs to all of them.
+        let count = nodes.len();
+        let (spots, propensities) = (&spots[..count], &self.propensities[first..][..count]);
+        let (light, sums) = (&mut light[..count], &mut sums[..count]);
         // Bit by bit rather than node by node: whether a node bears buds cannot be foreseen.
-        for at in bits(which & u64::MAX >> (GROUP - nodes.len())) {
+        for at in bits(which) {
+            if at >= count {
+                break;
+            }
             if reads {
                 light[at] = self.light(first + at, &spots[at]);
             }
-            sums[at] = self.input(first + at, nodes[at], light[at]);
+            sums[at] = self.input(first + at, nodes[at], propensities[at], light[at]);
         }
     }
 }
