@@ -27,7 +27,7 @@ use crate::{
 use node::Node;
 use plants::Plants;
 use slots::Slots;
-use waves::Waves;
+use waves::{Flow, Waves};
 use wood::Wood;
 
 /// The canopy is packed anew when one part in so many of it has gone dark.
@@ -194,7 +194,8 @@ impl Canopy {
         self.bud_vigors.clear();
         let gain = f64::from(parameters.scene().vigor_gain) / vigor::UNIT;
         let Self { nodes, wood, sums, vigors, plants, waves, .. } = self;
-        waves.share_out(nodes, wood.of(plant), sums, vigors, (plants, gain), run);
+        let flow = Flow { nodes, wood: wood.of(plant), sums, plants, gain };
+        waves.share_out(flow, vigors, run);
     }
 
     /// Tips before bases. Returns how many nodes no light flows through.

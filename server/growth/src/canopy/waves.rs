@@ -41,45 +41,41 @@ impl Waves {
     }
 
     /// Lets vigor flow up: at the base of each plant `gain` for each unit of light, farther up as nodes split it.
-    pub(super) fn share_out(
-        &self,
-        nodes: &[Node],
-        wood: Slotted<'_>,
-        sums: &[Sums],
-        vigors: &mut [f64],
-        (plants, gain): (&Plants, f64),
-        run: &Run<'_>,
-    ) {
+    pub(super) fn share_out(&self, flow: Flow<'_>, vigors: &mut [f64], run: &Run<'_>) {
+        if !run.is_shared() {
+            // All as long as each other, so that one look at a slot says that it belongs to all of them.
+            let count = vigors.len();
+            let flow = Flow { nodes: &flow.nodes[..count], sums: &flow.sums[..count], ..flow };
+            return (0..count).for_each(|slot| vigors[slot] = flow.into(slot, |parent| vigors[parent]));
+        }
         let mut starts = self.starts.iter().map(|&start| start as usize).peekable();
         while let Some(start) = starts.next() {
-            let end = starts.peek().copied().unwrap_or(nodes.len());
+            let end = starts.peek().copied().unwrap_or(vigors.len());
             let (below, wave) = vigors[..end].split_at_mut(start);
-            let all = Wave { nodes, wood, sums, plants, gain, below };
-            if run.is_shared() && wave.len() >= SHARED_FROM {
-                let pieces = all.pieces(wave, start).into_iter();
-                run.each(pieces, |(first, vigors)| all.share_out(vigors, first));
+            if wave.len() >= SHARED_FROM {
+                let pieces = flow.pieces(wave, start).into_iter();
+                run.each(pieces, |(first, vigors)| flow.through(vigors, first, below));
             } else {
-                all.share_out(wave, start);
+                flow.through(wave, start, below);
             }
         }
     }
 }
 
-/// What all shoots of a wave have in common.
+/// What vigor at the nodes of a canopy follows from.
 #[derive(Clone, Copy)]
-struct Wave<'a> {
-    nodes: &'a [Node],
-    wood: Slotted<'a>,
-    sums: &'a [Sums],
-    plants: &'a Plants,
-    gain: f64,
-    /// Vigor of all nodes before the wave.
-    below: &'a [f64],
+pub(super) struct Flow<'a> {
+    pub nodes: &'a [Node],
+    pub wood: Slotted<'a>,
+    pub sums: &'a [Sums],
+    pub plants: &'a Plants,
+    /// Vigor of a plant for each unit of light.
+    pub gain: f64,
 }
 
-impl Wave<'_> {
-    /// Parts of the wave, which begins at this slot, each with its first slot. None ends amid a shoot.
-    fn pieces<'v>(&self, mut vigors: &'v mut [f64], mut first: usize) -> Vec<(usize, &'v mut [f64])> {
+impl Flow<'_> {
+    /// Parts of a wave, which begins at this slot, each with its first slot. None ends amid a shoot.
+    fn pieces(self, mut vigors: &mut [f64], mut first: usize) -> Vec<(usize, &mut [f64])> {
         let mut pieces = Vec::with_capacity(vigors.len() / PIECE + 1);
         while !vigors.is_empty() {
             let begins = |at: &usize| self.wood.parent(first + at) as usize != first + at - 1;
@@ -91,23 +87,27 @@ impl Wave<'_> {
         pieces
     }
 
-    /// Lets vigor flow through a part of the wave that begins with a shoot, in this slot.
-    fn share_out(self, vigors: &mut [f64], first: usize) {
-        let nodes = &self.nodes[first..first + vigors.len()];
-        let sums = &self.sums[first..first + vigors.len()];
+    /// Lets vigor flow through a part of a wave that begins with a shoot, in this slot; `below` is that of all nodes before
+    /// the wave.
+    fn through(self, vigors: &mut [f64], first: usize, below: &[f64]) {
         let mut before = 0.0;
-        for (at, ((vigor, node), sums)) in vigors.iter_mut().zip(nodes).zip(sums).enumerate() {
-            let light = sums.light();
-            *vigor = match self.wood.parent(first + at) {
-                NOWHERE => self.gain * light as i64 as f64,
-                parent => {
-                    let enters = self.below.get(parent as usize).copied().unwrap_or(before);
-                    let split =
-                        Split::new(enters, self.sums[parent as usize], self.plants.lambda(first + at));
-                    if node.is_main() { split.to_main() } else { split.to_lateral(light) }
-                }
-            };
+        for (at, vigor) in vigors.iter_mut().enumerate() {
+            *vigor = self.into(first + at, |parent| below.get(parent).copied().unwrap_or(before));
             before = *vigor;
+        }
+    }
+
+    /// Vigor that flows into a node; `at` says how much has flowed into its parent.
+    #[inline(always)]
+    fn into(self, slot: usize, at: impl FnOnce(usize) -> f64) -> f64 {
+        let light = self.sums[slot].light();
+        match self.wood.parent(slot) {
+            NOWHERE => self.gain * light as i64 as f64,
+            parent => {
+                let sums = self.sums[parent as usize];
+                let split = Split::new(at(parent as usize), sums, self.plants.lambda(slot));
+                if self.nodes[slot].is_main() { split.to_main() } else { split.to_lateral(light) }
+            }
         }
     }
 }
