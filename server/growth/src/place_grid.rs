@@ -11,8 +11,6 @@ use crate::{
     voxel_grid::{VoxelGrid, voxel_of},
 };
 
-/// Points in one block.
-const LANES: usize = 8;
 /// Lanes that the processor compares at once.
 const WIDTH: usize = 4;
 
@@ -38,13 +36,13 @@ impl Lanes for () {
 
 /// One vector for each lane, coordinate by coordinate.
 #[derive(Clone, Debug)]
-pub(crate) struct Vectors {
+pub(crate) struct Vectors<const LANES: usize> {
     x: [f32; LANES],
     y: [f32; LANES],
     z: [f32; LANES],
 }
 
-impl Vectors {
+impl<const LANES: usize> Vectors<LANES> {
     /// The vectors in the lanes from `lane` on, coordinate by coordinate.
     #[inline(always)]
     fn from(&self, lane: usize) -> [Vec4; 3] {
@@ -72,11 +70,11 @@ fn dot([ax, ay, az]: [Vec4; 3], [bx, by, bz]: [Vec4; 3]) -> Vec4 {
 
 /// Calls `test` with the first of each few lanes; puts together what it says of them, one bit each.
 #[inline(always)]
-fn lanes(mut test: impl FnMut(usize) -> u32) -> u64 {
+fn lanes<const LANES: usize>(mut test: impl FnMut(usize) -> u32) -> u64 {
     (0..LANES).step_by(WIDTH).map(|lane| u64::from(test(lane)) << lane).fold(0, |all, some| all | some)
 }
 
-impl Lanes for Vectors {
+impl<const LANES: usize> Lanes for Vectors<LANES> {
     type Item = Vec3;
     /// Infinitely far from everywhere.
     const EMPTY: Self =
@@ -94,22 +92,22 @@ impl Lanes for Vectors {
 /// Numbered points in cubic cells, each with an item of its own.
 ///
 /// Each cell holds its points in a chain of blocks, of which only the first may have room left: a search reads
-/// positions side by side instead of hopping from point to point.
+/// positions side by side instead of hopping from point to point. A block has so many lanes, a multiple of four.
 #[derive(Clone, Debug)]
-pub(crate) struct PlaceGrid<L = ()> {
+pub(crate) struct PlaceGrid<const LANES: usize, L = ()> {
     /// Edge of a cell.
     cell: f32,
     /// In each cell its first block, plus one; 0 for none.
     heads: VoxelGrid<u32>,
-    blocks: Vec<Block<L>>,
+    blocks: Vec<Block<LANES, L>>,
     /// Blocks to use again.
     spare: Vec<u32>,
 }
 
 /// Points that are read together. A lane without a point is infinitely far away.
 #[derive(Clone, Debug)]
-pub(crate) struct Block<L> {
-    places: Vectors,
+pub(crate) struct Block<const LANES: usize, L> {
+    places: Vectors<LANES>,
     items: L,
     number: [u32; LANES],
     len: u32,
@@ -117,11 +115,11 @@ pub(crate) struct Block<L> {
     next: u32,
 }
 
-/// Where a point stands: its block and its lane.
+/// Where a point stands among so many lanes to a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Stand(u32);
+pub(crate) struct Stand<const LANES: usize>(u32);
 
-impl Stand {
+impl<const LANES: usize> Stand<LANES> {
     /// Where nothing stands.
     pub(crate) const NOWHERE: Self = Self(u32::MAX);
 
@@ -145,7 +143,7 @@ pub(crate) enum Visit {
     Stop,
 }
 
-impl<L: Lanes> Block<L> {
+impl<const LANES: usize, L: Lanes> Block<LANES, L> {
     const EMPTY: Self = Self { places: Vectors::EMPTY, items: L::EMPTY, number: [0; LANES], len: 0, next: 0 };
 
     fn set(&mut self, lane: usize, place: Vec3, number: u32, item: L::Item) {
@@ -157,7 +155,7 @@ impl<L: Lanes> Block<L> {
     /// The lanes of all points within the root of `limit` of a place.
     #[inline(always)]
     fn near(&self, place: Vec3, limit: f32) -> impl Iterator<Item = usize> {
-        bits(lanes(|lane| {
+        bits(lanes::<LANES>(|lane| {
             let offsets = self.places.offsets(lane, place);
             dot(offsets, offsets).cmple(Vec4::splat(limit)).bitmask()
         }))
@@ -173,7 +171,7 @@ impl<L: Lanes> Block<L> {
     }
 }
 
-impl Block<Vectors> {
+impl<const LANES: usize> Block<LANES, Vectors<LANES>> {
     /// Calls `visit` with number, squared distance and cosine-times-distance of every point no farther than
     /// `limit` (squared) from `place` that sees it in the cone around its own direction (see [`crate::space::Cone`]).
     #[inline(always)]
@@ -184,29 +182,29 @@ impl Block<Vectors> {
         signed_cos_squared: f32,
         mut visit: impl FnMut(u32, f32, f32),
     ) {
-        let mut squares = [Vec4::ZERO; LANES / WIDTH];
-        let mut dots = squares;
-        let seen = lanes(|lane| {
+        let (mut squares, mut dots) = ([0.0; LANES], [0.0; LANES]);
+        let seen = lanes::<LANES>(|lane| {
             let offsets = self.places.offsets(lane, place);
             let (square, along) = (dot(offsets, offsets), dot(offsets, self.items.from(lane)));
-            (squares[lane / WIDTH], dots[lane / WIDTH]) = (square, along);
+            square.write_to_slice(&mut squares[lane..]);
+            along.write_to_slice(&mut dots[lane..]);
             let ahead = (along * along.abs()).cmpge(signed_cos_squared * square);
             (square.cmple(Vec4::splat(limit)) & ahead).bitmask()
         });
         for lane in bits(seen) {
-            visit(self.number[lane], squares[lane / WIDTH][lane % WIDTH], dots[lane / WIDTH][lane % WIDTH]);
+            visit(self.number[lane], squares[lane], dots[lane]);
         }
     }
 }
 
-impl<L: Lanes> PlaceGrid<L> {
+impl<const LANES: usize, L: Lanes> PlaceGrid<LANES, L> {
     /// No points yet.
     pub(crate) fn new(cell: f32) -> Self {
         Self { cell, heads: VoxelGrid::new(), blocks: Vec::new(), spare: Vec::new() }
     }
 
     /// Enters a point, and says where it stands.
-    pub(crate) fn insert(&mut self, number: u32, place: Vec3, item: L::Item) -> Stand {
+    pub(crate) fn insert(&mut self, number: u32, place: Vec3, item: L::Item) -> Stand<LANES> {
         let cell = self.cell_of(place);
         let head = self.heads.get_mut(cell);
         let has_room = *head != 0 && (self.blocks[*head as usize - 1].len as usize) < LANES;
@@ -227,7 +225,7 @@ impl<L: Lanes> PlaceGrid<L> {
     }
 
     /// Where a point stands that was entered at this place.
-    pub(crate) fn find(&self, number: u32, place: Vec3) -> Stand {
+    pub(crate) fn find(&self, number: u32, place: Vec3) -> Stand<LANES> {
         let mut at = self.heads.get(self.cell_of(place));
         loop {
             debug_assert!(at != 0, "point {number} was never entered");
@@ -240,7 +238,7 @@ impl<L: Lanes> PlaceGrid<L> {
     }
 
     /// Takes out the point that stands here. If another moves to its stand, returns that one's number.
-    pub(crate) fn remove(&mut self, stand: Stand) -> Option<u32> {
+    pub(crate) fn remove(&mut self, stand: Stand<LANES>) -> Option<u32> {
         let (block, lane) = (stand.block(), stand.lane());
         let cell = self.cell_of(self.blocks[block].places.get(lane));
         let number = self.blocks[block].number[lane];
@@ -259,7 +257,7 @@ impl<L: Lanes> PlaceGrid<L> {
     }
 
     /// Moves the point that stands here, if its new place lies in the same cell. Returns whether it does.
-    pub(crate) fn shift(&mut self, stand: Stand, place: Vec3, item: L::Item) -> bool {
+    pub(crate) fn shift(&mut self, stand: Stand<LANES>, place: Vec3, item: L::Item) -> bool {
         let (block, lane) = (stand.block(), stand.lane());
         let stays = self.cell_of(self.blocks[block].places.get(lane)) == self.cell_of(place);
         if stays {
@@ -270,7 +268,7 @@ impl<L: Lanes> PlaceGrid<L> {
     }
 
     /// Place and item of the point that stands here.
-    pub(crate) fn at(&self, stand: Stand) -> (Vec3, L::Item) {
+    pub(crate) fn at(&self, stand: Stand<LANES>) -> (Vec3, L::Item) {
         let block = &self.blocks[stand.block()];
         (block.places.get(stand.lane()), block.items.get(stand.lane()))
     }
@@ -293,7 +291,7 @@ impl<L: Lanes> PlaceGrid<L> {
 
     /// Calls `visit` with every block of every cell within `radius` of `place`, until it says stop.
     #[inline]
-    fn visit_blocks(&self, place: Vec3, radius: f32, mut visit: impl FnMut(&Block<L>) -> Visit) {
+    fn visit_blocks(&self, place: Vec3, radius: f32, mut visit: impl FnMut(&Block<LANES, L>) -> Visit) {
         let limit = radius * radius;
         self.visit_nearing(place, radius, |block| match visit(block) {
             Visit::Go => limit,
@@ -305,7 +303,12 @@ impl<L: Lanes> PlaceGrid<L> {
     /// then than the root of what `visit` last returned. The place's own cell comes first: what ends a search is
     /// mostly near.
     #[inline]
-    pub(crate) fn visit_nearing(&self, place: Vec3, radius: f32, mut visit: impl FnMut(&Block<L>) -> f32) {
+    pub(crate) fn visit_nearing(
+        &self,
+        place: Vec3,
+        radius: f32,
+        mut visit: impl FnMut(&Block<LANES, L>) -> f32,
+    ) {
         let mut limit = radius * radius;
         let (low, centre) = (self.cell_of(place - radius), self.cell_of(place));
         let high = self.cell_of(place + radius);
@@ -387,7 +390,7 @@ impl<L: Lanes> PlaceGrid<L> {
 
     /// Calls `visit` with the blocks of a cell, until it returns a limit below zero.
     #[inline(always)]
-    fn visit_chain(&self, head: u32, limit: &mut f32, visit: &mut impl FnMut(&Block<L>) -> f32) {
+    fn visit_chain(&self, head: u32, limit: &mut f32, visit: &mut impl FnMut(&Block<LANES, L>) -> f32) {
         let mut at = head;
         while at != 0 && *limit >= 0.0 {
             let block = &self.blocks[at as usize - 1];

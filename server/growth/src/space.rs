@@ -16,14 +16,17 @@ use crate::{
 /// Edges of the cells: as wide as what is searched for, so that few cells are visited; found by measuring.
 const NODE_CELL: f32 = 4.0;
 const BUD_CELL: f32 = 6.0;
+/// Nodes and buds that are read together. Buds are more often looked up one by one, so their blocks are short.
+const NODES: usize = 8;
+const BUDS: usize = 4;
 
 /// All living nodes and buds by place. A bud is named by its axis.
 #[derive(Clone, Debug)]
 pub struct Space {
-    nodes: PlaceGrid,
-    buds: PlaceGrid<Vectors>,
+    nodes: PlaceGrid<NODES>,
+    buds: PlaceGrid<BUDS, Vectors<BUDS>>,
     /// Where the bud of each axis stands among the buds.
-    stands: Vec<Stand>,
+    stands: Vec<Stand<BUDS>>,
     /// Axes whose buds have come, moved or gone since someone last took note of it: one bit each.
     moved: Vec<u64>,
 }
