@@ -3,16 +3,16 @@
 // &yaw=30&zoom=2.
 
 import { viewIn } from "../src/scene/camera/view";
-import { TreeTable } from "../src/scene/table/tree-table";
 import { Viewport } from "../src/scene/viewport";
 import { type Appearance, DEFAULT_APPEARANCE } from "../src/wire/generated";
+import { PlainTable } from "./plain-table";
 import { sampleTree } from "./sample-tree";
 import { type Skeleton, skeletonTree } from "./skeleton-tree";
 
 const query = new URLSearchParams(location.search);
 const number = (name: string, otherwise: number) => Number(query.get(name) ?? otherwise);
 const canvas = document.querySelector("canvas")!;
-const table = new TreeTable();
+const table = new PlainTable();
 const viewport = new Viewport(canvas, table);
 const appearance: Appearance = structuredClone(DEFAULT_APPEARANCE);
 for (const [section, look] of Object.entries(appearance)) Object.assign(look, JSON.parse(query.get(section) ?? "{}"));

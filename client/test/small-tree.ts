@@ -1,7 +1,8 @@
 import type { Overlay } from "../src/scene/overlay/overlays";
-import { TreeTable } from "../src/scene/table/tree-table";
+import type { TreeTable } from "../src/scene/table/tree-table";
 import type { Vec3 } from "../src/scene/vector";
 import { MIN_RADIUS, RADIUS_LOG_STEP } from "../src/wire/generated";
+import { PlainTable } from "./plain-table";
 
 /** A metamer of a small tree: its parent's row, where it ends, and what else is not as usual. */
 export interface Twig {
@@ -29,7 +30,7 @@ export const SMALL: readonly Twig[] = [
 ];
 
 /** A table with these metamers, quantised as the server would. */
-export function tableOf(twigs: readonly Twig[], table = new TreeTable(() => 0)): TreeTable {
+export function tableOf(twigs: readonly Twig[], table = new PlainTable(() => 0)): TreeTable {
   const step = (value: number) => Math.round(256 * value);
   const rows = {
     parent: Uint32Array.from(twigs, ({ parent, begins }, row) =>

@@ -1,8 +1,9 @@
 import { readFileSync } from "node:fs";
 import type { Weather } from "../src/scene/motion/wind";
-import { TreeTable } from "../src/scene/table/tree-table";
+import type { TreeTable } from "../src/scene/table/tree-table";
 import type { Vec3 } from "../src/scene/vector";
 import { CHUNK_ROWS, type PlacedShape, type Pose } from "../src/wire/generated";
+import { PlainTable } from "./plain-table";
 
 interface JointSample {
   first: number;
@@ -91,7 +92,7 @@ export const SAMPLED_JOINTS = golden.sampledJoints;
 
 /** Its rows as a table. */
 export function tableOfSwaying({ rows }: SwayingTree): TreeTable {
-  const table = new TreeTable(() => 0);
+  const table = new PlainTable(() => 0);
   const count = rows.parent.length;
   const changes = [];
   for (let first = 0, chunk = 0; first < count; first += CHUNK_ROWS, chunk += 1) {

@@ -48,7 +48,7 @@ class Session:
         self.refused = {}
         self.is_welcome = False
         # A key of this client's own: with the same one it could come back after a lost connection.
-        self.send({"type": "hello", "protocol": 3, "client": uuid4().hex})
+        self.send({"type": "hello", "protocol": 4, "client": uuid4().hex})
         while not self.is_welcome:
             self.listen()
 

@@ -25,7 +25,7 @@ pub const HEADER_BYTES: usize = 8;
 /// The most bytes a body may unpack to (`FR2`).
 pub const MAX_BODY_BYTES: usize = 64 * 1024 * 1024;
 
-const VERSION: u8 = 3;
+const VERSION: u8 = 4;
 const CODEC_RAW: u8 = 0;
 const CODEC_DEFLATE: u8 = 1;
 const CODEC_PACKED: u8 = 2;
@@ -114,7 +114,7 @@ pub enum FrameError {
     #[error("the frame is cut short")]
     Truncated,
     /// Another version of the format.
-    #[error("frame version {0} is not 3")]
+    #[error("frame version {0} is not 4")]
     Version(u8),
     /// Another kind of frame than was asked for.
     #[error("frame kind {0} is not the one expected")]

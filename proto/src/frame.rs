@@ -3,6 +3,7 @@
 //! A frame is a header and a body of [`ChunkChange`]s. Rows are metamers in birth order; a chunk is
 //! [`CHUNK_ROWS`] consecutive rows with one generation. `PROTOCOL.md` gives the layout byte by byte (`FR`).
 
+pub mod direction;
 pub(crate) mod layout;
 
 use crate::{
@@ -21,6 +22,17 @@ pub const POSITION_STEPS: f32 = 256.0;
 pub const MIN_RADIUS: f32 = 0.001;
 /// Ratio of neighbouring radius codes, as a natural logarithm.
 pub const RADIUS_LOG_STEP: f32 = 0.01;
+
+/// The level of light that a value of the column shows.
+pub fn light_level(light: u8) -> i32 {
+    i32::from(light >> 3)
+}
+
+/// The light of a level; none beyond the highest, 31, and below 0.
+pub fn light_of(level: i32) -> Option<u8> {
+    let level = u8::try_from(level).ok().filter(|level| *level < 32)?;
+    Some(level << 3 | level >> 2)
+}
 
 /// Organs of one row at most.
 pub const MOST_ORGANS: usize = 15;
@@ -104,14 +116,16 @@ pub enum Column {
 pub enum Values {
     /// 0 for a seed, else `2 · (row − parent row) + (1 if it begins an axis)`.
     Parent(Vec<u32>),
-    /// Difference to the parent's position (to the origin without one), in steps of 1/256 internode.
+    /// What is [told](direction) of the difference to the parent's position (to the origin without one), in steps of 1/256
+    /// internode.
     Position(Vec<[i32; 3]>),
-    /// Radius code; 0: the metamer is dead and not drawn.
-    Radius(Vec<u16>),
-    /// Number of leaves in the low four bits, vigor from 0 (weak) to 15 in the high four.
+    /// By how much the radius code changes; a code of 0: the metamer is dead and not drawn.
+    Radius(Vec<i32>),
+    /// By how much foliage changes, modulo 256: number of leaves in the low four bits, vigor from 0 (weak) to 15 in the high
+    /// four.
     Foliage(Vec<u8>),
-    /// Light exposure from 0 (dark) to 255 (full).
-    Light(Vec<u8>),
+    /// By how many of 32 levels the exposure to light changes.
+    Light(Vec<i32>),
     /// Steps of growth up to its birth, the one in which it was born included; 0 for the first seed.
     Born(Vec<u32>),
     /// Organs that it is given, at most 15, each in one number (`LF5`); none where it bears what grows on such wood.
@@ -125,11 +139,11 @@ pub struct Rows {
     pub parent: Vec<u32>,
     /// See [`Values::Position`].
     pub position: Vec<[i32; 3]>,
-    /// See [`Values::Radius`].
+    /// Radius code; 0: the metamer is dead and not drawn.
     pub radius: Vec<u16>,
-    /// See [`Values::Foliage`].
+    /// Number of leaves in the low four bits, vigor from 0 (weak) to 15 in the high four.
     pub foliage: Vec<u8>,
-    /// See [`Values::Light`].
+    /// Light exposure from 0 (dark) to 255 (full).
     pub light: Vec<u8>,
     /// See [`Values::Born`].
     pub born: Vec<u32>,
@@ -159,8 +173,8 @@ impl Values {
         match self {
             Self::Parent(v) | Self::Born(v) => v.len(),
             Self::Position(v) => v.len(),
-            Self::Radius(v) => v.len(),
-            Self::Foliage(v) | Self::Light(v) => v.len(),
+            Self::Radius(v) | Self::Light(v) => v.len(),
+            Self::Foliage(v) => v.len(),
             Self::Organs(v) => v.len(),
         }
     }

@@ -1,7 +1,7 @@
 //! The protocol's version, its limits, and the codes a socket closes with.
 
 /// The version of everything in this crate; a client states it in its hello (`HS1`).
-pub const PROTOCOL_VERSION: u32 = 3;
+pub const PROTOCOL_VERSION: u32 = 4;
 
 /// The largest WebSocket message a client may send, in bytes (`LM1`).
 pub const MAX_MESSAGE_BYTES: usize = 256 * 1024;

@@ -7,7 +7,7 @@ use std::{fs, path::PathBuf};
 use espalier_proto::{
     BendFrame, ChunkChange, DeviceNews, Frame, GhostFrame, PointerNews, PointerPlace, PresenceFrame,
     RowMotion, Rows, Values,
-    frame::CHUNK_ROWS,
+    frame::{CHUNK_ROWS, direction},
     presence_frame::{ALONG_STEPS, PLACE_STEPS, RADIUS_STEPS},
 };
 use serde_json::{Value, json};
@@ -57,9 +57,9 @@ fn packed_all() -> Frame {
             ChunkChange::Truncate { rows: u32::MAX },
             ChunkChange::Replace { chunk: 9, generation: u32::MAX, rows: farthest },
             ChunkChange::Append { chunk: 3, generation: 4, start: 17, rows: sapling() },
-            patch(2, Values::Radius((0..rows.len() as u16).map(|i| 300 + i * i % 97).collect())),
+            patch(2, Values::Radius((0..rows.len() as i32).map(|i| i * i % 97 - 40).collect())),
             patch(2, Values::Foliage(waves(rows.len()))),
-            patch(u32::MAX, Values::Light(waves(rows.len()))),
+            patch(u32::MAX, Values::Light((0..rows.len() as i32).map(|i| i * i % 63 - 31).collect())),
         ],
     }
 }
@@ -131,9 +131,9 @@ fn patches() -> Frame {
         changes: vec![
             patch(vec![0, 255], Values::Parent(vec![0, 513])),
             patch(vec![4, 5, 9], Values::Position(vec![[0, -1, 1], [64, -64, 128], [-100_000, 100_000, 0]])),
-            patch((0..=255).collect(), Values::Radius((0..256).map(|i| 300 + i % 7).collect())),
+            patch((0..=255).collect(), Values::Radius((0..256).map(|i| i % 7 - 300).collect())),
             patch(vec![17], Values::Foliage(vec![0x40])),
-            patch(vec![100, 200], Values::Light(vec![0, 255])),
+            patch(vec![100, 200], Values::Light(vec![-31, 2])),
             patch(vec![0, 1, 7], Values::Born(vec![129, 129, 4000])),
             patch(
                 vec![3, 4, 9],
@@ -312,6 +312,37 @@ fn growth_goes_on_behind_a_truncation() {
 #[test]
 fn every_column_can_be_patched() {
     check("patches", &patches());
+}
+
+/// Ways of metamers, straight on, aside, shorter, longer and back, by what is told of them.
+#[test]
+fn fr10_what_is_told_leads_where_a_metamer_ends() {
+    let parents =
+        [[0; 3], [0, 256, 0], [3, -255, 20], [148, 148, 148], [-200, 90, -131], [0, 30, -40], [900, 2, 1]];
+    let ways = [
+        [0, 256, 0],
+        [0, -256, 1],
+        [181, 181, 0],
+        [-148, 147, 149],
+        [12, 70, -3],
+        [700, 40, -900],
+        [5, 0, 0],
+    ];
+    let cases = parents.iter().flat_map(|parents| ways.iter().map(move |way| (parents, way)));
+    let described = cases.flat_map(|(&parents, &way)| {
+        [false, true].map(|goes_on| {
+            let told = direction::tell(way, parents, goes_on);
+            assert_eq!(direction::follow(told, parents, goes_on), way);
+            json!({ "parents": parents, "goes_on": goes_on, "told": told, "way": way })
+        })
+    });
+    let described = Value::Array(described.collect());
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden/ways.json");
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        fs::write(&file, format!("{described}\n")).expect("the examples can be written");
+    }
+    let stored = fs::read_to_string(file).expect("the examples can be read");
+    assert_eq!(serde_json::from_str::<Value>(&stored).expect("they are JSON"), described);
 }
 
 #[test]

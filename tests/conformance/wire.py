@@ -127,7 +127,7 @@ class Socket:
             raise Wrong(f"the handshake is answered {status} {told}")
         self.nonce = 0
         name = base64.urlsafe_b64encode(os.urandom(12)).decode()
-        self.say(frame(LAST | TEXT, json.dumps({"type": "hello", "protocol": 3, "client": name}).encode()))
+        self.say(frame(LAST | TEXT, json.dumps({"type": "hello", "protocol": 4, "client": name}).encode()))
         self.until(lambda first, payload: first == LAST | TEXT and b'"welcome"' in payload[:20])
 
     def say(self, data, chop=None):

@@ -1,6 +1,9 @@
 //! The rows a client holds, built from frames alone and as strictly as the protocol allows.
 
-use espalier_proto::{ChunkChange, Frame, Resume, Rows, Values, frame::CHUNK_ROWS};
+use espalier_proto::{
+    ChunkChange, Frame, Resume, Rows, Values,
+    frame::{CHUNK_ROWS, direction, light_level, light_of},
+};
 
 /// One metamer as a client knows it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -137,10 +140,9 @@ impl Table {
                 self.rows.push(Row::default());
             }
             self.rows[row].parent = rows.parent[i];
-            let from = self.parent_position(row)?;
             self.rows[row] = Row {
                 parent: rows.parent[i],
-                position: sum(from, rows.position[i]),
+                position: self.place(row, rows.position[i])?,
                 radius: rows.radius[i],
                 foliage: rows.foliage[i],
                 light: rows.light[i],
@@ -157,21 +159,40 @@ impl Table {
         }
         match values {
             Values::Parent(v) => self.rows[row].parent = v[i],
-            Values::Position(v) => self.rows[row].position = sum(self.parent_position(row)?, v[i]),
-            Values::Radius(v) => self.rows[row].radius = v[i],
-            Values::Foliage(v) => self.rows[row].foliage = v[i],
-            Values::Light(v) => self.rows[row].light = v[i],
+            Values::Position(v) => self.rows[row].position = self.place(row, v[i])?,
+            Values::Radius(v) => {
+                let code = u16::try_from(i32::from(self.rows[row].radius) + v[i]);
+                self.rows[row].radius = code.map_err(|_| format!("FR11: radius of row {row} by {}", v[i]))?;
+            }
+            Values::Foliage(v) => self.rows[row].foliage = self.rows[row].foliage.wrapping_add(v[i]),
+            Values::Light(v) => {
+                let light = light_of(light_level(self.rows[row].light) + v[i]);
+                self.rows[row].light =
+                    light.ok_or_else(|| format!("FR11: light of row {row} by {}", v[i]))?;
+            }
             Values::Born(_) => panic!("a metamer never changes its birth"),
             Values::Organs(v) => self.rows[row].organs.clone_from(&v[i]),
         }
         Ok(())
     }
 
-    fn parent_position(&self, row: usize) -> Result<[i32; 3], String> {
+    /// Where a row ends, by what is told of it (`FR10`).
+    fn place(&self, row: usize, told: [i32; 3]) -> Result<[i32; 3], String> {
+        let goes_on = self.rows[row].parent & 1 == 0;
+        let Some(parent) = self.parent(row)? else { return Ok(direction::follow(told, [0; 3], goes_on)) };
+        let from = self.rows[parent].position;
+        let parents = self.parent(parent)?.map_or([0; 3], |below| {
+            let below = self.rows[below].position;
+            std::array::from_fn(|axis| from[axis].wrapping_sub(below[axis]))
+        });
+        Ok(sum(from, direction::follow(told, parents, goes_on)))
+    }
+
+    fn parent(&self, row: usize) -> Result<Option<usize>, String> {
         let back = (self.rows[row].parent >> 1) as usize;
         match (self.rows[row].parent, back) {
-            (0, _) => Ok([0; 3]),
-            (_, 1..) if back <= row => Ok(self.rows[row - back].position),
+            (0, _) => Ok(None),
+            (_, 1..) if back <= row => Ok(Some(row - back)),
             (parent, _) => Err(format!("FR5: row {row} has parent code {parent}")),
         }
     }

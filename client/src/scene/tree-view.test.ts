@@ -2,12 +2,12 @@ import { type BufferGeometry, type Mesh, type Object3D, type RawShaderMaterial, 
 import { beforeAll, describe, expect, it } from "vitest";
 import { idlePainter } from "../../test/idle-painter";
 import { trianglesOf } from "../../test/items";
+import { PlainTable } from "../../test/plain-table";
 import { sampleTree } from "../../test/sample-tree";
 import { DEFAULT_APPEARANCE } from "../wire/generated";
 import { BlockGeometry } from "./block-geometry";
 import { makeMaterials, type Uniforms } from "./materials";
 import { openingOf, QUALITIES, type Quality } from "./rendering/quality";
-import { TreeTable } from "./table/tree-table";
 import { TreeView } from "./tree-view";
 
 /** Calls of a pass at most: a few levels of wood, leaves, sprigs. */
@@ -23,7 +23,7 @@ interface Work {
 }
 
 describe("a tree of 100,000 metamers, seen as a whole", () => {
-  const table = new TreeTable(() => 0);
+  const table = new PlainTable(() => 0);
   let view: TreeView;
 
   beforeAll(() => {

@@ -15,7 +15,7 @@ export interface OpenedFrame {
   readonly isPacked: boolean;
 }
 
-const VERSION = 3;
+const VERSION = 4;
 /** The codec of bodies that are packed by models: in mesh deltas alone. */
 const PACKED = 2;
 /** The only flag, and only mesh deltas have it. */

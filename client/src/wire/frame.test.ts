@@ -11,7 +11,7 @@ function varint(value: number): number[] {
 }
 
 function headed(body: number[], header: { codec?: number; flags?: number; length?: number } = {}): ArrayBuffer {
-  const start = [3, 1, header.codec ?? 0, header.flags ?? 0, 0, 0, 0, 0, 0];
+  const start = [4, 1, header.codec ?? 0, header.flags ?? 0, 0, 0, 0, 0, 0];
   return new Uint8Array([...start, ...varint(header.length ?? body.length), ...body]).buffer;
 }
 
@@ -53,7 +53,7 @@ describe("a frame", () => {
       bytes[at] = value;
       return bytes.buffer;
     };
-    await refused(with_(0, 2), /version 2 is not 3/);
+    await refused(with_(0, 2), /version 2 is not 4/);
     await refused(with_(1, 7), /kind 7/);
     await refused(with_(2, 3), /Codec 3/);
     await refused(headed([1, 0], { codec: 2, length: 3 }), /length/);
@@ -90,13 +90,14 @@ describe("a frame", () => {
     await refused(headed([2, 0, 1, 129, 2]), /count of 257/);
     await refused(headed([3, 0, 1, 255, 1, 2, ...new Array(16).fill(0)]), /past the end/);
     await refused(headed([4, 0, 1, 4, 2, 255, 1, 0, 7, 7]), /past the end/);
-    await refused(headed([4, 0, 1, 2, 1, 0, 128, 128, 8]), /16 bits/);
-    await refused(headed([4, 0, 1, 2, 1, 0, 1]), /16 bits/);
+    const rows = (radius: number[]) => [2, 0, 1, 1, 0, 0, 0, 0, ...radius, 0, 0, 0];
+    await refused(headed(rows([128, 128, 8])), /16 bits/);
+    await refused(headed(rows([1])), /16 bits/);
   });
 
-  it("reads radii as differences", async () => {
+  it("FR11: reads by how much radii change", async () => {
     const frame = await decodeFrame(headed([4, 0, 0, 2, 3, 0, 0, 0, 144, 6, 0, 3]));
-    expect(frame.changes[0]).toMatchObject({ column: "radius", values: Uint16Array.of(392, 392, 390) });
+    expect(frame.changes[0]).toMatchObject({ column: "radius", values: Int32Array.of(392, 0, -2) });
   });
 
   it("reads births as differences", async () => {

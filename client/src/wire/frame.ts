@@ -27,7 +27,7 @@ export type ChunkChange =
 export interface Rows {
   /** 0 for a seed, else 2·(row − parent's row) + (1 if it begins an axis). */
   parent: Uint32Array;
-  /** Differences to the parent's position, x y z interleaved, in 1/256 internode. */
+  /** What is told of each position (FR10), three numbers a row. */
   position: Int32Array;
   /** Radius codes; 0 is dead. */
   radius: Uint16Array;
@@ -42,15 +42,14 @@ export interface Rows {
 /** Organs that rows are given, each in one number (LF5); null where a row bears what grows on such wood. */
 export type OrganRows = readonly (Uint32Array | null)[];
 
-/** Values of one column, encoded as in `Rows`. */
+/** Values of one column; of radius, foliage and light by how much they change (FR11), of others as in `Rows`. */
 export type Values =
-  | { [C in keyof Rows]: { column: C; values: Rows[C] } }[keyof Rows]
+  | { column: "parent" | "born"; values: Uint32Array }
+  | { column: "position" | "radius" | "light"; values: Int32Array }
+  | { column: "foliage"; values: Uint8Array }
   | { column: "organs"; values: OrganRows };
 
 const CATCH_UP = 1;
-/** The parent of a row that goes on where the row before it ends. */
-const NEXT = 2;
-
 /** Reads a mesh delta; any bytes at all give a frame or a `FrameError` (FR1–FR3, FR9). */
 export async function decodeFrame(bytes: ArrayBuffer): Promise<Frame> {
   const { epoch, sequence, flags, body, isPacked } = await openFrame(bytes, FrameKind.MeshDelta);
@@ -124,23 +123,13 @@ const PATCHED: readonly Patched[] = [
   [Field.LightCount, Field.FirstLightGap, Field.LightGapAfterNone, Field.LightGap],
 ];
 
-/** Fields of values that stand one after the other: of the first, of one right behind the row before, of any other. */
-type Fields = readonly [first: FieldNumber, beside: FieldNumber, other: FieldNumber];
+/** Fields of values that stand one after the other: of the first, of any other. */
+type Fields = readonly [first: FieldNumber, other: FieldNumber];
 
-const RADII: Fields = [Field.FirstRadius, Field.Radius, Field.Radius];
-const FOLIAGE: Fields = [Field.FirstFoliage, Field.Foliage, Field.Foliage];
-const LIGHT: Fields = [Field.FirstLight, Field.Light, Field.Light];
-const BORN: Fields = [Field.FirstBorn, Field.Born, Field.Born];
-const NEW_RADII: Fields = [Field.FirstNewRadius, Field.NewRadiusBeside, Field.NewRadius];
-const NEW_FOLIAGE: Fields = [Field.FirstNewFoliage, Field.NewFoliageBeside, Field.NewFoliage];
-const NEW_LIGHT: Fields = [Field.FirstNewLight, Field.NewLightBeside, Field.NewLight];
-const NEW_NUMBERS: Fields = [Field.NewNumber, Field.NewNumber, Field.NewNumber];
-
-/** The field of the value at a place; of whole rows, each stands right behind the one before. */
-function fieldAt(fields: Fields, i: number, rows: Uint8Array | null): FieldNumber {
-  if (i === 0) return fields[0];
-  return rows !== null && rows[i]! - rows[i - 1]! > 1 ? fields[2] : fields[1];
-}
+const FOLIAGE: Fields = [Field.FirstFoliage, Field.Foliage];
+const LIGHT: Fields = [Field.FirstLight, Field.Light];
+const BORN: Fields = [Field.FirstBorn, Field.Born];
+const NEW_NUMBERS: Fields = [Field.NewNumber, Field.NewNumber];
 
 /** The signed integer that zigzag mapped to an unsigned one (FR3). */
 function zigzag(source: NumberSource, field: FieldNumber): number {
@@ -175,10 +164,12 @@ function readRows(source: NumberSource): Rows {
   for (let i = 0; i < count; i += 1) parent[i] = source.number(i === 0 ? Field.FirstParent : Field.Parent);
   return {
     parent,
-    position: readRowPositions(source, parent),
-    radius: readRadii(source, RADII, count, null),
-    foliage: readBytes(source, FOLIAGE, count, null),
-    light: readBytes(source, LIGHT, count, null),
+    position: readPositions(source, count, (i, part) =>
+      parent[i]! & 1 ? (part === 2 ? Field.Along : Field.Across) : part === 2 ? Field.OnAlong : Field.OnAcross,
+    ),
+    radius: readRadii(source, count),
+    foliage: readBytes(source, FOLIAGE, count),
+    light: readBytes(source, LIGHT, count),
     born: readBirths(source, BORN, count),
   };
 }
@@ -189,13 +180,13 @@ function readValues(source: NumberSource, column: number, rows: Uint8Array): Val
     case 0:
       return { column: "parent", values: Uint32Array.from(rows, () => source.number(Field.NewNumber)) };
     case 1:
-      return { column: "position", values: readNewPositions(source, count) };
+      return { column: "position", values: readPositions(source, count, () => Field.NewPosition) };
     case 2:
-      return { column: "radius", values: readRadii(source, NEW_RADII, count, rows) };
+      return { column: "radius", values: Int32Array.from(rows, () => zigzag(source, Field.NewRadius)) };
     case 3:
-      return { column: "foliage", values: readBytes(source, NEW_FOLIAGE, count, rows) };
+      return { column: "foliage", values: Uint8Array.from(rows, () => source.byte(Field.NewFoliage)) };
     case 4:
-      return { column: "light", values: readBytes(source, NEW_LIGHT, count, rows) };
+      return { column: "light", values: Int32Array.from(rows, () => zigzag(source, Field.NewLight)) };
     case 5:
       return { column: "born", values: readBirths(source, NEW_NUMBERS, count) };
     case 6:
@@ -218,11 +209,11 @@ function readOrgans(source: NumberSource): Uint32Array | null {
 }
 
 /** Each travels as the difference to the one before it, modulo 256. */
-function readBytes(source: NumberSource, fields: Fields, count: number, rows: Uint8Array | null): Uint8Array {
+function readBytes(source: NumberSource, fields: Fields, count: number): Uint8Array {
   const values = new Uint8Array(count);
   let byte = 0;
   for (let i = 0; i < count; i += 1) {
-    byte = (byte + source.byte(fieldAt(fields, i, rows))) & 0xff;
+    byte = (byte + source.byte(fields[Math.min(i, 1)]!)) & 0xff;
     values[i] = byte;
   }
   return values;
@@ -233,46 +224,33 @@ function readBirths(source: NumberSource, fields: Fields, count: number): Uint32
   const values = new Uint32Array(count);
   let born = 0;
   for (let i = 0; i < count; i += 1) {
-    born = (born + source.number(fieldAt(fields, i, null))) >>> 0;
+    born = (born + source.number(fields[Math.min(i, 1)]!)) >>> 0;
     values[i] = born;
   }
   return values;
 }
 
 /** Each travels as the difference to the one before it. */
-function readRadii(source: NumberSource, fields: Fields, count: number, rows: Uint8Array | null): Uint16Array {
+function readRadii(source: NumberSource, count: number): Uint16Array {
   const values = new Uint16Array(count);
   let code = 0;
   for (let i = 0; i < count; i += 1) {
-    code += zigzag(source, fieldAt(fields, i, rows));
+    code += zigzag(source, i === 0 ? Field.FirstRadius : Field.Radius);
     if (code < 0 || code > 0xffff) throw new FrameError(`A radius code of ${code} has not 16 bits.`);
     values[i] = code;
   }
   return values;
 }
 
-/**
- * All x, then all y, then all z on the wire; interleaved here. A row that goes on where the row before it ends travels as
- * the difference to how that one went.
- */
-function readRowPositions(source: NumberSource, parent: Uint32Array): Int32Array {
-  const values = new Int32Array(3 * parent.length);
-  for (let axis = 0; axis < 3; axis += 1) {
-    for (let i = 0; i < parent.length; i += 1) {
-      const goesOn = i > 0 && parent[i] === NEXT;
-      const [up, aside] = goesOn ? [Field.OnUp, Field.OnAside] : [Field.Up, Field.Aside];
-      const before = goesOn ? values[3 * (i - 1) + axis]! : 0;
-      values[3 * i + axis] = before + zigzag(source, axis === 1 ? up : aside);
-    }
-  }
-  return values;
-}
-
-/** The same of a patch, where none is told by another. */
-function readNewPositions(source: NumberSource, count: number): Int32Array {
+/** All first numbers, then all second and all third ones on the wire; interleaved here. */
+function readPositions(
+  source: NumberSource,
+  count: number,
+  field: (i: number, part: number) => FieldNumber,
+): Int32Array {
   const values = new Int32Array(3 * count);
-  for (let axis = 0; axis < 3; axis += 1) {
-    for (let i = 0; i < count; i += 1) values[3 * i + axis] = zigzag(source, Field.NewPosition);
+  for (let part = 0; part < 3; part += 1) {
+    for (let i = 0; i < count; i += 1) values[3 * i + part] = zigzag(source, field(i, part));
   }
   return values;
 }

@@ -15,10 +15,10 @@ export const Field = {
   Count: 10,
   FirstParent: 11,
   Parent: 12,
-  OnAside: 13,
-  OnUp: 14,
-  Aside: 15,
-  Up: 16,
+  OnAcross: 13,
+  OnAlong: 14,
+  Across: 15,
+  Along: 16,
   FirstRadius: 17,
   Radius: 18,
   FirstFoliage: 19,
@@ -42,19 +42,13 @@ export const Field = {
   LightGapAfterNone: 37,
   LightGap: 38,
   OtherGap: 39,
-  FirstNewRadius: 40,
-  NewRadiusBeside: 41,
-  NewRadius: 42,
-  FirstNewFoliage: 43,
-  NewFoliageBeside: 44,
-  NewFoliage: 45,
-  FirstNewLight: 46,
-  NewLightBeside: 47,
-  NewLight: 48,
-  NewNumber: 49,
-  NewPosition: 50,
-  Organs: 51,
-  Organ: 52,
+  NewRadius: 40,
+  NewFoliage: 41,
+  NewLight: 42,
+  NewNumber: 43,
+  NewPosition: 44,
+  Organs: 45,
+  Organ: 46,
 } as const;
 
 export const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+";
@@ -71,19 +65,19 @@ export const PRIORS =
   "OOw................wO...........................................\n" +
   "q...............................................................\n" +
   "uE6................66...........................................\n" +
-  "SA+................+Q...........................................\n" +
+  "SA+................+R...........................................\n" +
   "OOOOOOOOOOOZbjp...............................U.gZ.qehhkj.......\n" +
-  "QQUXbiu0........c..ffgffefffffflnf00............................\n" +
-  "Tkihghjx........S..jYbjhgighhgfhggkmg...........................\n" +
+  "SRVYbiu0........d..ffgffefffffflnf00............................\n" +
+  "Thhfginq........T..iXZigghghjhhjhgss............................\n" +
   "+...............................................................\n" +
   "RNPSVYdw1.......f..gfffffffffffffffff11.........................\n" +
   "Adflpmdm........l..gffighkiiqkjd.cc.i...........................\n" +
   "AcYdeebYdgllkp..A..cdaggfhggihhihfghfgehheflfeljinl.pe..........\n" +
   "AgRXbefeegkllr..A..bSheeffffgggiggihgggghgekgelklkgqre..........\n" +
-  "RUXadimfo1......f..ffffffgffhggliihhfhfgmog.....................\n" +
-  "RUXaeilenz......f..ffffffgffhggmiihhgggfum......................\n" +
-  "IKMPSVYc05......f..fffffffffffffffffffff55......................\n" +
-  "JLNQTWZe10......f..fffffffffffffffffggfg00......................\n" +
+  "RTVYbfiik+......f..fffffffffgggihgjhhhggriy.....................\n" +
+  "hnbVUSVXazq.....f..mffhgfhffigegfgfeffffdeeqq...................\n" +
+  "ILNQTWZd01......f..fffffffffffffffffffff11......................\n" +
+  "ehebaZcgl0......f..jffihghggggfgffggfihgike.....................\n" +
   "BAAAAAAAA+o.............................3Aooo...................\n" +
   "zDNUakdSMy.........b.oefbcgneoejTf......ePw.....................\n" +
   ".zpjhlig+++4LPPRo.l.k.j..m.m.v.tA+..D+..G4..Sz....Sr..Zo..W...f.og+.....og+......f4.....piz..........jr.....oho......d......rm..o.fh+...........o.fj+.............gi4...........p.egz.....................ggr...........o.feo.............ga............r.d.....\n" +
@@ -92,30 +86,24 @@ export const PRIORS =
   ".jncjheeghhfeeeddgggggfffffffeee+++++++++++9mhdXBBBAAAAAAAAAAej5+.+.+.+.v.j.f.b.A.A.A.B.C1D5F7K8.9.9.9.+.j.f.b.S.A.A.A.A.A9A+B+V6...l...f...a...A0..A+..A+..C+...q...i...e...a...C1..D5..F7..K8...k...f...b...V...B5..C8..F9..N+...j...e...Z...I...A9..A+..B+..V\n" +
   "AADIKNQSVZd+....q..W.kffffffffffffffffffffffffgfh...............\n" +
   "41..............1...............................................\n" +
-  "Ag+.............A..+i...........................................\n" +
-  "AVYdioul........e..fffffghhgliimhlf.............................\n" +
-  "Aabdegm2........i..ggfgfghgfhggjgjigh...........................\n" +
-  "AXZcdgk2........g..fffhggggggffjhgshh...........................\n" +
+  "Ah+.............A..+h...........................................\n" +
+  "AZbgjlul........f..ggfgfgjigjihmglf.............................\n" +
+  "AZbfgjov........g..ggghggihgihhlhhkhp...........................\n" +
+  "AXZccgl2........h..egfhggggggfgjhf2i............................\n" +
   "................................................................\n" +
-  "VWXXZbfxx.......f..efigffhfggghggfhffxx.........................\n" +
-  "gZcdgij+........e..ggfgffhfgigghfglhl...........................\n" +
-  "iaehghh7........d..ghfigfighhggihgkhm...........................\n" +
-  "WWXYZbeyu.......h..fffggfgfgggfgffgffuu.........................\n" +
-  "hefghii4........h..hgghggiggihgigfkgl...........................\n" +
-  "fcefghk6........g..hgghhghggiggjhhlhm...........................\n" +
-  "XVVWXZdxt.......g..hghggffffgffffegfftt.........................\n" +
-  "kfhhggg2........h..ihgihhjhhhhghgfjfl...........................\n" +
-  "hdfgihh0........g..hgghhgihhjhfiggkhk...........................\n" +
+  "UUVWYaewz.......f..ffhgffgfffggfffgffzz.........................\n" +
+  "hadeghh+........f..hgfhgfhffigghffkgm...........................\n" +
+  "iafhfgg7........d..hggihfighihghggjgk...........................\n" +
+  "UUVWXZexv.......g..fggggegffffffffgffvv.........................\n" +
+  "heffghh4........g..hggigghggihghgfkhm...........................\n" +
+  "gdfgfhh4........g..hhgihgiggiggjhfkgk...........................\n" +
+  "YVVVWZdxt.......g..hghgggffgfffffegfftt.........................\n" +
+  "kghhhgf1........h..ihgihgjhghhghfejfm...........................\n" +
+  "heghiihz........g..hggihgjhgjhiihcjhl...........................\n" +
   "................................................................\n" +
-  "AAAAAAAAAa+.............................PLd+m...................\n" +
-  "kcaabgireop.....5..hzwfggfhlijahfgliixx.M.gpp...................\n" +
-  "gcaabfius.......v..hqnggffghijchgglijzs.........................\n" +
-  ".pmkfjie+++6EHKJp.p.n.l..l.k.k.ji6..h5..f1..bz....Z0..Wy..Tv..Rw+g6.....+g5.....7h1.....1gz.........zi0.....thy......fv......hw.+.gi6...........+.hj5...........7.hi1...........1.ehz...................z.gg0...........t.fiy.............giv.............hgw...\n" +
-  ".nwTqjdYwqkfZZajtKodnlknNihbncpKr+pokzjlitllhmiu.njkjpkmlsyln7om+f+.p.g1+ey.0ghx7et.1gkq0dep1du...fp1efsxje.0dbx6ho.7bc3+h7.t.f6+.fk+...p...od1.+.fn7W..0.ehncx.7.fnt...1.fkqfq.0.foohp.1.eou.......lip.1.gjvis.x.hcsg..0.gmmjx.6.firb..7..okh3.+.ek7...t...pi6.\n" +
-  ".jrUmjdYqrnfYbcfqJqbqimrKmkeoZqKm9slkwknkpiljklu.jmmlknmmqqkm8rl+e9.s.e7+exr1jfx+elr1hhs4eit5eu...bv5dcs2gjt5gaz+eoq6ec6+f8.y.e++.fm+...s...mg7.+.fl3kr.1.fhogx.+.emskr.1.gkmjs.4.cmlft.5.glu.......fjv.5.fkphs.2.gmkdt.5.ipilz.+.flrZq.6.kpkj6.+.fl8...y...li+.\n" +
-  ".fgfheeijfeefeelkggefeefffffffgt7222211211122232IHHIHHHHGGGGGHK.7.2.2.2.2.1.1.2.J.J.J.I.I.I.H.I..2.3.3.2.3.3.3.3.G.G.G.G.G.H.K..7...2...2...2...I...J...J...I....1...1...1...2...I...I...H...I....2...3...3...2...H...H...H...H....4...4...4...4...G...H...K....\n" +
-  ".imakhecihggfeddhggggggffffeeeee++++++++++++khebCCCCBBBAAAAAAch++.+.+.+.z.k.g.d.A.A.A.A.C3D5E6H7.8.8.8.8.h.e.a.S.A.A.A.A.A+A+A+.+...j...f...c...Aw..A9..A+..B+...p...j...g...c...C3..D5..E6..H7...h...f...c...X...D5..E7..H8..N+...h...e...a...F...A+..A+..A+...\n" +
-  ".gjcjfeeigfffeeehgggffffffffeeee+++++9988887kgeaDDDDCCCCBBAAAch++.+.+.+.r.j.f.c.C.C.C.D.E2F4G5J6.7.7.7.7.i.f.c.W.B.B.A.A.A7A+C+.+...j...f...b...Ay..C4..E6..G7...l...i...f...c...E2..F4..G5..J6...i...f...c...Y...E3..F5..G7..L8...i...f...a...Q...A7..A+..C+...\n" +
+  "ANQcdegph8......A..fACUfiihhdhhhchjhi+r.iDp.....................\n" +
+  ".ckWafdZRtifabahlAwamvi2DmjgrR+GIm.l0i2kvjzkyjvo.kxi9mzj8krj7.wk.fmp..b++ef02.e1+ge0+fho+fd2+ko...d2+hc19.ey+ge6+.cw5lc++e..w.b+..hhvWp.....ih+.+.bkfd0.2...lh1.+.flfe0.+.ookfo.+.jpfe2.+.hpo.......hf2.+.jqee1.9...ify.+.ipge6.+...gdw.5.h.ff+.+.fl....w...fh+.\n" +
+  "AZbei+..........y..gyyhgghggkhk.................................\n" +
   "................................................................\n" +
   "................................................................\n" +
   "................................................................................................................................................................................................................................................................\n" +

@@ -54,9 +54,6 @@ const REPLACE: u8 = 2;
 const APPEND: u8 = 3;
 const PATCH: u8 = 4;
 
-/// The parent of a row that goes on where the row before it ends.
-const NEXT: u32 = 2;
-
 /// The changes of a frame with this sequence.
 pub(crate) fn write_changes(changes: &[ChunkChange], sequence: u32, out: &mut impl Sink) {
     let mut place = Place::default();
@@ -147,7 +144,7 @@ fn write_change(change: &ChunkChange, sequence: u32, place: &mut Place, out: &mu
                 gap = patched.gap_behind(skipped);
                 next = u32::from(row) + 1;
             }
-            write_values(values, rows, out);
+            write_values(values, out);
         }
     }
 }
@@ -192,7 +189,7 @@ fn read_change(
                 gap = patched.gap_behind(skipped);
                 next = row + 1;
             }
-            let values = read_values(bytes, column, &rows)?;
+            let values = read_values(bytes, column, count)?;
             Ok(ChunkChange::Patch { chunk, generation, rows, values })
         }
     }
@@ -236,41 +233,21 @@ impl Patched {
     }
 }
 
-/// Fields of values that stand one after the other: of the first, of one right behind the row before, of any other.
+/// Fields of values that stand one after the other: of the first, of any other.
 #[derive(Clone, Copy)]
-struct Fields {
-    first: Field,
-    beside: Field,
-    other: Field,
-}
+struct Fields(Field, Field);
 
 impl Fields {
-    /// Of whole rows, where each is right behind the one before.
-    const fn of_rows(first: Field, other: Field) -> Self {
-        Self { first, beside: other, other }
-    }
-
-    /// Of the row at a place, if these rows are meant, or all.
-    fn at(self, place: usize, rows: Option<&[u8]>) -> Field {
-        let Some(before) = place.checked_sub(1) else { return self.first };
-        match rows {
-            Some(rows) if rows[place] - rows[before] > 1 => self.other,
-            _ => self.beside,
-        }
+    fn at(self, place: usize) -> Field {
+        if place == 0 { self.0 } else { self.1 }
     }
 }
 
-const RADII: Fields = Fields::of_rows(Field::FirstRadius, Field::Radius);
-const FOLIAGE: Fields = Fields::of_rows(Field::FirstFoliage, Field::Foliage);
-const LIGHT: Fields = Fields::of_rows(Field::FirstLight, Field::Light);
-const BORN: Fields = Fields::of_rows(Field::FirstBorn, Field::Born);
-const NEW_RADII: Fields =
-    Fields { first: Field::FirstNewRadius, beside: Field::NewRadiusBeside, other: Field::NewRadius };
-const NEW_FOLIAGE: Fields =
-    Fields { first: Field::FirstNewFoliage, beside: Field::NewFoliageBeside, other: Field::NewFoliage };
-const NEW_LIGHT: Fields =
-    Fields { first: Field::FirstNewLight, beside: Field::NewLightBeside, other: Field::NewLight };
-const NEW_NUMBERS: Fields = Fields::of_rows(Field::NewNumber, Field::NewNumber);
+const RADII: Fields = Fields(Field::FirstRadius, Field::Radius);
+const FOLIAGE: Fields = Fields(Field::FirstFoliage, Field::Foliage);
+const LIGHT: Fields = Fields(Field::FirstLight, Field::Light);
+const BORN: Fields = Fields(Field::FirstBorn, Field::Born);
+const NEW_NUMBERS: Fields = Fields(Field::NewNumber, Field::NewNumber);
 
 fn write_rows(rows: &Rows, out: &mut impl Sink) {
     debug_assert!(rows.is_consistent(), "all columns have one length");
@@ -278,17 +255,15 @@ fn write_rows(rows: &Rows, out: &mut impl Sink) {
     for (place, &parent) in rows.parent.iter().enumerate() {
         out.number(if place == 0 { Field::FirstParent } else { Field::Parent }, parent);
     }
-    let goes_on = |row: usize| row > 0 && rows.parent[row] == NEXT;
-    // Like stands beside like, which packs better. Shoots are nearly straight.
-    for axis in 0..3 {
-        for (row, position) in rows.position.iter().enumerate() {
-            let before = if goes_on(row) { rows.position[row - 1][axis] } else { 0 };
-            out.number(coordinate(axis, goes_on(row)), varint::zigzag(position[axis].wrapping_sub(before)));
+    // Like stands beside like, which packs better.
+    for part in 0..3 {
+        for (told, &parent) in rows.position.iter().zip(&rows.parent) {
+            out.number(position(part, parent), varint::zigzag(told[part]));
         }
     }
-    write_radii(&rows.radius, RADII, None, out);
-    write_bytes(&rows.foliage, FOLIAGE, None, out);
-    write_bytes(&rows.light, LIGHT, None, out);
+    write_radii(&rows.radius, out);
+    write_bytes(&rows.foliage, FOLIAGE, out);
+    write_bytes(&rows.light, LIGHT, out);
     write_births(&rows.born, BORN, out);
 }
 
@@ -296,92 +271,87 @@ fn read_rows(bytes: &mut impl Source) -> Result<Rows, FrameError> {
     let count = read_count(bytes, Field::Count)?;
     let field = |place| if place == 0 { Field::FirstParent } else { Field::Parent };
     let parent = (0..count).map(|place| bytes.number(field(place))).collect::<Result<Vec<_>, _>>()?;
-    let mut position = vec![[0i32; 3]; count];
-    for axis in 0..3 {
-        let mut before = 0;
-        for (row, (position, &parent)) in position.iter_mut().zip(&parent).enumerate() {
-            let goes_on = row > 0 && parent == NEXT;
-            let difference = varint::unzigzag(bytes.number(coordinate(axis, goes_on))?);
-            position[axis] = if goes_on { difference.wrapping_add(before) } else { difference };
-            before = position[axis];
+    let mut told = vec![[0; 3]; count];
+    for part in 0..3 {
+        for (told, &parent) in told.iter_mut().zip(&parent) {
+            told[part] = varint::unzigzag(bytes.number(position(part, parent))?);
         }
     }
     Ok(Rows {
         parent,
-        position,
-        radius: read_radii(bytes, RADII, count, None)?,
-        foliage: read_bytes(bytes, FOLIAGE, count, None)?,
-        light: read_bytes(bytes, LIGHT, count, None)?,
+        position: told,
+        radius: read_radii(bytes, count)?,
+        foliage: read_bytes(bytes, FOLIAGE, count)?,
+        light: read_bytes(bytes, LIGHT, count)?,
         born: read_births(bytes, BORN, count)?,
     })
 }
 
-/// The field of a coordinate: 1 is up.
-fn coordinate(axis: usize, goes_on: bool) -> Field {
-    match (goes_on, axis) {
-        (true, 1) => Field::OnUp,
-        (true, _) => Field::OnAside,
-        (false, 1) => Field::Up,
-        (false, _) => Field::Aside,
+/// The field of one of the three numbers that tell a position: the last is along the parent's way. Where an axis goes on,
+/// the row's *parent* is even.
+fn position(part: usize, parent: u32) -> Field {
+    match (parent.is_multiple_of(2), part) {
+        (true, 2) => Field::OnAlong,
+        (true, _) => Field::OnAcross,
+        (false, 2) => Field::Along,
+        (false, _) => Field::Across,
     }
 }
 
-fn write_values(values: &Values, rows: &[u8], out: &mut impl Sink) {
+fn write_values(values: &Values, out: &mut impl Sink) {
     match values {
         Values::Parent(v) => v.iter().for_each(|&parent| out.number(Field::NewNumber, parent)),
         Values::Position(v) => {
-            for axis in 0..3 {
-                v.iter().for_each(|p| out.number(Field::NewPosition, varint::zigzag(p[axis])));
+            for part in 0..3 {
+                v.iter().for_each(|told| out.number(Field::NewPosition, varint::zigzag(told[part])));
             }
         }
-        Values::Radius(v) => write_radii(v, NEW_RADII, Some(rows), out),
-        Values::Foliage(v) => write_bytes(v, NEW_FOLIAGE, Some(rows), out),
-        Values::Light(v) => write_bytes(v, NEW_LIGHT, Some(rows), out),
+        Values::Radius(v) => v.iter().for_each(|&by| out.number(Field::NewRadius, varint::zigzag(by))),
+        Values::Foliage(v) => v.iter().for_each(|&by| out.byte(Field::NewFoliage, by)),
+        Values::Light(v) => v.iter().for_each(|&by| out.number(Field::NewLight, varint::zigzag(by))),
         Values::Born(v) => write_births(v, NEW_NUMBERS, out),
         Values::Organs(v) => v.iter().for_each(|organs| write_organs(organs.as_deref(), out)),
     }
 }
 
-fn read_values(bytes: &mut impl Source, column: u32, rows: &[u8]) -> Result<Values, FrameError> {
-    let count = rows.len();
+fn read_values(bytes: &mut impl Source, column: u32, count: usize) -> Result<Values, FrameError> {
     Ok(match column {
         0 => Values::Parent((0..count).map(|_| bytes.number(Field::NewNumber)).collect::<Result<_, _>>()?),
         1 => {
-            let mut position = vec![[0; 3]; count];
-            for axis in 0..3 {
-                for position in &mut position {
-                    position[axis] = varint::unzigzag(bytes.number(Field::NewPosition)?);
+            let mut all = vec![[0; 3]; count];
+            for part in 0..3 {
+                for told in &mut all {
+                    told[part] = varint::unzigzag(bytes.number(Field::NewPosition)?);
                 }
             }
-            Values::Position(position)
+            Values::Position(all)
         }
-        2 => Values::Radius(read_radii(bytes, NEW_RADII, count, Some(rows))?),
-        3 => Values::Foliage(read_bytes(bytes, NEW_FOLIAGE, count, Some(rows))?),
-        4 => Values::Light(read_bytes(bytes, NEW_LIGHT, count, Some(rows))?),
+        2 => Values::Radius(read_signed(bytes, Field::NewRadius, count)?),
+        3 => Values::Foliage((0..count).map(|_| bytes.byte(Field::NewFoliage)).collect::<Result<_, _>>()?),
+        4 => Values::Light(read_signed(bytes, Field::NewLight, count)?),
         5 => Values::Born(read_births(bytes, NEW_NUMBERS, count)?),
         6 => Values::Organs((0..count).map(|_| read_organs(bytes)).collect::<Result<_, _>>()?),
         _ => return Err(FrameError::Body),
     })
 }
 
+fn read_signed(bytes: &mut impl Source, field: Field, count: usize) -> Result<Vec<i32>, FrameError> {
+    (0..count).map(|_| Ok(varint::unzigzag(bytes.number(field)?))).collect()
+}
+
 /// Each as the difference to the one before it: what grows on one axis is nearly equally thick.
-fn write_radii(radii: &[u16], fields: Fields, rows: Option<&[u8]>, out: &mut impl Sink) {
+fn write_radii(radii: &[u16], out: &mut impl Sink) {
     let mut before = 0;
     for (place, &code) in radii.iter().enumerate() {
         let code = i32::from(code);
-        out.number(fields.at(place, rows), varint::zigzag(code - std::mem::replace(&mut before, code)));
+        out.number(RADII.at(place), varint::zigzag(code - std::mem::replace(&mut before, code)));
     }
 }
 
-fn read_radii(
-    bytes: &mut impl Source,
-    fields: Fields,
-    count: usize,
-    rows: Option<&[u8]>,
-) -> Result<Vec<u16>, FrameError> {
+fn read_radii(bytes: &mut impl Source, count: usize) -> Result<Vec<u16>, FrameError> {
     let mut before = 0i32;
     let read = |place| {
-        let difference = varint::unzigzag(bytes.number(fields.at(place, rows))?);
+        let difference = varint::unzigzag(bytes.number(RADII.at(place))?);
         before = before.checked_add(difference).ok_or(FrameError::Body)?;
         u16::try_from(before).map_err(|_| FrameError::Body)
     };
@@ -389,22 +359,17 @@ fn read_radii(
 }
 
 /// Each as the difference to the one before it, modulo 256.
-fn write_bytes(values: &[u8], fields: Fields, rows: Option<&[u8]>, out: &mut impl Sink) {
+fn write_bytes(values: &[u8], fields: Fields, out: &mut impl Sink) {
     let mut before = 0;
     for (place, &byte) in values.iter().enumerate() {
-        out.byte(fields.at(place, rows), byte.wrapping_sub(std::mem::replace(&mut before, byte)));
+        out.byte(fields.at(place), byte.wrapping_sub(std::mem::replace(&mut before, byte)));
     }
 }
 
-fn read_bytes(
-    bytes: &mut impl Source,
-    fields: Fields,
-    count: usize,
-    rows: Option<&[u8]>,
-) -> Result<Vec<u8>, FrameError> {
+fn read_bytes(bytes: &mut impl Source, fields: Fields, count: usize) -> Result<Vec<u8>, FrameError> {
     let mut before = 0u8;
     let read = |place| {
-        before = before.wrapping_add(bytes.byte(fields.at(place, rows))?);
+        before = before.wrapping_add(bytes.byte(fields.at(place))?);
         Ok(before)
     };
     (0..count).map(read).collect()
@@ -414,14 +379,14 @@ fn read_bytes(
 fn write_births(births: &[u32], fields: Fields, out: &mut impl Sink) {
     let mut before = 0;
     for (place, &born) in births.iter().enumerate() {
-        out.number(fields.at(place, None), born.wrapping_sub(std::mem::replace(&mut before, born)));
+        out.number(fields.at(place), born.wrapping_sub(std::mem::replace(&mut before, born)));
     }
 }
 
 fn read_births(bytes: &mut impl Source, fields: Fields, count: usize) -> Result<Vec<u32>, FrameError> {
     let mut before = 0u32;
     let read = |place| {
-        before = before.wrapping_add(bytes.number(fields.at(place, None))?);
+        before = before.wrapping_add(bytes.number(fields.at(place))?);
         Ok(before)
     };
     (0..count).map(read).collect()

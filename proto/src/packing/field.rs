@@ -71,14 +71,14 @@ fields! {
     FirstParent "parent, the first" Number,
     /// Parents of the others.
     Parent "parent" Number,
-    /// To the sides, of what goes on where the row before it ends.
-    OnAside "position x, z, of what goes on" Number,
-    /// Upwards, of the same.
-    OnUp "position y, of what goes on" Number,
-    /// To the sides, of other rows.
-    Aside "position x, z" Number,
-    /// Upwards, of other rows.
-    Up "position y" Number,
+    /// Across the parent's way, where an axis goes on.
+    OnAcross "position across, of what goes on" Number,
+    /// Along it, where an axis goes on.
+    OnAlong "position along, of what goes on" Number,
+    /// Across it, of other rows.
+    Across "position across" Number,
+    /// Along it, of other rows.
+    Along "position along" Number,
     /// Radius of the first row.
     FirstRadius "radius, the first" Number,
     /// Radii of the others.
@@ -125,27 +125,15 @@ fields! {
     LightGap "gap of light" Number,
     /// Gaps of other columns.
     OtherGap "gap of others" Number,
-    /// The first patched radius.
-    FirstNewRadius "new radius, the first" Number,
-    /// Of the row behind the one before.
-    NewRadiusBeside "new radius with a gap of 0" Number,
-    /// Of a row farther on.
-    NewRadius "new radius" Number,
-    /// The first patched leaves and vigor.
-    FirstNewFoliage "new foliage, the first" Byte,
-    /// Of the row behind the one before.
-    NewFoliageBeside "new foliage with a gap of 0" Byte,
-    /// Of a row farther on.
-    NewFoliage "new foliage" Byte,
-    /// The first patched light.
-    FirstNewLight "new light, the first" Byte,
-    /// Of the row behind the one before.
-    NewLightBeside "new light with a gap of 0" Byte,
-    /// Of a row farther on.
-    NewLight "new light" Byte,
+    /// By how much radii change.
+    NewRadius "change of radius" Number,
+    /// By how much leaves and vigor do.
+    NewFoliage "change of foliage" Byte,
+    /// By how many levels light does.
+    NewLight "change of light" Number,
     /// New parents and births.
     NewNumber "new parent or born" Number,
-    /// New places, each coordinate.
+    /// New places, each of their numbers.
     NewPosition "new position" Number,
     /// How many organs a row is given.
     Organs "organs of a row" Byte,

@@ -349,21 +349,27 @@ impl RingTable {
                 pass.changes.organs.push(row as u32);
                 changes = true;
             }
-            let is_as_wide = match pass.radii.get(row) {
-                Some(&code) => self.radii[row] == code,
-                None => radius(held_tips, former) == radius(tips, style),
+            let (held_radius, radius) = match pass.radii.get(row) {
+                Some(&code) => (self.radii[row], code),
+                None => (radius(held_tips, former), radius(tips, style)),
             };
-            let differ =
-                [!is_as_wide, (held_leaves, held.vigor) != (leaves, look.vigor), held.light != look.light];
             self.tips[row] = tips;
             self.looks[row] = look;
             self.leaves = self.leaves - u32::from(held_leaves) + u32::from(leaves);
-            let Changes { radius, foliage, light, .. } = &mut pass.changes;
-            for (column, differs) in [radius, foliage, light].into_iter().zip(differ) {
-                if differs {
-                    column.push(row as u32);
-                    changes = true;
-                }
+            if held_radius != radius {
+                pass.changes.radius.push(row as u32);
+                pass.changes.former_radius.push(held_radius);
+                changes = true;
+            }
+            if (held_leaves, held.vigor) != (leaves, look.vigor) {
+                pass.changes.foliage.push(row as u32);
+                pass.changes.former_foliage.push(held.vigor | held_leaves);
+                changes = true;
+            }
+            if held.light != look.light {
+                pass.changes.light.push(row as u32);
+                pass.changes.former_light.push(held.light);
+                changes = true;
             }
         }
         changes

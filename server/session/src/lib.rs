@@ -53,6 +53,6 @@ pub use schematic::schematic;
 pub use session::{Restoring, Session, Tail};
 pub use snapshot::RestoreError;
 pub use species_script::{script, wire_species};
-pub use to_proto::{delta, style_options};
+pub use to_proto::{delta, style_options, whole};
 pub use urgency::Urgency;
 pub use work::Work;

@@ -6,7 +6,7 @@ use espalier_mesh::{Changes, Dyes, RingTable, StyleOptions, radius_code, ring_ta
 use espalier_plant::organs::MOST_ORGANS;
 use espalier_proto::{
     ChunkChange, DocumentState, DyeColours, DyedBlock, Frame, Pause, Resume, Rows, ServerMessage, Values,
-    frame::{self, CHUNK_ROWS},
+    frame::{self, CHUNK_ROWS, direction, light_level},
 };
 use espalier_settings::ParameterValues;
 
@@ -66,19 +66,25 @@ pub fn delta(table: &RingTable, changes: &Changes, epoch: u32, sequence: u32) ->
     }
     let end = changes.appended.start;
     // Positions go first and upwards: every other position is read relative to its parent's new one.
-    patches(&mut list, &changes.position, end, sequence, |rows| {
-        Values::Position(rows.iter().map(|&row| relative_position(table, row)).collect())
+    patches(&mut list, &changes.position, end, sequence, |of| {
+        Values::Position(changes.position[of].iter().map(|&row| told_position(table, row)).collect())
     });
-    patches(&mut list, &changes.radius, end, sequence, |rows| {
-        Values::Radius(rows.iter().map(|&row| table.radius(row)).collect())
+    patches(&mut list, &changes.radius, end, sequence, |of| {
+        let before = &changes.former_radius[of.clone()];
+        let by = |(&row, &before)| i32::from(table.radius(row)) - i32::from(before);
+        Values::Radius(changes.radius[of].iter().zip(before).map(by).collect())
     });
-    patches(&mut list, &changes.foliage, end, sequence, |rows| {
-        Values::Foliage(rows.iter().map(|&row| table.foliage(row)).collect())
+    patches(&mut list, &changes.foliage, end, sequence, |of| {
+        let before = &changes.former_foliage[of.clone()];
+        let by = |(&row, &before)| table.foliage(row).wrapping_sub(before);
+        Values::Foliage(changes.foliage[of].iter().zip(before).map(by).collect())
     });
-    patches(&mut list, &changes.light, end, sequence, |rows| {
-        Values::Light(rows.iter().map(|&row| table.light(row)).collect())
+    patches(&mut list, &changes.light, end, sequence, |of| {
+        let before = &changes.former_light[of.clone()];
+        let by = |(&row, &before)| light_level(table.light(row)) - light_level(before);
+        Values::Light(changes.light[of].iter().zip(before).map(by).collect())
     });
-    patches(&mut list, &changes.organs, end, sequence, |rows| organs(table, rows));
+    patches(&mut list, &changes.organs, end, sequence, |of| organs(table, &changes.organs[of]));
     let mut next = changes.appended.start;
     while next < changes.appended.end {
         let (chunk, start) = (next / CHUNK, next % CHUNK);
@@ -88,6 +94,11 @@ pub fn delta(table: &RingTable, changes: &Changes, epoch: u32, sequence: u32) ->
         next = until;
     }
     Frame { epoch, sequence, catch_up: false, changes: list }
+}
+
+/// The whole table, as somebody gets it who joins (`FL2`).
+pub fn whole(table: &RingTable, epoch: u32, sequence: u32) -> Frame {
+    catch_up(table, &Held::Nothing, epoch, sequence)
 }
 
 /// What one client lacks of the table, made from the table alone (`FL2`, `RS1`).
@@ -155,23 +166,25 @@ pub fn style_options(parameters: &ParameterValues) -> StyleOptions {
     }
 }
 
-/// Patches of one column, chunk by chunk; rows from `end` on are left out, for they are appended whole.
+/// Patches of one column, chunk by chunk; rows from `end` on are left out, for they are appended whole. `values` are those
+/// of some of the rows, by their places in `changed`.
 fn patches(
     list: &mut Vec<ChunkChange>,
     changed: &[u32],
     end: u32,
     generation: u32,
-    values: impl Fn(&[u32]) -> Values,
+    values: impl Fn(Range<usize>) -> Values,
 ) {
     let changed = &changed[..changed.partition_point(|&row| row < end)];
+    let mut place = 0;
     for rows in changed.chunk_by(|a, b| a / CHUNK == b / CHUNK) {
-        let Some(first) = rows.first() else { continue };
-        let within = rows.iter().map(|row| (row % CHUNK) as u8).collect();
+        let of = place..place + rows.len();
+        place = of.end;
         list.push(ChunkChange::Patch {
-            chunk: first / CHUNK,
+            chunk: rows[0] / CHUNK,
             generation,
-            rows: within,
-            values: values(rows),
+            rows: rows.iter().map(|row| (row % CHUNK) as u8).collect(),
+            values: values(of),
         });
     }
 }
@@ -179,7 +192,7 @@ fn patches(
 fn rows(table: &RingTable, range: Range<u32>) -> Rows {
     Rows {
         parent: range.clone().map(|row| parent_code(table, row)).collect(),
-        position: range.clone().map(|row| relative_position(table, row)).collect(),
+        position: range.clone().map(|row| told_position(table, row)).collect(),
         radius: range.clone().map(|row| table.radius(row)).collect(),
         foliage: range.clone().map(|row| table.foliage(row)).collect(),
         light: range.clone().map(|row| table.light(row)).collect(),
@@ -206,8 +219,16 @@ fn parent_code(table: &RingTable, row: u32) -> u32 {
     table.parent(row).map_or(0, |parent| 2 * (row - parent) + u32::from(table.starts_axis(row)))
 }
 
-fn relative_position(table: &RingTable, row: u32) -> [i32; 3] {
-    let position = table.position(row);
-    let origin = table.parent(row).map_or([0; 3], |parent| table.position(parent));
-    std::array::from_fn(|axis| position[axis].wrapping_sub(origin[axis]))
+/// What is told of where a row's metamer ends (`FR10`).
+fn told_position(table: &RingTable, row: u32) -> [i32; 3] {
+    let below = table.parent(row).and_then(|parent| Some((parent, table.parent(parent)?)));
+    let parents = below.map_or([0; 3], |(parent, below)| way(table, parent, below));
+    let own = table.parent(row).map_or(table.position(row), |parent| way(table, row, parent));
+    direction::tell(own, parents, !table.starts_axis(row))
+}
+
+/// From where one row ends to where another one does.
+fn way(table: &RingTable, to: u32, from: u32) -> [i32; 3] {
+    let (to, from) = (table.position(to), table.position(from));
+    std::array::from_fn(|axis| to[axis].wrapping_sub(from[axis]))
 }

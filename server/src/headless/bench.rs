@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use espalier_growth::{Observer, Phase};
 use espalier_mesh::{RingTable, Style};
 use espalier_proto::{Command, Problem};
-use espalier_session::{Document, Principal, delta, style_options};
+use espalier_session::{Document, Principal, delta, style_options, whole};
 
 use super::stats::{self, PhaseSeconds, Stats};
 use crate::recipe::{Gardener, GrowError};
@@ -123,7 +123,14 @@ impl Bench {
             bytes_per_metamer: tree_memory_bytes.map(|bytes| bytes as f64 / metamers),
             seconds_export: None,
             plant_hash: format!("{:016x}", self.document.plant().hash()),
+            // After memory has been looked at, for it is not what growth takes.
+            join_bytes: self.join_bytes(),
         }
+    }
+
+    /// What somebody would get who joins now.
+    fn join_bytes(&self) -> u64 {
+        if self.followed { whole(&self.table, 0, self.sequence).encode().len() as u64 } else { 0 }
     }
 
     /// Makes the frame that a client in step would get.
@@ -213,6 +220,8 @@ mod tests {
         alone.apply(&Action::Grow { steps: Steps::nearest(12), until: None, bud: None }.into()).unwrap();
         let (alone, followed) = (alone.stats(), grown(12).stats());
         assert_eq!((alone.delta_bytes, alone.seconds.delta), (0, 0.0));
+        assert_eq!(alone.join_bytes, 0);
+        assert!(followed.join_bytes > 0 && followed.join_bytes < followed.delta_bytes);
         assert!(followed.delta_bytes > 0 && followed.seconds.delta > 0.0);
         assert_eq!(alone.plant_hash, followed.plant_hash);
         assert_eq!((alone.leaves, alone.metamers_grown), (followed.leaves, followed.metamers_grown));

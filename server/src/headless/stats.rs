@@ -27,6 +27,8 @@ pub struct Stats {
     pub seconds: PhaseSeconds,
     /// Bytes of all mesh deltas, as they would travel.
     pub delta_bytes: u64,
+    /// Bytes of the whole tree, as somebody gets it who joins.
+    pub join_bytes: u64,
     /// The most memory the process held, where the system tells.
     pub peak_memory_bytes: Option<u64>,
     /// Memory held at the end beyond what was held before anything grew, where the system tells.
@@ -153,6 +155,7 @@ mod tests {
             seconds_last_step: 0.25,
             seconds,
             delta_bytes: 99,
+            join_bytes: 44,
             peak_memory_bytes: None,
             tree_memory_bytes: Some(600),
             bytes_per_metamer: Some(200.0),
@@ -179,7 +182,7 @@ mod tests {
             example().to_json(),
             "{\"metamers_alive\":3,\"metamers_taken\":0,\"metamers_grown\":4,\"axes\":1,\"leaves\":9,\"steps\":2,\"seconds_total\":1.0,\
              \"seconds_last_step\":0.25,\"seconds\":{\"space\":0.5,\"light\":0.0,\"vigor\":0.0,\"growth\":0.0,\
-             \"shedding\":0.0,\"girth\":0.0,\"delta\":0.0},\"delta_bytes\":99,\"peak_memory_bytes\":null,\
+             \"shedding\":0.0,\"girth\":0.0,\"delta\":0.0},\"delta_bytes\":99,\"join_bytes\":44,\"peak_memory_bytes\":null,\
              \"tree_memory_bytes\":600,\"bytes_per_metamer\":200.0,\"seconds_export\":null,\
              \"plant_hash\":\"00ff\"}"
         );

@@ -34,12 +34,7 @@ pub fn seeds() -> Vec<Vec<u8>> {
         ChunkChange::Truncate { rows: 300 },
         ChunkChange::Replace { chunk: 0, generation: 3, rows: rows(CHUNK_ROWS) },
         ChunkChange::Append { chunk: 1, generation: 4, start: 3, rows: rows(5) },
-        ChunkChange::Patch {
-            chunk: 0,
-            generation: 4,
-            rows: vec![1, 9],
-            values: Values::Light(vec![80, 200]),
-        },
+        ChunkChange::Patch { chunk: 0, generation: 4, rows: vec![1, 9], values: Values::Light(vec![8, -20]) },
         ChunkChange::Patch {
             chunk: 0,
             generation: 4,

@@ -38,8 +38,8 @@ pub fn read(bytes: &[u8]) -> bool {
 
 /// Commands of all kinds and questions, behind a hello.
 pub fn seeds() -> Vec<Vec<u8>> {
-    const HELLO: &str = r#"{"type":"hello","protocol":3,"client":"a-key-of-the-test"}"#;
-    const RETURN: &str = r#"{"type":"hello","protocol":3,"client":"a-key-of-the-test","resume":{"epoch":1,"generations":[1],"rows":1}}"#;
+    const HELLO: &str = r#"{"type":"hello","protocol":4,"client":"a-key-of-the-test"}"#;
+    const RETURN: &str = r#"{"type":"hello","protocol":4,"client":"a-key-of-the-test","resume":{"epoch":1,"generations":[1],"rows":1}}"#;
     let commands = (1..)
         .zip(command::lines())
         .map(|(id, command)| format!(r#"{{"type":"command","id":{id},"command":{command}}}"#));

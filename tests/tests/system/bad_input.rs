@@ -332,7 +332,7 @@ async fn mutilated_messages_never_end_the_session() {
     let whole = [
         r#"{"type":"ping","nonce":7}"#,
         r#"{"type":"received","sequence":1}"#,
-        r#"{"type":"hello","protocol":3,"client":"browser-1","resume":{"epoch":1,"generations":[1,2],"rows":300}}"#,
+        r#"{"type":"hello","protocol":4,"client":"browser-1","resume":{"epoch":1,"generations":[1,2],"rows":300}}"#,
         r#"{"type":"command","id":900,"command":{"kind":"stroke_move","stroke":3,"samples":[{"position":[0,1.5,0],"radius":2}]}}"#,
         r#"{"type":"command","id":900,"command":{"kind":"set_parameters","parameters":{"leaf_size":1.5,"trunk_upward":true}}}"#,
         r#"{"type":"command","id":900,"command":{"kind":"plant_seed","position":[1e1,0,-2]}}"#,

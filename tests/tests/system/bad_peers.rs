@@ -23,7 +23,7 @@ const PING: u8 = 9;
 const PONG: u8 = 10;
 /// The bit of the last frame of a message.
 const LAST: u8 = 0x80;
-const HELLO: &str = r#"{"type":"hello","protocol":3,"client":"raw-client"}"#;
+const HELLO: &str = r#"{"type":"hello","protocol":4,"client":"raw-client"}"#;
 
 impl Raw {
     fn open(server: &Server, session: &str) -> Self {

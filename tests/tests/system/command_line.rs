@@ -93,6 +93,7 @@ fn stats_are_one_object_with_all_its_keys() {
             "leaves",
             "steps",
             "delta_bytes",
+            "join_bytes",
             "peak_memory_bytes",
             "tree_memory_bytes",
         ] {

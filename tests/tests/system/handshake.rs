@@ -26,14 +26,14 @@ async fn code_after(server: &Server, session: &str, first: Message) -> Option<u1
 async fn hs1_anything_but_a_hello_first_closes_4001() {
     let (server, _scratch) = server();
     let session = server.new_session(1);
-    let hello = |key: &str| Message::text(json!({"type": "hello", "protocol": 3, "client": key}).to_string());
+    let hello = |key: &str| Message::text(json!({"type": "hello", "protocol": 4, "client": key}).to_string());
     let firsts = [
         Message::text(r#"{"type":"ping","nonce":1}"#),
         Message::text("hello"),
         Message::text(""),
         Message::binary(vec![1, 2, 3]),
         Message::text(r#"{"type":"command","id":1,"command":{"kind":"grow","steps":1}}"#),
-        Message::text(r#"{"type":"hello","protocol":3}"#),
+        Message::text(r#"{"type":"hello","protocol":4}"#),
         hello("short"),
         hello(&"x".repeat(65)),
         hello("with spaces in it"),
@@ -60,7 +60,7 @@ async fn hs1_a_bad_hello_is_told_its_field() {
         (&long, json!({}), &format!("malformed: client is {}", "x".repeat(102))),
         (&wide, json!({}), &format!("malformed: client is {}", "ö".repeat(51))),
     ] {
-        let mut hello = json!({ "type": "hello", "protocol": 3, "client": key });
+        let mut hello = json!({ "type": "hello", "protocol": 4, "client": key });
         hello.as_object_mut().expect("an object").extend(more.as_object().expect("an object").clone());
         let mut socket = client::open(server.port(), &session).await;
         socket.send(Message::text(hello.to_string())).await.expect("it is short");

@@ -42,7 +42,7 @@ async fn op5_a_session_that_was_opened_twice_to_no_end_waits_for_an_owner() {
     server = server.kill_and_restart();
     for _ in 0..2 {
         let mut socket = client::open(server.port(), &session).await;
-        let hello = json!({ "type": "hello", "protocol": 3, "client": "browser-2" });
+        let hello = json!({ "type": "hello", "protocol": 4, "client": "browser-2" });
         socket.send(Message::text(hello.to_string())).await.expect("the server reads");
         while !server.printed().contains("loading") {
             tokio::task::yield_now().await;
@@ -83,7 +83,7 @@ async fn lm19_a_socket_for_which_there_is_no_memory_closes_with_1013() {
     // What they took is given back.
     let mut client = loop {
         let mut socket = client::open(server.port(), &session).await;
-        let hello = json!({ "type": "hello", "protocol": 3, "client": "browser-1" });
+        let hello = json!({ "type": "hello", "protocol": 4, "client": "browser-1" });
         socket.send(Message::text(hello.to_string())).await.expect("the server reads");
         if let Some(Message::Text(_)) = client::next(&mut socket).await {
             break socket;

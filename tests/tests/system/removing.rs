@@ -55,7 +55,7 @@ pub(super) async fn come_to(
 ) -> Socket {
     let value = cookie.strip_prefix("cookie: ").expect("it is a header");
     let mut socket = client::open_door(server.port(), session, door, &[("cookie", value)]).await;
-    for message in [json!({ "type": "hello", "protocol": 3, "client": client }), json!({ "type": "here" })] {
+    for message in [json!({ "type": "hello", "protocol": 4, "client": client }), json!({ "type": "here" })] {
         socket.send(client::text(&message)).await.expect("it is sent");
     }
     socket

@@ -100,7 +100,7 @@ async fn au3_a_role_changes_while_its_user_is_connected() {
     let session = created["session"].as_str().expect("it has a name").to_owned();
     let value = bo.strip_prefix("cookie: ").expect("it is a header");
     let mut socket = client::open_with(server.port(), &session, &[("cookie", value)]).await;
-    let hello = json!({ "type": "hello", "protocol": 3, "client": "browser-1" });
+    let hello = json!({ "type": "hello", "protocol": 4, "client": "browser-1" });
     socket.send(client::text(&hello)).await.expect("it is sent");
     // With the role of now; what changes from now on is told.
     until(&mut socket, "welcome").await;
@@ -147,7 +147,7 @@ async fn ac22_what_was_given_is_told_and_taken_while_somebody_is_connected() {
 
     let value = bo.strip_prefix("cookie: ").expect("it is a header");
     let mut socket = client::open_with(server.port(), &session, &[("cookie", value)]).await;
-    let hello = json!({ "type": "hello", "protocol": 3, "client": "browser-1" });
+    let hello = json!({ "type": "hello", "protocol": 4, "client": "browser-1" });
     socket.send(client::text(&hello)).await.expect("it is sent");
     // With what was given so far; what changes from now on is told.
     until(&mut socket, "welcome").await;

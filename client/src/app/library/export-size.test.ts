@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
+import { PlainTable } from "../../../test/plain-table";
 import { sampleTree } from "../../../test/sample-tree";
-import { TreeTable } from "../../scene/table/tree-table";
 import { DEFAULT_APPEARANCE, type ExportFormat } from "../../wire/generated";
 import { amountOf, bytesExpected } from "./export-size";
 
@@ -104,7 +104,7 @@ describe("the size of a file", () => {
   });
 
   it("counts what the tree has in its look", () => {
-    const table = new TreeTable(() => 0);
+    const table = new PlainTable(() => 0);
     table.apply(sampleTree({ seed: 5, height: 30, orders: 3 }));
     const bare = amountOf(table, DEFAULT_APPEARANCE);
     expect(bare.metamers).toBe(table.rows - 1);

@@ -1,9 +1,9 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
+import { PlainTable } from "../../../test/plain-table";
 import { SMALL, tableOf } from "../../../test/small-tree";
 import { Virtual } from "../../../test/virtual-clock";
 import type { BendOverlay } from "../../scene/overlay/bend-overlay";
 import type { SlotWriter } from "../../scene/overlay/overlays";
-import { TreeTable } from "../../scene/table/tree-table";
 import type { Vec3 } from "../../scene/vector";
 import type { Viewport } from "../../scene/viewport";
 import type { BendFrame, RowMotion } from "../../wire/bend-frame";
@@ -23,7 +23,7 @@ import { WidthList } from "./width/width-list";
 afterEach(() => vi.useRealTimers());
 
 /** A view in which a pixel is a tenth of an internode and y goes up from pixel 1000; a branch at x = 50, a box at 80. */
-function setUp(table = new TreeTable()) {
+function setUp(table = new PlainTable()) {
   vi.useFakeTimers();
   const sent: Command[] = [];
   const world = { arranging: false, ready: true, chosen: [] as number[][], held: 0, overlays: new Set<BendOverlay>() };

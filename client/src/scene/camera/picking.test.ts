@@ -1,9 +1,10 @@
 import { Line3, Matrix4, PerspectiveCamera, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
+import { PlainTable } from "../../../test/plain-table";
 import { randoms } from "../../../test/randoms";
 import { sampleTree } from "../../../test/sample-tree";
 import { type Twig, tableOf } from "../../../test/small-tree";
-import { radiusOf, TreeTable } from "../table/tree-table";
+import { radiusOf } from "../table/tree-table";
 import { type Projection, pickBranch } from "./picking";
 
 function view(): Projection & { camera: PerspectiveCamera } {
@@ -28,7 +29,7 @@ function onScreen(v: Projection, p: ArrayLike<number>): [number, number, number]
 }
 
 describe("a pick", () => {
-  const table = new TreeTable();
+  const table = new PlainTable();
   table.apply(sampleTree({ seed: 3, height: 24, orders: 3 }));
 
   it("lies on a branch under the finger, within its radius and the tolerance", () => {
@@ -81,7 +82,7 @@ describe("a pick", () => {
   });
 
   it("prefers the branch in front where two cross", () => {
-    const crossing = new TreeTable();
+    const crossing = new PlainTable();
     crossing.apply({
       epoch: 1,
       sequence: 1,

@@ -1,13 +1,13 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
+import { PlainTable } from "../../../test/plain-table";
 import { sampleTree } from "../../../test/sample-tree";
 import type { Uniforms } from "../materials";
-import { TreeTable } from "../table/tree-table";
 import { Crown, type CrownWorker } from "./crown";
 import { crownField } from "./crown-field";
 import { crownOf } from "./crown-of";
 
 const tree = () => {
-  const table = new TreeTable(() => 0);
+  const table = new PlainTable(() => 0);
   table.apply(sampleTree({ seed: 5, height: 60, orders: 3 }));
   return table;
 };

@@ -3,6 +3,7 @@ import { ShaderMaterial, type Vector4 } from "three";
 import { beforeEach, describe, expect, it } from "vitest";
 import { idlePainter } from "../../../test/idle-painter";
 import { borneOf, countOf } from "../../../test/items";
+import { PlainTable } from "../../../test/plain-table";
 import { sampleTree } from "../../../test/sample-tree";
 import { shaderFunctions } from "../../../test/shader-functions";
 import { DEFAULT_APPEARANCE, type FlowerLook } from "../../wire/generated";
@@ -11,7 +12,7 @@ import type { Uniforms } from "../materials";
 import { FLOWER_PICTURES } from "../painting/flowers";
 import { FRUIT_PICTURES } from "../painting/fruits";
 import { seeded } from "../painting/leaf-painter";
-import { TreeTable } from "../table/tree-table";
+import type { TreeTable } from "../table/tree-table";
 import { FLOWERS } from "./ornament-sorts";
 import { Ornaments } from "./ornaments";
 import { isBearing } from "./places";
@@ -38,7 +39,7 @@ describe("flowers", () => {
   }
 
   beforeEach(() => {
-    table = new TreeTable(() => 0);
+    table = new PlainTable(() => 0);
     table.apply(sampleTree({ seed: 5, height: 30, orders: 3 }));
     uniforms = {};
     flowers = new Ornaments(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), uniforms, idlePainter());
@@ -109,7 +110,7 @@ describe("flowers", () => {
 });
 
 it("a large tree bears fewer at a place, but as many places", () => {
-  const table = new TreeTable(() => 0);
+  const table = new PlainTable(() => 0);
   table.apply(sampleTree({ seed: 2, height: 80, orders: 3 }));
   const flowers = new Ornaments<FlowerLook>(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), {}, idlePainter());
   flowers.setLook({ ...LOOK, share: 1 });

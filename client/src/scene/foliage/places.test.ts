@@ -1,10 +1,10 @@
 import { readFileSync } from "node:fs";
 import { expect, it } from "vitest";
+import { PlainTable } from "../../../test/plain-table";
 import { sampleTree } from "../../../test/sample-tree";
-import { TreeTable } from "../table/tree-table";
 import { chanceOf, isBearing, isChosen, isPlace, type Placing } from "./places";
 
-const table = new TreeTable(() => 0);
+const table = new PlainTable(() => 0);
 table.apply(sampleTree({ seed: 5, height: 30, orders: 3 }));
 const ALL: Placing = { share: 1, place: "twigs", vigor: 0 };
 
@@ -62,7 +62,7 @@ it("vigor favours strong shoots, or weak ones", () => {
 
 it("the dead and the seed bear nothing", () => {
   const frame = sampleTree({ seed: 5, height: 12, orders: 2 });
-  const dead = new TreeTable(() => 0);
+  const dead = new PlainTable(() => 0);
   dead.apply(frame);
   dead.apply({
     epoch: 1,
@@ -75,7 +75,7 @@ it("the dead and the seed bear nothing", () => {
         generation: 2,
         column: "radius",
         rows: Uint8Array.from({ length: dead.rows < 256 ? dead.rows : 256 }, (_, i) => i),
-        values: new Uint16Array(dead.rows < 256 ? dead.rows : 256),
+        values: new Int32Array(dead.rows < 256 ? dead.rows : 256),
       },
     ],
   });

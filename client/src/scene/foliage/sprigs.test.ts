@@ -1,6 +1,7 @@
 import { ShaderMaterial, Vector3, Vector4 } from "three";
 import { beforeEach, describe, expect, it } from "vitest";
 import { countOf } from "../../../test/items";
+import { PlainTable } from "../../../test/plain-table";
 import { sampleTree } from "../../../test/sample-tree";
 import type { LeafKind } from "../../wire/generated";
 import type { Uniforms } from "../materials";
@@ -8,7 +9,7 @@ import { ATLAS_TILES, coverageOf, type Levels } from "../painting/leaf-atlas";
 import { leafLevels, reachOf } from "../painting/leaf-pictures";
 import { SPRIG_LEAVES, SPRIG_REACH, TILE_MARGIN } from "../painting/measures";
 import { QUALITIES } from "../rendering/quality";
-import { TreeTable } from "../table/tree-table";
+import type { TreeTable } from "../table/tree-table";
 import { LeafRows } from "./leaf-rows";
 import { bandFor, Sprigs, sprigsOf } from "./sprigs";
 
@@ -63,7 +64,7 @@ describe("sprigs", () => {
   };
 
   beforeEach(() => {
-    table = new TreeTable(() => 0);
+    table = new PlainTable(() => 0);
     table.apply(sampleTree({ seed: 5, height: 60, orders: 3 }));
     uniforms = {
       uLeafSize: { value: 0.7 },

@@ -1,13 +1,14 @@
 import type { DataTexture, Vector2 } from "three";
 import { describe, expect, it } from "vitest";
+import { PlainTable } from "../../../test/plain-table";
 import { sampleTree } from "../../../test/sample-tree";
 import type { Uniforms } from "../materials";
-import { TreeTable } from "../table/tree-table";
+import type { TreeTable } from "../table/tree-table";
 import { DRAW_MODES, type DrawMode } from "./draw-mode";
 import { TraitTexture } from "./trait-texture";
 
 function grown(): TreeTable {
-  const table = new TreeTable(() => 0);
+  const table = new PlainTable(() => 0);
   table.apply(sampleTree({ seed: 3, height: 26, orders: 3 }));
   return table;
 }

@@ -1,8 +1,8 @@
 import { bench, describe } from "vitest";
+import { PlainTable } from "../../../test/plain-table";
 import { sampleTree } from "../../../test/sample-tree";
 import { PruneRule } from "../../app/tools/prune/prune-rule";
 import type { DrawnObstacle, TriangleMesh } from "../obstacle-meshes";
-import { TreeTable } from "../table/tree-table";
 import { CALM } from "./air-settings";
 import { Answers } from "./answers";
 import { JointWork } from "./joint-work";
@@ -54,7 +54,7 @@ function rock(rings: number, sides: number): TriangleMesh {
 }
 
 for (const options of TREES) {
-  const table = new TreeTable(() => 0);
+  const table = new PlainTable(() => 0);
   table.apply(sampleTree(options));
   const order = () => ({
     grown: { rows: motionRows(table), scale: SCALE, suppleness: 1 },

@@ -1,13 +1,14 @@
 import type { Mesh } from "three";
 import { describe, expect, it } from "vitest";
 import { itemsOf } from "../../../test/items";
+import { PlainTable } from "../../../test/plain-table";
 import { sampleTree } from "../../../test/sample-tree";
 import { subtreeRows } from "../table/branch-rows";
-import { TreeTable } from "../table/tree-table";
+import type { TreeTable } from "../table/tree-table";
 import { Ghost } from "./ghost";
 
 function tree(): TreeTable {
-  const table = new TreeTable(() => 0);
+  const table = new PlainTable(() => 0);
   table.apply({ ...sampleTree({ seed: 3, height: 8, orders: 2 }), catchUp: true });
   return table;
 }

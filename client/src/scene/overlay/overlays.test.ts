@@ -1,10 +1,11 @@
 import { describe, expect, it } from "vitest";
+import { PlainTable } from "../../../test/plain-table";
 import { sampleTree } from "../../../test/sample-tree";
 import { type Twig, tableOf } from "../../../test/small-tree";
 import type { ChunkChange } from "../../wire/frame";
 import { CHUNK_ROWS, POSITION_STEPS } from "../../wire/generated";
 import { normalOf } from "../table/node-orientations";
-import { radiusOf, TreeTable } from "../table/tree-table";
+import { radiusOf, type TreeTable } from "../table/tree-table";
 import type { Vec3 } from "../vector";
 import { BendOverlay } from "./bend-overlay";
 import { CutOverlay } from "./cut-overlay";
@@ -15,7 +16,7 @@ const SLOT = 16;
 const QUARTER: Rotation = [0, 0, Math.SQRT1_2, Math.SQRT1_2];
 
 function tree(): TreeTable {
-  const table = new TreeTable(() => 0);
+  const table = new PlainTable(() => 0);
   table.apply(sampleTree({ seed: 4, height: 24, orders: 2 }));
   return table;
 }
@@ -206,7 +207,7 @@ describe("overlays", () => {
     const felled = new CutOverlay([table.successor[5]!], "hidden");
     expect(felled.over(table)).toBe(false);
     const row = felled.rows[0]!;
-    const values = Uint16Array.of(0);
+    const values = Int32Array.of(0);
     const change = { change: "patch", chunk: 0, generation: 2, rows: Uint8Array.of(row), column: "radius" } as const;
     table.apply({ epoch: 1, sequence: 2, catchUp: false, changes: [{ ...change, values }] });
     expect(felled.over(table)).toBe(true);

@@ -1,7 +1,7 @@
 import { bench, describe } from "vitest";
+import { PlainTable } from "../../../test/plain-table";
 import { sampleTree } from "../../../test/sample-tree";
 import { Course } from "./course";
-import { TreeTable } from "./tree-table";
 
 /** Trees of about ten and a hundred thousand rows. */
 const TREES = [
@@ -11,7 +11,7 @@ const TREES = [
 
 for (const options of TREES) {
   const delta = sampleTree(options);
-  const table = new TreeTable(() => 0);
+  const table = new PlainTable(() => 0);
   table.apply(delta);
   const nothing = () => {};
   /** A course of rows none of which has been drawn. */
@@ -27,7 +27,7 @@ for (const options of TREES) {
 
   describe(`${table.rows} rows`, () => {
     bench("all rows of a tree that is opened", () => {
-      new TreeTable(() => 0).apply(delta);
+      new PlainTable(() => 0).apply(delta);
     });
     bench("of that the course", () => {
       whole();

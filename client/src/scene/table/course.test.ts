@@ -229,7 +229,7 @@ describe("the course of a tree", () => {
       if (round % 2 === 0) {
         const radius = 0.1 + 2 * random();
         twigs[row] = { ...twigs[row]!, radius };
-        const values = Uint16Array.of(code(radius));
+        const values = Int32Array.of(code(radius));
         patch(table, { change: "patch", chunk: 0, generation: 2, column: "radius", rows: Uint8Array.of(row), values });
       } else {
         const [x, y, z] = twigs[row]!.at;

@@ -1,10 +1,11 @@
 import { describe, expect, it } from "vitest";
+import { PlainTable } from "../../../test/plain-table";
 import { randoms } from "../../../test/randoms";
 import { sampleTree } from "../../../test/sample-tree";
 import { type Twig, tableOf } from "../../../test/small-tree";
 import type { ChunkChange } from "../../wire/frame";
 import { excess, NO_SLOPE, STEEPEST, slopeCode } from "./girth";
-import { Dirty, radiusOf, TreeTable } from "./tree-table";
+import { Dirty, radiusOf } from "./tree-table";
 
 /** A trunk of ten that has lost girth after its fourth metamer. */
 const dropping = (thick: number, thin: number): readonly Twig[] => [
@@ -64,7 +65,7 @@ describe("girth", () => {
     );
     const code = tableOf(dropping(1.4, 1)).radiusCode;
     const rows = Uint8Array.of(4);
-    const values = Uint16Array.of(code[4]!);
+    const values = Int32Array.of(code[4]!);
     table.apply({
       epoch: 1,
       sequence: 2,
@@ -87,15 +88,15 @@ describe("girth", () => {
   it("after any changes is as if made afresh", () => {
     const random = randoms(12);
     const sample = sampleTree({ seed: 2, height: 24, orders: 3 });
-    const table = new TreeTable(() => 0);
+    const table = new PlainTable(() => 0);
     table.apply(sample);
     for (let sequence = sample.sequence + 1; sequence < 40; sequence += 1) {
       const rows = Uint8Array.from({ length: 30 }, (_, i) => 2 + 8 * i + Math.floor(7 * random()));
-      const values = Uint16Array.from(rows, () => (random() < 0.2 ? 0 : 400 + Math.floor(random() * 300)));
+      const values = Int32Array.from(rows, () => (random() < 0.2 ? 0 : 400 + Math.floor(random() * 300)));
       const patch = { change: "patch", chunk: sequence % 2, generation: 1, column: "radius", rows, values } as const;
       table.apply({ epoch: 1, sequence, catchUp: false, changes: [patch] });
     }
-    const fresh = new TreeTable(() => 0);
+    const fresh = new PlainTable(() => 0);
     const changes = sample.changes.map((change, chunk): ChunkChange => {
       if (change.change !== "replace") throw new Error("a sample is whole");
       const radius = table.radiusCode.slice(256 * chunk, 256 * chunk + change.rows.radius.length);

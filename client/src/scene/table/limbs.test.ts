@@ -19,7 +19,7 @@ const forked = (lateral: number, aside: readonly [number, number] = [1, 1]): rea
 ];
 
 function patchRadius(table: TreeTable, row: number, from: TreeTable): void {
-  const values = Uint16Array.of(from.radiusCode[row]!);
+  const values = Int32Array.of(from.radiusCode[row]!);
   const rows = Uint8Array.of(row);
   const change = { change: "patch", chunk: 0, generation: 2, column: "radius", rows, values } as const;
   table.apply({ epoch: 1, sequence: table.sequence! + 1, catchUp: true, changes: [change] });

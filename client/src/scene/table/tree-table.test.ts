@@ -1,10 +1,11 @@
 import { describe, expect, it } from "vitest";
+import { PlainTable } from "../../../test/plain-table";
 import { randoms } from "../../../test/randoms";
 import { sampleTree } from "../../../test/sample-tree";
 import { type ChunkChange, type Frame, FrameError, type Rows } from "../../wire/frame";
 import { CHUNK_ROWS } from "../../wire/generated";
 import { normalOf, tangentOf } from "./node-orientations";
-import { Dirty, radiusOf, TreeTable } from "./tree-table";
+import { Dirty, radiusOf, type TreeTable } from "./tree-table";
 
 /** Rows from [parent code, dx, dy, dz, radius code] each. */
 function rows(...of: [number, number, number, number, number][]): Rows {
@@ -25,7 +26,7 @@ function frame(sequence: number, changes: ChunkChange[], catchUp = false): Frame
 const SAPLING = rows([0, 0, 0, 0, 0], [2, 0, 256, 0, 400], [2, 0, 256, 0, 400], [2, 128, 256, 0, 400]);
 
 function sapling(): TreeTable {
-  const table = new TreeTable(() => 10);
+  const table = new PlainTable(() => 10);
   table.apply(frame(1, [{ change: "append", chunk: 0, generation: 1, start: 0, rows: SAPLING }]));
   return table;
 }
@@ -105,7 +106,7 @@ describe("the table", () => {
       generation: 2,
       rows: Uint8Array.of(4),
       column: "light",
-      values: Uint8Array.of(1),
+      values: Int32Array.of(1),
     };
     for (const change of [gap, beyond, patch, { change: "truncate", rows: 5 } as const]) {
       expect(() => sapling().apply(frame(2, [change]))).toThrow(FrameError);
@@ -114,7 +115,7 @@ describe("the table", () => {
   });
 
   it("forgets chunks that lose all their rows", () => {
-    const table = new TreeTable();
+    const table = new PlainTable();
     table.apply(sampleTree({ seed: 2, height: 30, orders: 3 }));
     expect(table.rows).toBeGreaterThan(2 * CHUNK_ROWS);
     table.apply({ epoch: 1, sequence: 2, catchUp: false, changes: [{ change: "truncate", rows: CHUNK_ROWS }] });
@@ -136,7 +137,7 @@ describe("the table", () => {
       generation: 3,
       rows: Uint8Array.of(3),
       column: "radius",
-      values: Uint16Array.of(0),
+      values: Int32Array.of(0),
     };
     table.apply(frame(3, [dead]));
     expect(table.successor[2]).toBe(-1);
@@ -144,7 +145,7 @@ describe("the table", () => {
 
   it("a table patched is the table sent whole", () => {
     const random = randoms(77);
-    const table = new TreeTable(() => 0);
+    const table = new PlainTable(() => 0);
     const sample = sampleTree({ seed: 8, height: 16, orders: 3 });
     table.apply(sample);
     const seen = drained(table);
@@ -163,10 +164,10 @@ describe("the table", () => {
               column: "position",
               values: Int32Array.from({ length: 3 * picked.length }, () => Math.floor(random() * 300 - 90)),
             }
-          : { ...head, column: "radius", values: Uint16Array.from(picked, () => (random() < 0.05 ? 0 : 400)) };
+          : { ...head, column: "radius", values: Int32Array.from(picked, () => (random() < 0.05 ? 0 : 400)) };
       table.apply({ epoch: 1, sequence, catchUp: false, changes: [change] });
     }
-    const whole = new TreeTable(() => 0);
+    const whole = new PlainTable(() => 0);
     whole.apply({ epoch: 1, sequence: 40, catchUp: true, changes: wholly(table) });
     const n = table.rows;
     expect(whole.quantised.slice(0, 3 * n)).toEqual(table.quantised.slice(0, 3 * n));
@@ -223,7 +224,7 @@ function wholly(table: TreeTable): ChunkChange[] {
 
 describe("numbers of trees", () => {
   const numberOf = (begins: number) => {
-    const table = new TreeTable(() => 10);
+    const table = new PlainTable(() => 10);
     const trunk = rows([0, 0, 0, 0, 0], [2, 1, 256, 0, 400], [2, begins, 256, 0, 400], [2, 0, 256, 0, 400]);
     table.apply(frame(1, [{ change: "append", chunk: 0, generation: 1, start: 0, rows: trunk }]));
     return table.numberOf(0);
@@ -265,7 +266,7 @@ describe("what is to be drawn again", () => {
     expect(drained(table).changed.size).toBe(0);
     table.apply(
       frame(2, [
-        { change: "patch", chunk: 0, generation: 2, rows: Uint8Array.of(1), column: "light", values: Uint8Array.of(9) },
+        { change: "patch", chunk: 0, generation: 2, rows: Uint8Array.of(1), column: "light", values: Int32Array.of(9) },
       ]),
     );
     expect([...drained(table).changed]).toEqual([[1, Dirty.Drawn]]);
@@ -310,7 +311,7 @@ describe("new growth", () => {
   });
 
   it("that was missed is there at once", () => {
-    const table = new TreeTable(() => 3);
+    const table = new PlainTable(() => 3);
     table.apply(sampleTree({ seed: 1, height: 9, orders: 2 }));
     for (let row = 0; row < table.rows; row += 1) expect(table.birth[row]).toBeLessThan(table.now() - 100);
     expect(table.settledAt).toBeLessThan(table.now());
@@ -319,7 +320,7 @@ describe("new growth", () => {
 
 describe("orientations along an axis", () => {
   it("point along the mean of both metamers and do not twist", () => {
-    const table = new TreeTable();
+    const table = new PlainTable();
     table.apply(sampleTree({ seed: 12, height: 24, orders: 3 }));
     for (let row = 1; row < table.rows; row += 1) {
       const next = table.successor[row]!;

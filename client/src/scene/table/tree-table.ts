@@ -1,5 +1,6 @@
 import { type ChunkChange, type Frame, FrameError, type Rows } from "../../wire/frame";
 import { CHUNK_ROWS, MIN_RADIUS, POSITION_STEPS, RADIUS_LOG_STEP } from "../../wire/generated";
+import { byFrames, type Told } from "../../wire/told";
 import { leafHash } from "../leaf-hash";
 import { Bounds } from "./bounds";
 import { Cascade } from "./cascade";
@@ -110,8 +111,13 @@ export class TreeTable {
   /** Numbers of trees by the rows of their seeds, once all that tells them is there. */
   private readonly numbers = new Map<number, number>();
   private readonly start: number;
+  /** Where a row ends, seen from where its parent does, while it is read. */
+  private readonly way = new Int32Array(3);
 
-  constructor(private readonly clock: () => number = () => performance.now() / 1000) {
+  constructor(
+    private readonly clock: () => number = () => performance.now() / 1000,
+    private readonly told: Told = byFrames,
+  ) {
     this.start = clock();
   }
 
@@ -276,7 +282,7 @@ export class TreeTable {
       if (row >= known) this.welcome(row);
       else this.unlink(row);
       this.setParent(row, rows.parent[i]!);
-      this.setPosition(row, rows.position[3 * i]!, rows.position[3 * i + 1]!, rows.position[3 * i + 2]!);
+      this.setPosition(row, rows.position, 3 * i);
       this.radiusCode[row] = rows.radius[i]!;
       this.foliage[row] = rows.foliage[i]!;
       this.light[row] = rows.light[i]!;
@@ -306,19 +312,19 @@ export class TreeTable {
           this.mark(row, Dirty.Drawn | Dirty.Shape);
           break;
         case "position":
-          this.setPosition(row, change.values[3 * i]!, change.values[3 * i + 1]!, change.values[3 * i + 2]!);
+          this.setPosition(row, change.values, 3 * i);
           this.extent.invalidate();
           this.mark(row, Dirty.Drawn | Dirty.Shape);
           break;
         case "radius":
-          this.setRadius(row, change.values[i]!);
+          this.setRadius(row, this.told.radius(this.radiusCode[row]!, change.values[i]!));
           break;
         case "foliage":
-          this.foliage[row] = change.values[i]!;
+          this.foliage[row] = this.told.foliage(this.foliage[row]!, change.values[i]!);
           this.mark(row, Dirty.Drawn | Dirty.Shape);
           break;
         case "light":
-          this.light[row] = change.values[i]!;
+          this.light[row] = this.told.light(this.light[row]!, change.values[i]!);
           this.mark(row, Dirty.Drawn);
           break;
         case "organs":
@@ -361,11 +367,15 @@ export class TreeTable {
     this.startsAxis[row] = code & 1;
   }
 
-  private setPosition(row: number, dx: number, dy: number, dz: number): void {
+  private setPosition(row: number, told: Int32Array, at: number): void {
+    const { quantised, way } = this;
     const parent = this.parent[row]!;
-    this.setCoordinate(row, parent, 0, dx);
-    this.setCoordinate(row, parent, 1, dy);
-    this.setCoordinate(row, parent, 2, dz);
+    const below = parent < 0 ? -1 : this.parent[parent]!;
+    for (let axis = 0; axis < 3; axis += 1) {
+      way[axis] = below < 0 ? 0 : quantised[3 * parent + axis]! - quantised[3 * below + axis]!;
+    }
+    this.told.turn(way, told, at, this.startsAxis[row] === 0);
+    for (let axis = 0; axis < 3; axis += 1) this.setCoordinate(row, parent, axis, way[axis]!);
     this.markStale(row);
     this.moved[row] = 1;
     this.limbs.touch(row);

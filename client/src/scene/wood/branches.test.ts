@@ -2,6 +2,7 @@ import type { Mesh } from "three";
 import { describe, expect, it } from "vitest";
 import { idlePainter } from "../../../test/idle-painter";
 import { borneOf, itemsOf, textureOf, trianglesOf } from "../../../test/items";
+import { PlainTable } from "../../../test/plain-table";
 import { randoms } from "../../../test/randoms";
 import { sampleTree } from "../../../test/sample-tree";
 import { SMALL, tableOf } from "../../../test/small-tree";
@@ -9,7 +10,7 @@ import type { ChunkChange } from "../../wire/frame";
 import { CHUNK_ROWS } from "../../wire/generated";
 import { Foliage } from "../foliage/foliage";
 import { makeMaterials } from "../materials";
-import { TreeTable } from "../table/tree-table";
+import type { TreeTable } from "../table/tree-table";
 import { Branches } from "./branches";
 
 /** Every row that instances of these meshes draw, with its parent. */
@@ -27,7 +28,7 @@ const wood = (branches: Branches) =>
 
 it("exactly the living metamers and their leaves are drawn, whatever was changed", { timeout: 30_000 }, () => {
   const random = randoms(31);
-  const table = new TreeTable(() => 0);
+  const table = new PlainTable(() => 0);
   const materials = makeMaterials({});
   const branches = new Branches(materials);
   const foliage = new Foliage(materials, {}, idlePainter());
@@ -62,7 +63,7 @@ it("exactly the living metamers and their leaves are drawn, whatever was changed
       changes.push({
         ...head,
         column: "radius",
-        values: Uint16Array.from(rows, () => (random() < 0.2 ? 0 : 390 + Math.floor(random() * 250))),
+        values: Int32Array.from(rows, () => (random() < 0.2 ? 0 : 390 + Math.floor(random() * 250))),
       });
       changes.push({ ...head, column: "foliage", values: Uint8Array.from(rows, () => Math.floor(random() * 256)) });
     }
@@ -110,7 +111,7 @@ describe("branches", { timeout: 30_000 }, () => {
   const large = sampleTree({ seed: 4, height: 90, orders: 5 });
 
   it("of 100 000 metamers seen whole take less than half a million triangles", () => {
-    const table = new TreeTable(() => 0);
+    const table = new PlainTable(() => 0);
     table.apply(large);
     expect(table.rows).toBeGreaterThan(100_000);
     const branches = branchesOf(table);
@@ -119,7 +120,7 @@ describe("branches", { timeout: 30_000 }, () => {
   });
 
   it("are rounder from near than from far", () => {
-    const table = new TreeTable(() => 0);
+    const table = new PlainTable(() => 0);
     table.apply(sampleTree({ seed: 4, height: 30, orders: 3 }));
     const branches = branchesOf(table);
     branches.see(table, { eye: [0, 15, 400], pixels: 1000 }, true);
@@ -129,7 +130,7 @@ describe("branches", { timeout: 30_000 }, () => {
   });
 
   it("are looked at a few a frame, until all have been", () => {
-    const [table, other] = [new TreeTable(() => 0), new TreeTable(() => 0)];
+    const [table, other] = [new PlainTable(() => 0), new PlainTable(() => 0)];
     for (const each of [table, other]) each.apply(large);
     const [branches, atOnce] = [branchesOf(table), branchesOf(other)];
     const onlooker = { eye: [0, 20, 30], pixels: 1000 } as const;
@@ -142,7 +143,7 @@ describe("branches", { timeout: 30_000 }, () => {
   });
 
   it("overlap exactly where an axis passes from one level to another", () => {
-    const table = new TreeTable(() => 0);
+    const table = new PlainTable(() => 0);
     table.apply(sampleTree({ seed: 4, height: 30, orders: 3 }));
     const branches = branchesOf(table);
     for (const eye of [
@@ -213,7 +214,7 @@ describe("branches", { timeout: 30_000 }, () => {
     expect([...drawn([branches.faces]).keys()]).not.toContain(3);
     // It is cut as well, and a stub is left.
     const patch = { change: "patch", chunk: 0, generation: 2, column: "radius" } as const;
-    const changes = [{ ...patch, rows: Uint8Array.of(12, 13), values: Uint16Array.of(0, 0) }];
+    const changes = [{ ...patch, rows: Uint8Array.of(12, 13), values: Int32Array.of(0, 0) }];
     table.apply({ epoch: 1, sequence: 2, catchUp: true, changes });
     table.drain(
       () => undefined,
@@ -226,7 +227,7 @@ describe("branches", { timeout: 30_000 }, () => {
 });
 
 it("wood and leaves that change while they are hidden are uploaded with what changes later", () => {
-  const table = new TreeTable(() => 0);
+  const table = new PlainTable(() => 0);
   const sample = sampleTree({ seed: 4, height: 30, orders: 3 });
   table.apply(sample);
   const branches = branchesOf(table);

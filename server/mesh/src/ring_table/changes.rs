@@ -14,10 +14,16 @@ pub struct Changes {
     pub position: Vec<u32>,
     /// Kept rows that thickened, died or came back to life.
     pub radius: Vec<u32>,
+    /// The codes of their radii before.
+    pub former_radius: Vec<u16>,
     /// Kept rows whose leaves or vigor changed.
     pub foliage: Vec<u32>,
+    /// Their leaves and vigor before.
+    pub former_foliage: Vec<u8>,
     /// Kept rows whose light changed.
     pub light: Vec<u32>,
+    /// Their light before.
+    pub former_light: Vec<u8>,
     /// Kept rows that are given other organs.
     pub organs: Vec<u32>,
 }

@@ -28,14 +28,23 @@ impl PlainTable {
             let stays = |row: &Row| (row.parent, row.starts_axis, row.born);
             let same = held.filter(|held| stays(held) == stays(&row));
             if let Some(held) = same {
-                let columns = [
-                    (held.position != row.position, &mut changes.position),
-                    (held.radius != row.radius, &mut changes.radius),
-                    (held.foliage != row.foliage, &mut changes.foliage),
-                    (held.light != row.light, &mut changes.light),
-                ];
-                for (_, rows) in columns.into_iter().filter(|(differs, _)| *differs) {
-                    rows.push(index as u32);
+                let place = index as u32;
+                if held.position != row.position {
+                    changes.position.push(place);
+                }
+                if held.radius != row.radius {
+                    changes.radius.push(place);
+                    changes.former_radius.push(held.radius);
+                }
+                if held.foliage != row.foliage {
+                    changes.foliage.push(place);
+                    changes.former_foliage.push(held.foliage);
+                }
+                if held.light != row.light {
+                    changes.light.push(place);
+                    changes.former_light.push(held.light);
+                }
+                if held != row {
                     self.generations[index / CHUNK_ROWS] = generation;
                 }
                 self.rows.push(row);

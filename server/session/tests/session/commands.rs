@@ -263,7 +263,7 @@ fn cm8_unknown_messages_are_answered() {
         r#"{"type":"ping"}"#,
         r#"{"type":"ping","nonce":-1}"#,
         r#"{"type":"ping","nonce":1,"more":2}"#,
-        r#"{"type":"hello","protocol":3,"client":"birch-01"}"#,
+        r#"{"type":"hello","protocol":4,"client":"birch-01"}"#,
     ];
     for text in texts {
         world.text(client, text);

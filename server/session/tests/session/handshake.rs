@@ -21,23 +21,23 @@ fn hs1_the_close_names_the_field_at_fault() {
     let long = "x".repeat(300);
     for (hello, reason) in [
         (
-            json!({ "type": "hello", "protocol": 3, "client": "birch-01", "sap": 1 }),
+            json!({ "type": "hello", "protocol": 4, "client": "birch-01", "sap": 1 }),
             "malformed: sap is no known field; allowed: protocol, client, resume",
         ),
         (
             json!({ "type": "hello", "client": "birch-01" }),
             "malformed: protocol is missing; allowed: a whole number from 0 to 4294967295",
         ),
-        (json!({ "type": "hello", "protocol": 3, "client": 5 }), "malformed: client "),
+        (json!({ "type": "hello", "protocol": 4, "client": 5 }), "malformed: client "),
         (
-            json!({ "type": "hello", "protocol": 3, "client": "birch-01", "resume": { "epoch": 1 } }),
+            json!({ "type": "hello", "protocol": 4, "client": "birch-01", "resume": { "epoch": 1 } }),
             "malformed: resume.generations is missing; allowed: a list",
         ),
         (
-            json!({ "type": "hello", "protocol": 3, "client": "short" }),
+            json!({ "type": "hello", "protocol": 4, "client": "short" }),
             "malformed: client is short; allowed: 8 to 64 letters, digits, - and _",
         ),
-        (json!({ "type": "hello", "protocol": 3, "client": long }), "malformed: client is xxx"),
+        (json!({ "type": "hello", "protocol": 4, "client": long }), "malformed: client is xxx"),
         (json!({ "type": "ping", "nonce": 1 }), "malformed: type is ping; allowed: hello"),
         (json!({ "type": "growl" }), "malformed: type is growl; allowed: hello"),
         (json!({ "nope": 1 }), "malformed: type is missing; allowed: hello"),

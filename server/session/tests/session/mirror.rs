@@ -1,7 +1,10 @@
 //! What a client makes of the frames it gets: the table of rows, strict about every rule of `FR`.
 
 use espalier_mesh::{RingTable, Style, StyleOptions};
-use espalier_proto::{ChunkChange, Frame, Resume, Rows, Values, frame::CHUNK_ROWS};
+use espalier_proto::{
+    ChunkChange, Frame, Resume, Rows, Values,
+    frame::{CHUNK_ROWS, direction, light_level, light_of},
+};
 use espalier_session::Document;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -82,11 +85,10 @@ impl Mirror {
             let code = rows.parent[at];
             let parent = (code > 0).then(|| row.checked_sub(code / 2).expect("a parent's row exists"));
             assert!(parent.is_none_or(|parent| parent < row), "FR5: a parent's row is below its child's");
-            let origin = parent.map_or([0; 3], |parent| self.rows[parent as usize].position);
             self.rows.push(Row {
                 parent,
                 begins_axis: code & 1 == 1,
-                position: sum(origin, rows.position[at]),
+                position: self.place(parent, code & 1 == 1, rows.position[at]),
                 radius: rows.radius[at],
                 foliage: rows.foliage[at],
                 light: rows.light[at],
@@ -100,16 +102,33 @@ impl Mirror {
         match values {
             Values::Parent(_) => panic!("a metamer never changes its parent"),
             Values::Position(values) => {
-                let parent = self.rows[row].parent;
-                let origin = parent.map_or([0; 3], |parent| self.rows[parent as usize].position);
-                self.rows[row].position = sum(origin, values[at]);
+                let Row { parent, begins_axis, .. } = self.rows[row];
+                self.rows[row].position = self.place(parent, begins_axis, values[at]);
             }
-            Values::Radius(values) => self.rows[row].radius = values[at],
-            Values::Foliage(values) => self.rows[row].foliage = values[at],
-            Values::Light(values) => self.rows[row].light = values[at],
+            Values::Radius(values) => {
+                let code = i32::from(self.rows[row].radius) + values[at];
+                self.rows[row].radius = code.try_into().expect("FR11: a radius has 16 bits");
+            }
+            Values::Foliage(values) => {
+                self.rows[row].foliage = self.rows[row].foliage.wrapping_add(values[at]);
+            }
+            Values::Light(values) => {
+                let level = light_level(self.rows[row].light) + values[at];
+                self.rows[row].light = light_of(level).expect("FR11: there are 32 levels of light");
+            }
             Values::Born(_) => panic!("a metamer never changes its birth"),
             Values::Organs(values) => self.rows[row].organs.clone_from(&values[at]),
         }
+    }
+
+    /// Where a metamer ends, by what is told of it (FR10).
+    fn place(&self, parent: Option<u32>, begins_axis: bool, told: [i32; 3]) -> [i32; 3] {
+        let Some(parent) = parent.map(|parent| &self.rows[parent as usize]) else {
+            return direction::follow(told, [0; 3], !begins_axis);
+        };
+        let below = parent.parent.map(|below| self.rows[below as usize].position);
+        let parents = below.map_or([0; 3], |below| difference(parent.position, below));
+        sum(parent.position, direction::follow(told, parents, !begins_axis))
     }
 
     fn stamp(&mut self, chunk: u32, generation: u32) {
@@ -163,4 +182,8 @@ impl Row {
 
 fn sum(a: [i32; 3], b: [i32; 3]) -> [i32; 3] {
     std::array::from_fn(|axis| a[axis].wrapping_add(b[axis]))
+}
+
+fn difference(a: [i32; 3], b: [i32; 3]) -> [i32; 3] {
+    std::array::from_fn(|axis| a[axis].wrapping_sub(b[axis]))
 }

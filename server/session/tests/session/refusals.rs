@@ -109,7 +109,7 @@ fn ovoid() -> Value {
 pub(crate) fn messages() -> Vec<Value> {
     let resume = json!({ "epoch": 1, "generations": [1, 2], "rows": 3 });
     vec![
-        json!({ "type": "hello", "protocol": 3, "client": "birch-01", "resume": resume }),
+        json!({ "type": "hello", "protocol": 4, "client": "birch-01", "resume": resume }),
         json!({ "type": "received", "sequence": 1, "kind": 2 }),
         json!({ "type": "predict", "rows": [1], "steps": 3 }),
         json!({

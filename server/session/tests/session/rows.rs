@@ -1,6 +1,9 @@
 //! `FR`: what the columns of the table say, whatever a tree has been through.
 
-use espalier_proto::{ChunkChange, Frame, Values, frame::CHUNK_ROWS};
+use espalier_proto::{
+    ChunkChange, Frame, Values,
+    frame::{CHUNK_ROWS, light_level, light_of},
+};
 use serde_json::{Value, json};
 
 use crate::{
@@ -68,8 +71,9 @@ fn check_light(mirror: &Mirror, frame: &Frame) -> usize {
     let mut patched = 0;
     for change in &frame.changes {
         let ChunkChange::Patch { chunk, rows, values: Values::Light(values), .. } = change else { continue };
-        for (&row, &light) in rows.iter().zip(values) {
+        for (&row, &by) in rows.iter().zip(values) {
             let held = &mirror.rows[*chunk as usize * CHUNK_ROWS + usize::from(row)];
+            let light = light_of(light_level(held.light) + by).expect("FR11: there are 32 levels of light");
             assert!(light.abs_diff(held.light) >= SEEN, "{} to {light}", held.light);
         }
         patched += values.len();

@@ -25,7 +25,7 @@ use crate::{
     store::{Breakable, Lease, NewSession, NewSnapshot},
 };
 
-const HELLO: &str = r#"{"type":"hello","protocol":3,"client":"test-client"}"#;
+const HELLO: &str = r#"{"type":"hello","protocol":4,"client":"test-client"}"#;
 
 struct House {
     store: Arc<AnyStore>,

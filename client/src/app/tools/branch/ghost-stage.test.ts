@@ -1,15 +1,16 @@
 import { describe, expect, it } from "vitest";
+import { PlainTable } from "../../../../test/plain-table";
 import { sampleTree } from "../../../../test/sample-tree";
 import type { BendOverlay } from "../../../scene/overlay/bend-overlay";
 import type { GhostPlacement } from "../../../scene/overlay/ghost";
 import type { Overlay } from "../../../scene/overlay/overlays";
-import { TreeTable } from "../../../scene/table/tree-table";
+import type { TreeTable } from "../../../scene/table/tree-table";
 import type { Viewport } from "../../../scene/viewport";
 import { about } from "./branch-turn";
 import { GhostStage } from "./ghost-stage";
 
 function tree(height: number): TreeTable {
-  const table = new TreeTable(() => 0);
+  const table = new PlainTable(() => 0);
   table.apply({ ...sampleTree({ seed: 3, height, orders: 2 }), catchUp: true });
   return table;
 }
