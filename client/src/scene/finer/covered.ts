@@ -32,16 +32,13 @@ export function coveredCells(bodies: readonly Object3D[], side: number): Set<num
   return covered;
 }
 
-/** The same without some of the squares at its rim, and a few behind those: grass grows over an edge that lies low. */
-export function frayed(covered: ReadonlySet<number>): Set<number> {
+/** Whether no grass grows in a square: over an edge that lies low it does here and there, and a few tufts behind it. */
+export function isBare(covered: ReadonlySet<number>, cell: number): boolean {
+  if (!covered.has(cell)) return false;
   const open = (cell: number) => AROUND.some((step) => !covered.has(cell + step));
-  return new Set(
-    [...covered].filter((cell) => {
-      const chance = leafHash(cell) & 255;
-      if (open(cell)) return chance < 70;
-      return chance < 200 || !AROUND.some((step) => open(cell + step));
-    }),
-  );
+  const chance = leafHash(cell) & 255;
+  if (chance < 70) return true;
+  return !open(cell) && (chance < 200 || !AROUND.some((step) => open(cell + step)));
 }
 
 /** Adds the squares whose middles lie in a triangle seen from above, or hardly outside it. */

@@ -19,7 +19,8 @@ float unmownAt(vec2 at) {
 
 /** Where grass has not been mown, 0 to 1. */
 export function unmownAt(x: number, z: number): number {
-  const sum = DRIFTS.reduce((all, { wave, seed, share }) => all + share * noiseAt(x * wave, z * wave, seed), 0);
+  let sum = 0;
+  for (const { wave, seed, share } of DRIFTS) sum += share * noiseAt(x * wave, z * wave, seed);
   return eased(Math.min(1, Math.max(0, (sum - BEGINS[0]) / (BEGINS[1] - BEGINS[0]))));
 }
 
@@ -28,13 +29,19 @@ let values: Uint8Array | null = null;
 /** The shaders' noise in a plane. */
 function noiseAt(x: number, z: number, seed: number): number {
   values ??= lattice(FLAT_NOISE_SIDE ** 2, 2);
-  const [u, v] = [x + 17.13 * seed, z + 31.71 * seed];
-  const [i, k] = [Math.floor(u), Math.floor(v)];
-  const [s, t] = [eased(u - i), eased(v - k)];
-  const at = (column: number, line: number) =>
-    values![(line & (FLAT_NOISE_SIDE - 1)) * FLAT_NOISE_SIDE + (column & (FLAT_NOISE_SIDE - 1))]!;
-  const [near, far] = [k, k + 1].map((line) => at(i, line) + s * (at(i + 1, line) - at(i, line))) as [number, number];
-  return (near + t * (far - near)) / 255;
+  const u = x + 17.13 * seed;
+  const v = z + 31.71 * seed;
+  const i = Math.floor(u);
+  const k = Math.floor(v);
+  const s = eased(u - i);
+  const near = valueAt(values, i, k) * (1 - s) + valueAt(values, i + 1, k) * s;
+  const far = valueAt(values, i, k + 1) * (1 - s) + valueAt(values, i + 1, k + 1) * s;
+  return (near + eased(v - k) * (far - near)) / 255;
+}
+
+function valueAt(values: Uint8Array, column: number, line: number): number {
+  const last = FLAT_NOISE_SIDE - 1;
+  return values[(line & last) * FLAT_NOISE_SIDE + (column & last)]!;
 }
 
 function eased(t: number): number {

@@ -4,7 +4,7 @@ import { TUFT_BLADES } from "../glsl/blades";
 import { ItemTexture } from "../item-texture";
 import { leafHash } from "../leaf-hash";
 import type { Fineness } from "../rendering/fineness";
-import { cellOf, coveredCells, frayed } from "./covered";
+import { cellOf, coveredCells, isBare } from "./covered";
 import { unmownAt } from "./meadow";
 
 /** Tufts at most. */
@@ -53,7 +53,7 @@ export class Tufts {
 
   /** These lie on the ground. */
   cover(bodies: readonly Object3D[]): void {
-    this.covered = frayed(coveredCells(bodies, CELL));
+    this.covered = coveredCells(bodies, CELL);
     this.seen = "";
   }
 
@@ -120,21 +120,23 @@ export function tuftsAt(
     return sum + (all < 1 ? BLOCK * BLOCK * thinned(all) : 0);
   }, 0);
   const share = Math.min(1, (0.92 * MOST_TUFTS) / Math.max(1, sparse ? dense / 20 : dense));
-  for (const [, i, k] of blocks.sort((a, b) => a[0] - b[0])) {
+  for (const [distance, i, k] of blocks.sort((a, b) => a[0] - b[0])) {
     const bunch = sparse ? bunchOf(i, k) : null;
+    if (bunch?.[2] === 0) continue;
+    // No tuft of this block has more of a chance: most are left out by this alone.
+    const most = share * thinned(Math.max(0, distance - side) / farthest);
     for (let cell = 0; cell < BLOCK * BLOCK; cell += 1) {
       const column = i * BLOCK + (cell % BLOCK);
       const line = k * BLOCK + Math.floor(cell / BLOCK);
       const hash = leafHash(leafHash(column) + line);
-      const [u, v, w] = [hash & 1023, (hash >>> 10) & 1023, (hash >>> 20) & 1023];
-      const x = (column + u / 1023) * CELL;
-      const z = (line + v / 1023) * CELL;
-      const distance = Math.hypot(x - eye[0], eye[1], z - eye[2]);
-      const far = distance / reachAt(x, z);
-      const chance = share * thinned(far);
-      const rank = w / 1023;
-      if (far > 1 || rank >= chance || covered.has(cellOf(column, line))) continue;
+      const rank = ((hash >>> 20) & 1023) / 1023;
+      if (rank >= most) continue;
+      const x = (column + (hash & 1023) / 1023) * CELL;
+      const z = (line + ((hash >>> 10) & 1023) / 1023) * CELL;
       if (bunch && Math.hypot(x / side - i - bunch[0], z / side - k - bunch[1]) > bunch[2]) continue;
+      const far = Math.hypot(x - eye[0], eye[1], z - eye[2]) / reachAt(x, z);
+      const chance = share * thinned(far);
+      if (far > 1 || rank >= chance || isBare(covered, cellOf(column, line))) continue;
       // The next to go with distance are small already, and all are where grass ends.
       const tall = Math.min(1, (chance - rank) / (0.25 * chance)) * Math.min(1, (1 - far) / SHRINKS);
       if (found.length < 4 * MOST_TUFTS) found.push(x, z, rank / chance, tall);
