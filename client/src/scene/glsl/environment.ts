@@ -23,7 +23,7 @@ uniform vec4 uSkyParts; // clouds, stars, hills, studio
 /** The lamp's pool of light is brightest where one looks. */
 vec3 paper(vec3 sight) {
   float aside = 1.0 + dot(sight, vec3(viewMatrix[0].z, viewMatrix[1].z, viewMatrix[2].z));
-  return uPaper * (1.03 - min(1.9 * aside, 0.3) - 0.10 * smoothstep(0.05, 0.9, sight.y));
+  return uPaper * (1.01 - min(0.8 * aside, 0.13) - 0.06 * smoothstep(0.05, 0.9, sight.y));
 }
 `;
 
