@@ -11,11 +11,10 @@ import { JOINT } from "../src/scene/motion/rides";
 import type { Riding } from "../src/scene/motion/riding";
 import type { SharedClock } from "../src/scene/motion/shared-clock";
 import { NodeTexture } from "../src/scene/table/node-texture";
-import type { TreeTable } from "../src/scene/table/tree-table";
+import { TreeTable } from "../src/scene/table/tree-table";
 import type { Vec3 } from "../src/scene/vector";
 import { CHUNK_ROWS, type ServerMessage } from "../src/wire/generated";
 import { decodeServerFrame } from "../src/wire/server-frame";
-import { PlainTable } from "./plain-table";
 
 /** One row as it is drawn and as the page has it for fingers; lengths are in internodes. */
 export interface DrawnRow {
@@ -93,7 +92,7 @@ export async function drawnSway(session: string, air: Partial<AirSettings>, seco
 }
 
 async function tableOf(session: string): Promise<TreeTable> {
-  const table = new PlainTable(() => 0);
+  const table = new TreeTable(() => 0);
   const address = `${location.origin.replace("http", "ws")}/api/v1/sessions/${session}/socket`;
   const rows = new Promise<void>((resolve, reject) => {
     const ignore = () => {};
