@@ -6,10 +6,16 @@ export const NOISE_SIDE = 32;
 /** Cells after which noise in a plane repeats. */
 export const FLAT_NOISE_SIDE = 256;
 
+/** Planes of noise lie so far from each other, for each step of their seeds. */
+export const FLAT_NOISE_SHIFT = [17.13, 31.71] as const;
+
+/** The lattice of noise in a plane. */
+export const flatLattice = () => lattice(FLAT_NOISE_SIDE ** 2, 2);
+
 /** Lattices of random values that shaders interpolate: far cheaper than hashing every corner for every pixel. */
 export class NoiseTextures {
   readonly space = new Data3DTexture(lattice(NOISE_SIDE ** 3, 1), NOISE_SIDE, NOISE_SIDE, NOISE_SIDE);
-  readonly plane = new DataTexture(lattice(FLAT_NOISE_SIDE ** 2, 2), FLAT_NOISE_SIDE, FLAT_NOISE_SIDE);
+  readonly plane = new DataTexture(flatLattice(), FLAT_NOISE_SIDE, FLAT_NOISE_SIDE);
 
   constructor() {
     this.space.wrapR = RepeatWrapping;

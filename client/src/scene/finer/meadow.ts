@@ -1,4 +1,4 @@
-import { FLAT_NOISE_SIDE, lattice } from "../noise-texture";
+import { FLAT_NOISE_SHIFT, FLAT_NOISE_SIDE, flatLattice } from "../noise-texture";
 
 /** Drifts in which grass is not mown: of each noise how fine it is, its seed and its share, and between which sums they begin. */
 const DRIFTS = [
@@ -28,9 +28,9 @@ let values: Uint8Array | null = null;
 
 /** The shaders' noise in a plane. */
 function noiseAt(x: number, z: number, seed: number): number {
-  values ??= lattice(FLAT_NOISE_SIDE ** 2, 2);
-  const u = x + 17.13 * seed;
-  const v = z + 31.71 * seed;
+  values ??= flatLattice();
+  const u = x + FLAT_NOISE_SHIFT[0] * seed;
+  const v = z + FLAT_NOISE_SHIFT[1] * seed;
   const i = Math.floor(u);
   const k = Math.floor(v);
   const s = eased(u - i);

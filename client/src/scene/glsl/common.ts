@@ -1,4 +1,4 @@
-import { FLAT_NOISE_SIDE, NOISE_SIDE } from "../noise-texture";
+import { FLAT_NOISE_SHIFT, FLAT_NOISE_SIDE, NOISE_SIDE } from "../noise-texture";
 import { EASE_SECONDS } from "../table/radius-ease";
 import { DYES } from "../table/row-dyes";
 
@@ -91,7 +91,7 @@ float noise(vec3 p) {
 }
 /** Noise in a plane; planes of different seeds have nothing in common. */
 float noise(vec2 p, float seed) {
-  p += seed * vec2(17.13, 31.71);
+  p += seed * vec2(${FLAT_NOISE_SHIFT.join(", ")});
   vec2 i = floor(p);
   vec2 f = p - i;
   return texture(uFlatNoise, (i + f * f * (3.0 - 2.0 * f) + 0.5) / ${FLAT_NOISE_SIDE}.0).r;
