@@ -1,6 +1,6 @@
 import { BoxGeometry, Matrix4, Mesh, PerspectiveCamera } from "three";
 import { describe, expect, it } from "vitest";
-import { cellOf, coveredCells, isBare } from "./covered";
+import { Covered } from "./covered";
 import { MOST_TUFTS, tuftsAt } from "./tufts";
 
 /** What an eye sees that looks at the origin from so far, turned around it. */
@@ -66,20 +66,20 @@ describe("what lies on the ground", () => {
   const path = new Mesh(new BoxGeometry(4, 0.2, 40));
   path.position.set(3, 0.05, 0);
   path.updateMatrixWorld();
-  const covered = coveredCells([path], 0.5);
+  const covered = Covered.under([path], 0.5);
 
   it("covers the squares under it and hardly any beside it", () => {
-    expect(covered.has(cellOf(6, 0))).toBe(true);
-    expect(covered.has(cellOf(2, -30))).toBe(true);
-    expect(covered.has(cellOf(-1, 0))).toBe(false);
-    expect(covered.has(cellOf(12, 0))).toBe(false);
+    expect(covered.has(6, 0)).toBe(true);
+    expect(covered.has(2, -30)).toBe(true);
+    expect(covered.has(-1, 0)).toBe(false);
+    expect(covered.has(12, 0)).toBe(false);
     expect(covered.size).toBeGreaterThan(8 * 80);
     expect(covered.size).toBeLessThan(10.5 * 83);
   });
 
   it("has no grass grow through it", () => {
     const { eye, sight } = seenFrom(0);
-    const tufts = tuftsAt(eye, sight, 250, coveredCells([path], 0.42));
+    const tufts = tuftsAt(eye, sight, 250, Covered.under([path], 0.42));
     let inside = 0;
     for (let at = 0; at < tufts.length; at += 4) {
       if (tufts[at]! > 2 && tufts[at]! < 4 && Math.abs(tufts[at + 1]!) < 19) inside += 1;
@@ -88,19 +88,50 @@ describe("what lies on the ground", () => {
   });
 
   it("frays at its rim alone", () => {
-    const bare = [...covered].filter((cell) => isBare(covered, cell));
-    expect(bare.length).toBeGreaterThan(0.6 * covered.size);
-    expect(bare.length).toBeLessThan(0.9 * covered.size);
-    for (let column = 4; column <= 7; column += 1) {
-      for (let line = -30; line <= 30; line += 1) expect(isBare(covered, cellOf(column, line))).toBe(true);
+    let bare = 0;
+    for (let column = 0; column < 12; column += 1) {
+      for (let line = -45; line <= 45; line += 1) bare += covered.isBare(column, line) ? 1 : 0;
     }
-    expect(isBare(covered, cellOf(20, 0))).toBe(false);
+    expect(bare).toBeGreaterThan(0.6 * covered.size);
+    expect(bare).toBeLessThan(0.9 * covered.size);
+    for (let column = 4; column <= 7; column += 1) {
+      for (let line = -30; line <= 30; line += 1) expect(covered.isBare(column, line)).toBe(true);
+    }
+    expect(covered.isBare(20, 0)).toBe(false);
+  });
+
+  it("covers the same whichever way it is turned, as far as squares let it", () => {
+    const turned = new Mesh(new BoxGeometry(4, 0.2, 40));
+    turned.rotation.y = 0.4;
+    turned.updateMatrixWorld();
+    const found = Covered.under([turned], 0.5);
+    expect(found.size).toBeGreaterThan(8 * 80);
+    expect(found.size).toBeLessThan(10.5 * 83);
+    const [along, across] = [Math.cos(0.4), Math.sin(0.4)];
+    for (let column = -40; column < 40; column += 1) {
+      for (let line = -50; line < 50; line += 1) {
+        const [x, z] = [(column + 0.5) / 2, (line + 0.5) / 2];
+        const beside = Math.abs(along * x - across * z) - 2;
+        const behind = Math.abs(across * x + along * z) - 20;
+        if (Math.max(beside, behind) < 0.29) expect(found.has(column, line)).toBe(true);
+        if (beside > 0.5 && behind < -2) expect(found.has(column, line)).toBe(false);
+      }
+    }
+  });
+
+  it("may be a floor of a thousand internodes and more", () => {
+    const floor = new Mesh(new BoxGeometry(4000, 0.2, 4000));
+    floor.updateMatrixWorld();
+    const found = Covered.under([floor], 0.42);
+    expect(found.size).toBeGreaterThan(90_000_000);
+    expect(found.isBare(4000, -4000)).toBe(true);
+    expect(found.has(4800, 0)).toBe(false);
   });
 
   it("covers nothing from high above it", () => {
     const roof = new Mesh(new BoxGeometry(4, 0.2, 40));
     roof.position.set(0, 6, 0);
     roof.updateMatrixWorld();
-    expect(coveredCells([roof], 0.5).size).toBe(0);
+    expect(Covered.under([roof], 0.5).size).toBe(0);
   });
 });

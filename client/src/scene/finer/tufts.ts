@@ -4,7 +4,7 @@ import { TUFT_BLADES } from "../glsl/blades";
 import { ItemTexture } from "../item-texture";
 import { leafHash } from "../leaf-hash";
 import type { Fineness } from "../rendering/fineness";
-import { cellOf, coveredCells, isBare } from "./covered";
+import { Covered } from "./covered";
 import { unmownAt } from "./meadow";
 
 /** Tufts at most. */
@@ -29,7 +29,7 @@ export class Tufts {
   private readonly geometry = new BlockGeometry();
   private readonly items = new ItemTexture(Float32Array, 1);
   /** Where none grow. */
-  private covered: ReadonlySet<number> = new Set();
+  private covered = new Covered();
   /** Whether they stand here and there alone, as they do on sand. */
   sparse = false;
   /** What they were placed for. */
@@ -53,7 +53,7 @@ export class Tufts {
 
   /** These lie on the ground. */
   cover(bodies: readonly Object3D[]): void {
-    this.covered = coveredCells(bodies, CELL);
+    this.covered = Covered.under(bodies, CELL);
     this.seen = "";
   }
 
@@ -91,7 +91,7 @@ export function tuftsAt(
   eye: readonly [number, number, number],
   sight: Matrix4,
   reach: number,
-  covered: ReadonlySet<number> = new Set(),
+  covered = new Covered(),
   sparse = false,
 ): Float32Array<ArrayBuffer> {
   const found: number[] = [];
@@ -136,7 +136,7 @@ export function tuftsAt(
       if (bunch && Math.hypot(x / side - i - bunch[0], z / side - k - bunch[1]) > bunch[2]) continue;
       const far = Math.hypot(x - eye[0], eye[1], z - eye[2]) / reachAt(x, z);
       const chance = share * thinned(far);
-      if (far > 1 || rank >= chance || isBare(covered, cellOf(column, line))) continue;
+      if (far > 1 || rank >= chance || covered.isBare(column, line)) continue;
       // The next to go with distance are small already, and all are where grass ends.
       const tall = Math.min(1, (chance - rank) / (0.25 * chance)) * Math.min(1, (1 - far) / SHRINKS);
       if (found.length < 4 * MOST_TUFTS) found.push(x, z, rank / chance, tall);
