@@ -8,7 +8,9 @@ import { Darkroom } from "../src/picture";
 import { SMALL } from "../src/screens";
 import { Server } from "../src/server";
 import { Tablet } from "../src/tablet";
+import { chosen } from "./known";
 import { layOut, type Pair, SIZE } from "./pairs";
+import { writeUnnamed } from "./unnamed";
 
 const PICTURE = join(import.meta.dirname, "../../../docs/species-by-hand.jpg");
 /** The seed of the contact sheet. */
@@ -18,22 +20,25 @@ const PATIENCE = 300_000;
 /** From the front, as on the sheet. */
 const SHOT = { yaw: 0, pitch: 4, zoom: 1.15, ...SIZE };
 
-interface Species {
-  readonly slug: string;
-  readonly name: string;
-}
-
 /**
- * Grows the species with these names, or all, by hand in the page, holds each tree against that of the contact sheet,
- * and writes one picture of the pairs. Gives the exit code.
+ * Grows the species with these slugs, or all, by hand in the page, holds each tree against that of the contact sheet,
+ * and writes one picture of the pairs; with `--unnamed FOLDER` writes pictures of them to be named instead, grown from
+ * another seed. Gives the exit code.
  */
 export async function main(words: readonly string[]): Promise<number> {
   const { values, positionals } = parseArgs({
     args: [...words],
     allowPositionals: true,
-    options: { out: { type: "string" } },
+    options: { out: { type: "string" }, unnamed: { type: "string" }, seed: { type: "string", default: "2" } },
   });
-  const out = values.out === undefined ? PICTURE : resolve(process.env.INIT_CWD ?? process.cwd(), values.out);
+  // npm runs a script in its package's folder; a path is meant from where the command was given.
+  const here = process.env.INIT_CWD ?? process.cwd();
+  if (values.unnamed !== undefined) {
+    const seed = Number(values.seed);
+    if (!Number.isSafeInteger(seed) || seed < 0) throw new Error(`a seed is a whole number, not ${values.seed}`);
+    return writeUnnamed(positionals, seed, resolve(here, values.unnamed));
+  }
+  const out = values.out === undefined ? PICTURE : resolve(here, values.out);
   const server = new Server();
   const browser = await launchBrowser();
   let failed = 0;
@@ -70,14 +75,6 @@ export async function main(words: readonly string[]): Promise<number> {
     await server.stop();
   }
   return failed === 0 ? 0 : 1;
-}
-
-/** The species with these names, or all; a name that is not there is an error. */
-async function chosen({ address }: Server, slugs: readonly string[]): Promise<readonly Species[]> {
-  const all = (await (await fetch(`${address}/api/v1/species`)).json()) as Species[];
-  const unknown = slugs.filter((slug) => !all.some((one) => one.slug === slug));
-  if (unknown.length > 0) throw new Error(`no such species: ${unknown.join(", ")}`);
-  return slugs.length === 0 ? all : all.filter(({ slug }) => slugs.includes(slug));
 }
 
 /** The tree of the contact sheet, drawn by the server as it is there. */
