@@ -5,16 +5,14 @@ import { ItemTexture } from "../item-texture";
 import { leafHash } from "../leaf-hash";
 import type { Fineness } from "../rendering/fineness";
 import { Covered } from "./covered";
-import { unmownAt } from "./meadow";
+import { DRY_GRASS, grassAt, TALLEST_GRASS } from "./meadow";
 
 /** Tufts at most. */
 export const MOST_TUFTS = 26_000;
 /** Side of the square in which one stands, in internodes, and squares of a block along each side. */
 const CELL = 0.42;
 const BLOCK = 16;
-/** How tall grass is that is mown, and that is not. It is not drawn where it is fewer pixels tall than this. */
-const MOWN = 0.45;
-const UNMOWN = 1.6;
+/** Grass is not drawn where it is fewer pixels tall than this. */
 const SEEN = 4;
 /** And none is drawn beyond this, in internodes. */
 const FARTHEST = 340;
@@ -96,9 +94,8 @@ export function tuftsAt(
 ): Float32Array<ArrayBuffer> {
   const found: number[] = [];
   const side = CELL * BLOCK;
-  const reachAt = (x: number, z: number) =>
-    Math.min(FARTHEST, reach * (MOWN + (UNMOWN - MOWN) * (sparse ? 0.5 : unmownAt(x, z))));
-  const farthest = Math.min(FARTHEST, reach * UNMOWN);
+  const reachAt = (x: number, z: number) => Math.min(FARTHEST, reach * (sparse ? DRY_GRASS : grassAt(x, z)));
+  const farthest = Math.min(FARTHEST, reach * TALLEST_GRASS);
   const across = Math.sqrt(Math.max(0, farthest * farthest - eye[1] * eye[1]));
   if (across === 0) return new Float32Array(0);
   const frustum = new Frustum().setFromProjectionMatrix(sight);

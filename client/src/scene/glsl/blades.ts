@@ -28,13 +28,13 @@ void main() {
   vec2 at = tuft.xy + 0.8 * (own.xy - 0.5);
   vec2 feet = aroundFeet(at, noise(at * 1.7, 12.0) - 0.5);
   // Around a trunk the ground is trodden, but against it tufts stand that nothing reaches, and they are taller.
-  float hem = smoothstep(0.70, 0.96, feet.y) * smoothstep(0.30, 0.55, clump.x + 0.3 * (own.x - 0.5));
+  float hem = smoothstep(0.66, 0.94, feet.y) * smoothstep(0.22, 0.46, clump.x + 0.3 * (own.x - 0.5));
   float grows = tuft.w * mix(1.0 - smoothstep(0.35, 0.95, feet.y), 1.0, hem);
   // In drifts it was never mown: there it is taller, and some of its stalks bear seeds.
-  float unmown = uGround == GRASS ? unmownAt(at) : 0.45;
+  float unmown = uGround == GRASS ? unmownAt(at) : DRY_UNMOWN;
   float stalk = blade.x < 0.5 ? step(0.62, own.w) * unmown : 0.0;
-  float tall = (0.24 + 0.40 * own.z) * (0.35 + 1.35 * smoothstep(0.25, 0.85, clump.x)) * (1.0 + 1.1 * hem + 2.6 * unmown) * grows;
-  tall = mix(tall, max(1.25 * tall, 1.5 + 0.6 * own.x) * min(grows * 1.2, 1.0), stalk);
+  float tall = grassTall(max(unmown, 0.62 * hem)) * (0.55 + 0.90 * own.z) * (0.35 + 1.35 * smoothstep(0.25, 0.85, clump.x)) * grows;
+  tall = mix(tall, max(1.25 * tall, grassTall(1.0) * (0.94 + 0.38 * own.x)) * min(grows * 1.2, 1.0), stalk);
   float turn = 6.2832 * own.w;
   vec2 lean = 0.55 * vec2(cos(turn), sin(turn)) + 0.7 * (vec2(clump.y, noise(tuft.xy * 0.33, 41.0)) - 0.5);
   float t = blade.z;
@@ -50,14 +50,17 @@ void main() {
   vec4 crown = crownAt(vec3(at.x, max(0.4, uCrownFrom.y + 2.6), at.y));
   vec2 within = abs(2.0 * (at - uCrownFrom.xz) / uCrownSize.xz - 1.0);
   float shelter = (1.0 - crown.w) * smoothstep(1.0, 0.45, max(max(within.x, within.y), 0.8 * length(within)));
-  float open = feet.x * (1.0 - 0.62 * shelter);
+  float open = feet.x * (1.0 - 0.78 * shelter);
+  open = mix(open, 1.0, 0.3 * t);
+  // Where blades are about as thin as pixels they run together, as they do in the ground behind them.
+  float apart = 1.0 - 0.65 * smoothstep(0.015, 0.07, away / max(uView.w, 1.0));
   float sun = groundSun(vec3(at.x, 0.0, at.y));
-  vec3 albedo = (uGround == GRASS ? grassAt(at, cameraPosition.y / max(away, 1e-3)) : DRY[uGround]) * (0.72 + 0.56 * own.y) * mix(0.55, 1.75, t);
-  albedo = mix(albedo, (uGround == GRASS ? vec3(0.205, 0.175, 0.088) : DRY[uGround]) * mix(0.7, 1.35, t), max(stalk * 0.85, 0.30 * unmown * t));
+  vec3 albedo = (uGround == GRASS ? grassAt(at, cameraPosition.y / max(away, 1e-3)) : DRY[uGround]) * (1.0 + apart * 0.56 * (own.y - 0.5)) * mix(1.12, mix(0.55, 1.75, t), apart);
+  albedo = mix(albedo, (uGround == GRASS ? vec3(0.205, 0.175, 0.088) : DRY[uGround]) * mix(0.7, 1.35, t), max(stalk * 0.70, 0.20 * unmown * t));
   if (uGround == GRASS) albedo = mix(albedo, vec3(0.19, 0.165, 0.085), 0.30 * t * smoothstep(0.55, 0.95, own.w * 0.5 + clump.y * 0.6));
   // What shines through a blade that stands against the sun is yellower than what it reflects.
   float against = pow(max(0.0, -dot(eye, uSun)), 3.0);
-  vec3 lit = albedo * (ambient(normal) * open * mix(0.8, 1.1, t) + SUN_COLOUR * mix(facingSun(UP), facingSun(normal), 0.45) * sun * mix(0.7, 1.0, open));
+  vec3 lit = albedo * (ambient(normal) * open * mix(0.8, 1.1, t) + SUN_COLOUR * mix(facingSun(UP), facingSun(normal), 0.45) * sun * mix(0.5, 1.0, open));
   lit += albedo * vec3(1.5, 1.4, 0.5) * SUN_COLOUR * (0.10 + 0.6 * against) * t * sun * smoothstep(0.02, 0.3, uSun.y + 0.15);
   float far = length(cameraPosition - world);
   vColour = finished(inAir(lit, far));
