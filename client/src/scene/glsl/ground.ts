@@ -11,9 +11,11 @@ vec3 grassAt(vec2 at, float grazing) {
   float broad = noise(at * 0.021, 11.0) * 0.6 + noise(at * 0.057, 0.5) * 0.4;
   vec3 patches = vec3(noise(at * 0.09, 2.0), noise(at.yx * 0.21 + 3.7, 3.0), noise(at * 0.47, 13.0)) - 0.5;
   float dry = 0.5 + dot(vec3(0.45, 0.3, 0.25) * vec3(smoothstep(-0.04, 0.12, grazing), smoothstep(0.02, 0.3, grazing), smoothstep(0.06, 0.5, grazing)), patches);
-  vec3 albedo = mix(vec3(0.080, 0.104, 0.036), vec3(0.132, 0.146, 0.054), smoothstep(0.2, 0.8, broad));
-  // Here and there it is dry.
-  return mix(albedo, vec3(0.185, 0.166, 0.080), 0.5 * smoothstep(0.35, 0.95, dry));
+  vec3 albedo = mix(vec3(0.066, 0.100, 0.033), vec3(0.122, 0.146, 0.050), smoothstep(0.15, 0.85, broad));
+  // Lush and bluish where it is damp, dry here and there; what was not mown is straw on top.
+  albedo = mix(albedo, vec3(0.058, 0.094, 0.042), 0.45 * smoothstep(0.5, 0.2, dry));
+  albedo = mix(albedo, vec3(0.180, 0.164, 0.080), 0.45 * smoothstep(0.40, 0.95, dry));
+  return mix(albedo, vec3(0.158, 0.150, 0.068), 0.42 * unmownAt(at));
 }
 `;
 
@@ -29,10 +31,10 @@ uniform vec3 uLeafLast;
 uniform vec3 uLeafDead;
 /** How high grass stands, about one half; what is smaller than the picture can show is left out. */
 float sward(vec2 at, float blurred) {
-  vec4 wave = vec4(0.55, 1.3, 2.9, 6.1);
+  vec4 wave = vec4(0.45, 1.7, 4.3, 10.7);
   vec4 shown = 1.0 - smoothstep(vec4(0.25), vec4(0.75), wave * blurred);
   vec4 parts = vec4(noise(at * wave.x, 8.0), noise(at.yx * wave.y, 5.0), noise(at * wave.z, 15.0), noise(at.yx * wave.w, 6.0));
-  return 0.5 + dot(vec4(0.22, 0.34, 0.34, 0.30) * shown, parts - 0.5);
+  return 0.5 + dot(vec4(0.14, 0.28, 0.36, 0.32) * shown, parts - 0.5);
 }
 /** Leaves that have fallen, so many of them: their colour, and how much of the ground they cover here. */
 vec4 litterAt(vec2 at, float many, float pixel) {
@@ -112,13 +114,13 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
   // The box must not show where it ends.
   vec2 within = abs(2.0 * (at - uCrownFrom.xz) / uCrownSize.xz - 1.0);
   float shelter = (1.0 - crown.w) * smoothstep(1.0, 0.45, max(max(within.x, within.y), 0.8 * length(within)));
-  open *= 1.0 - 0.8 * shelter;
+  open *= 1.0 - 0.86 * shelter;
   if (uShadowTaps > 1) open *= besideRoots(at);
   float broad = noise(at * 0.021, 11.0) * 0.6 + noise(at * 0.057, 0.5) * 0.4;
   float patches = noise(at * 0.09, 2.0) * 0.45 + noise(at.yx * 0.21 + 3.7, 3.0) * 0.3 + noise(at * 0.47, 13.0) * 0.25;
   float fine = noise(at * vec2(4.1, 2.6), 8.0) * 0.5 + noise(at.yx * vec2(7.0, 11.0), 5.0) * 0.5;
   vec3 soil = vec3(0.128, 0.094, 0.066) * (0.72 + 0.56 * fine);
-  vec3 fields = mix(vec3(1.0), fieldsAt(at, away), smoothstep(60.0, 260.0, away));
+  vec3 fields = mix(vec3(1.0), fieldsAt(at, away), smoothstep(70.0, 190.0, away));
   Surface surface = Surface(vec3(0.0), UP);
   if (uGround == EARTH) {
     float clods = noise(at * 1.3, 6.0) * 0.6 + noise(at * 2.9, 7.0) * 0.4;
@@ -127,18 +129,18 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
     surface.normal = normalize(vec3((clods - 0.5) * 0.5 * near, 1.0, (fine - 0.5) * 0.4 * near));
   } else if (uGround == SAND) {
     float bend = noise(at * 0.07, 4.0) * 9.0;
-    float shown = near * (1.0 - smoothstep(0.3, 1.2, blurred));
+    float shown = near * (1.0 - smoothstep(0.10, 0.42, blurred));
     // Ripples part and meet; their lee sides are steep. Between drifts of them the sand lies smooth.
-    float phase = at.x * 2.3 + at.y * 1.0 + bend + 2.6 * noise(at * 0.31, 9.0) + 0.8 * noise(at * 1.1, 5.0);
+    float phase = at.x * 5.2 + at.y * 2.3 + 1.6 * bend + 3.4 * noise(at * 0.31, 9.0) + 1.2 * noise(at * 1.1, 5.0);
     float crest = fract(phase / 6.2831853);
     float slope = crest < 0.72 ? 0.39 : -1.0;
     slope *= smoothstep(0.0, 0.06, crest) * smoothstep(0.0, 0.06, abs(crest - 0.72)) * smoothstep(1.0, 0.94, crest);
-    float rippled = shown * smoothstep(0.30, 0.52, noise(at * 0.06, 21.0));
+    float rippled = shown * smoothstep(0.34, 0.66, noise(at * 0.06, 21.0)) * (0.35 + 0.65 * noise(at * 0.37, 25.0));
     float grains = (noise(at * 9.0, 3.0) + noise(at * 23.0, 7.0) - 1.0) * (1.0 - smoothstep(0.03, 0.12, shorter));
     surface.albedo = mix(vec3(0.430, 0.330, 0.225), vec3(0.530, 0.430, 0.310), broad * 0.5 + patches * 0.5);
     surface.albedo *= 1.0 + near * (fine - 0.5) * 0.14 + 0.16 * grains - 0.05 * rippled * (crest - 0.4);
     float dunes = noise(at * 0.03 + vec2(0.4, 0.0), 33.0) - noise(at * 0.03, 33.0);
-    surface.normal = normalize(vec3(-0.9 * slope * rippled * 0.36 - 0.7 * dunes, 1.0, -0.4 * slope * rippled * 0.36 + (broad - 0.5) * 0.25));
+    surface.normal = normalize(vec3(-0.9 * slope * rippled * 0.22 - 0.7 * dunes, 1.0, -0.4 * slope * rippled * 0.22 + (broad - 0.5) * 0.25));
   } else if (uGround == SNOW) {
     // Drifts, hollows that are blue with sky, a crust that sparkles near by, and wells around stems.
     float step_ = 0.35;
@@ -192,16 +194,17 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
     vec2 towards = uSun.xz / max(length(uSun.xz), 1e-3);
     float shaded = sward(met + 0.28 * towards, blurred) - height;
     float grazed = 1.0 - 0.6 * uSun.y;
-    surface.albedo *= max(0.35, 1.0 + 1.6 * (height - 0.5) - 1.0 * grazed * shaded);
+    surface.albedo *= max(0.35, 1.0 + 1.35 * (height - 0.5) - 0.9 * grazed * shaded);
     surface.albedo = mix(surface.albedo, vec3(0.128, 0.132, 0.052), 0.35 * smoothstep(0.55, 0.8, height));
-    surface.albedo *= mix(vec3(1.0), vec3(1.03, 0.99, 0.86), unmownAt(met) * smoothstep(0.0, 0.12, eye.y / away));
     surface.albedo = flowered(surface.albedo, at, shorter, shelter + foot);
     surface.albedo = mix(surface.albedo, soil, 0.8 * foot * (1.0 - 0.55 * smoothstep(0.4, 0.62, height)));
   }
   if (uGround != SNOW && uLeafForm.y < 0.5) {
     // Under the crown and a little beyond it, thinning out; some of last year's are always left.
     float many = smoothstep(0.05, 0.75, shelter + 0.35 * (patches - 0.5) * smoothstep(0.02, 0.2, shelter));
-    many *= clamp((uGround == SAND ? 0.0 : 0.03) + 1.0 * uLeafSeason.w + 0.5 * uLeafTraits.z, 0.0, 0.9);
+    many *= clamp((uGround == SAND ? 0.0 : 0.05) + 1.0 * uLeafSeason.w + 0.5 * uLeafTraits.z, 0.0, 0.9);
+    // Against the trunk what the wind has left of earlier years lies deepest.
+    if (uGround != SAND) many = max(many, 0.34 * foot * smoothstep(0.05, 0.4, uCrown.w) * (0.4 + patches));
     if (many > 0.004) {
       vec4 litter = litterAt(at, many, blurred);
       surface.albedo = mix(surface.albedo, litter.rgb, litter.a);
