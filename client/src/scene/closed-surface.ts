@@ -27,7 +27,7 @@ function isClosed(triangles: Uint32Array, vertices: number): boolean {
 }
 
 /** Six times the volume inside; below 0 where triangles face inwards. */
-function volume(positions: Float32Array, triangles: Uint32Array): number {
+export function volume(positions: Float32Array, triangles: Uint32Array): number {
   let sum = 0;
   for (let i = 0; i < triangles.length; i += 3) {
     const [a, b, c] = [3 * triangles[i]!, 3 * triangles[i + 1]!, 3 * triangles[i + 2]!];

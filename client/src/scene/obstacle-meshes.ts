@@ -13,13 +13,16 @@ import {
 } from "three";
 import type { PlacedShape, Pose } from "../wire/generated";
 import type { Box } from "./camera/camera-view";
-import { facingOut } from "./closed-surface";
+import { facingOut, volume } from "./closed-surface";
 import { PLANE_SHOWN } from "./glsl/obstacle";
 import type { Materials } from "./materials";
 import type { Ray, Vec3 } from "./vector";
 
 /** Drawn over the ground it lies on, and under what stands on both. */
 const PLANE_ORDER = 1.5;
+
+/** A closed mesh that fills less of its box than this is a frame of rods, as a stand is. */
+const FRAME_FILLS = 0.15;
 
 /** A triangle mesh as the server keeps it, before scale and pose. */
 export interface TriangleMesh {
@@ -143,8 +146,10 @@ export class ObstacleMeshes {
 
 function geometryOf({ shape, mesh }: DrawnObstacle): { geometry: BufferGeometry; closed: boolean } | null {
   switch (shape.kind) {
-    case "box":
-      return { geometry: new BoxGeometry(...shape.size), closed: true };
+    case "box": {
+      const geometry = new BoxGeometry(...shape.size);
+      return { geometry: described(geometry, shape.size), closed: true };
+    }
     case "sphere":
       return { geometry: new SphereGeometry(shape.radius, 48, 32), closed: true };
     case "plane":
@@ -155,9 +160,29 @@ function geometryOf({ shape, mesh }: DrawnObstacle): { geometry: BufferGeometry;
       geometry.setAttribute("position", new BufferAttribute(mesh.positions.slice(), 3));
       const outside = facingOut(mesh.positions, mesh.triangles);
       geometry.setIndex(new BufferAttribute(outside ?? mesh.triangles, 1));
+      if (outside && isFrame(geometry, volume(mesh.positions, outside) / 6)) described(geometry, [-1, -1, -1]);
       geometry.scale(shape.scale, shape.scale, shape.scale);
       geometry.computeVertexNormals();
       return { geometry, closed: outside !== null };
     }
   }
+}
+
+/** Tells the shader what a body is: how long the sides of a box are, or −1 for a frame; nothing is said of others. */
+function described(geometry: BufferGeometry, body: Vec3): BufferGeometry {
+  const { count } = geometry.attributes.position!;
+  return geometry.setAttribute(
+    "body",
+    new BufferAttribute(
+      new Float32Array(3 * count).map((_, n) => body[n % 3]!),
+      3,
+    ),
+  );
+}
+
+/** Whether a mesh with so much volume is a frame. */
+function isFrame(geometry: BufferGeometry, filled: number): boolean {
+  geometry.computeBoundingBox();
+  const { min, max } = geometry.boundingBox!;
+  return filled < FRAME_FILLS * (max.x - min.x) * (max.y - min.y) * (max.z - min.z);
 }

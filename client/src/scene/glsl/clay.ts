@@ -23,7 +23,6 @@ vec3 raised(vec3 normal, vec3 place, float height) {
   return normalize(max(abs(area), 1e-9) * normal - slope);
 }
 uniform vec4 uFeet[${MOST_FEET}]; // where trunks stand (x and z), the numbers of their trees, and how thick they are
-uniform vec4 uSkyParts; // clouds, stars, hills, studio
 /** How much earth lies on what looks up: all around a trunk that stands there, and out of doors in patches. */
 float earthOn(vec3 place, vec3 normal, float patches) {
   float level = smoothstep(0.86, 0.97, normal.y);
@@ -72,35 +71,57 @@ vec4 gravel(vec3 place, float pixel) {
   }
   return all;
 }
+/** Planed wood, its grain along the length of a rod, which is upright or level. */
+vec3 timber(float pixel) {
+  vec3 along = vec3(vOwn.xz * 6.0, vOwn.y * 0.35).xzy;
+  float grain = noise(along) * 0.6 + noise(along * vec3(3.1, 2.0, 3.1) + 7.0) * 0.4;
+  return clay() * mix(1.0, 0.55 + 0.9 * grain, 1.0 - smoothstep(0.08, 0.3, pixel));
+}
+/** How far a place on a path is from its edges, which wander: what is below 0 is overgrown. */
+float fromEdge(vec2 at) {
+  vec2 in_ = 0.5 * vBody.xz - abs(vOwn.xz);
+  float wander = noise(at * 0.13, 5.0) * 1.3 + noise(at * 0.6, 6.0) * 0.9 + noise(at * 2.3, 7.0) * 0.6 + noise(at * 6.7, 8.0) * 0.3;
+  return min(in_.x, in_.y) - wander + 0.35;
+}
 vec3 surfaced(float pixel, inout vec3 normal) {
-  vec3 clay = vec3(0.335, 0.275, 0.225);
-  if (uShown.z < 0.5) return clay;
+  if (uShown.z < 0.5) return clay();
+  if (vBody.x < 0.0) return timber(pixel);
   float outside = 1.0 - uSkyParts.w;
   float path = outside * smoothstep(0.9, 0.97, normal.y) * smoothstep(0.9, 0.5, vPlace.y);
-  float height = relief(vOwn, pixel);
+  float edge_ = 10.0;
+  if (outside > 0.5 && vBody.y > 0.0 && vBody.y < 0.9 && vPlace.y < 0.5) {
+    edge_ = fromEdge(vPlace.xz);
+    if (edge_ < 0.0) discard;
+  }
+  float wall = vBody.x > 0.0 ? 1.0 : 0.0;
+  // Stoneware is smoother than what hands have spread.
+  float height = relief(vOwn, pixel) * mix(0.30, mix(1.0, 0.7, wall), outside);
   float stain = noise(vOwn * 0.13 + 2.0) * 0.6 + noise(vOwn * 0.35) * 0.4;
   // What lies low is darker: dust and wet stay there.
-  vec3 albedo = clay * (0.84 + 0.32 * stain) * clamp(1.0 + 1.7 * height, 0.7, 1.25);
+  vec3 albedo = clay() * (0.84 + 0.32 * stain) * clamp(1.0 + 1.7 * height, 0.7, 1.25);
   float steep = outside * smoothstep(0.6, 0.2, abs(normal.y));
   if (steep > 0.0) {
     // It lies in layers, harder and softer ones in turn: they wave, and the soft ones are worn back.
     float level = vPlace.y * 0.55 + 1.1 * noise(vPlace * 0.11) + 0.25 * noise(vPlace * 0.6);
     float layer = noise(vec3(level, 0.3 * noise(vPlace * 0.05), 3.0)) * 0.6 + noise(vec3(level * 3.7, 1.0, 7.0)) * 0.4;
     float edge = 1.0 - smoothstep(0.10, 0.45, 0.55 * pixel * 3.7);
-    height += 0.22 * steep * (layer - 0.5) * edge;
-    albedo *= mix(vec3(1.0), mix(vec3(0.74, 0.70, 0.68), vec3(1.16, 1.12, 1.06), layer), steep);
+    height += mix(0.22, 0.05, wall) * steep * (layer - 0.5) * edge;
+    albedo *= mix(vec3(1.0), mix(vec3(0.74, 0.70, 0.68), vec3(1.16, 1.12, 1.06), layer), steep * mix(1.0, 0.35, wall));
     // Rain leaves streaks, and algae where it stays; lichen grows in rounds.
     vec3 run = vec3(vPlace.xz * 1.1, vPlace.y * 0.07).xzy;
     float streak = smoothstep(0.46, 0.72, noise(run) * 0.62 + noise(run * 2.7 + 5.0) * 0.38);
-    albedo *= 1.0 - 0.30 * steep * streak;
+    albedo *= 1.0 - mix(0.30, 0.16, wall) * steep * streak;
     float low = smoothstep(3.2, 0.0, vPlace.y + 2.4 * (stain - 0.5));
     albedo = mix(albedo, vec3(0.115, 0.120, 0.062), 0.62 * steep * low * smoothstep(0.3, 0.65, noise(vPlace * 1.3)));
     float round_ = noise(vPlace * 0.9 + 7.0) * 0.6 + noise(vPlace * 2.9) * 0.4;
-    albedo = mix(albedo, mix(vec3(0.42, 0.42, 0.36), vec3(0.40, 0.31, 0.13), step(0.6, stain)), 0.4 * steep * smoothstep(0.60, 0.66, round_));
+    albedo = mix(albedo, mix(vec3(0.42, 0.42, 0.36), vec3(0.40, 0.31, 0.13), step(0.6, stain)), mix(0.4, 0.14, wall) * steep * smoothstep(0.60, 0.66, round_));
   }
   albedo = mix(albedo, overgrown(vPlace, pixel), earthOn(vPlace, normal, stain) * (1.0 - path));
   if (path > 0.0) {
     vec4 stones = gravel(vPlace, pixel);
+    // Its middle is worn pale by feet, its edges are earth in which grass takes root.
+    float verge = smoothstep(3.2, 0.2, edge_ + 1.6 * (stain - 0.5));
+    stones.rgb *= mix(1.10, 0.66, verge) * mix(vec3(1.0), vec3(0.92, 1.0, 0.80), verge);
     albedo = mix(albedo, stones.rgb, path);
     height = mix(height, stones.a, path);
   }

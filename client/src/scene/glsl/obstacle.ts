@@ -6,7 +6,9 @@ export const PLANE_SHOWN = 45;
 export const OBSTACLE_VERTEX = /* glsl */ `${HEAD}
 in vec3 position;
 in vec3 normal;
+in vec3 body; // how long the sides of a box are; −1 for a frame of rods; 0 for all others
 uniform mat4 modelMatrix;
+flat out vec3 vBody;
 out vec3 vWorld;
 centroid out vec3 vPlace; // the same, but never beyond the edge of a face that is seen from its side
 out vec3 vNormal;
@@ -16,6 +18,7 @@ void main() {
   vWorld = world.xyz;
   vPlace = world.xyz;
   vOwn = position;
+  vBody = body;
   vNormal = mat3(modelMatrix) * normal;
   gl_Position = projectionMatrix * viewMatrix * world;
 }
@@ -23,16 +26,24 @@ void main() {
 
 /** The surface of a body in the first picture. */
 const SMOOTH = /* glsl */ `
-vec3 surfaced(float pixel, inout vec3 normal) { return vec3(0.335, 0.275, 0.225); }
+vec3 surfaced(float pixel, inout vec3 normal) { return clay(); }
 `;
 
-/** Unfired clay: matt, of no colour that a plant has, and a little darker where it meets the ground; \`surface\` says what it is like close by. */
+/**
+ * Unfired clay out of doors, matt and of no colour that a plant has; in a studio dark stoneware, and frames of wood. A
+ * little darker where it meets the ground; \`surface\` says what it is like close by.
+ */
 export const obstacleFragment = (surface = SMOOTH) => /* glsl */ `${HEAD}${NOISE}${LIGHT}
 in vec3 vWorld;
 centroid in vec3 vPlace;
 in vec3 vNormal;
 in vec3 vOwn;
+flat in vec3 vBody;
+uniform vec4 uSkyParts; // clouds, stars, hills, studio
 out vec4 colour;
+vec3 clay() {
+  return vBody.x < 0.0 ? vec3(0.080, 0.043, 0.026) : mix(vec3(0.335, 0.275, 0.225), vec3(0.080, 0.066, 0.058), uSkyParts.w);
+}
 ${surface}void main() {
   vec3 toEye = cameraPosition - vPlace;
   float away = length(toEye);
