@@ -97,7 +97,9 @@ float heapAt(vec2 around, float up, float tall, float seed) {
   lumps += 0.19 * abs(2.0 * noise(at * 4.3 - seed) - 1.0);
   at = TURN * at;
   lumps += 0.09 * abs(2.0 * noise(at * 9.7 + seed) - 1.0) + 0.045 * noise(TURN * at * 22.0);
-  return tall * (1.60 * lumps - 0.06) - max(up, 0.0);
+  // The higher a top, the rounder it is.
+  up = max(up, 0.0);
+  return tall * (1.75 * lumps - 0.06) - up * (0.80 + 0.55 * up);
 }
 /** Heaps of clouds that stand side by side on one level base, seen from the side. */
 vec3 heaps(vec3 sky, vec3 sight, float base, float size, float seed, float share, float haze) {
