@@ -34,7 +34,7 @@ vec4 rootAt(Root root, float foot, float u) {
   float aside = reach * (0.9 * (root.chance - 0.5) * own * own + 0.12 * sin(7.0 * own * (0.8 + root.chance)) * own * (root.chance > 0.5 ? -1.0 : 1.0));
   float thick = spreads * (0.16 + 0.32 * root.strong) * (1.0 - 0.75 * u);
   // Its back comes out of the trunk and goes down into the ground.
-  float back = spreads * (0.62 * root.strong * exp(-1.7 * max(0.0, far - 1.1)) + 0.15 * root.strong * (1.0 + 0.4 * sin(11.0 * u + 17.0 * root.chance)) - (0.04 + 0.22 * root.strong) * smoothstep(0.35, 1.0, u));
+  float back = spreads * (0.62 * root.strong * exp(-1.7 * max(0.0, far - 1.1)) + 0.15 * root.strong * (1.0 + 0.4 * sin(11.0 * u + 17.0 * root.chance)) - (0.06 + 0.27 * root.strong) * smoothstep(0.28, 0.92, u));
   float up = back - thick;
   vec2 towards = vec2(cos(root.turn), sin(root.turn));
   // Those of a sapling lie in the ground.
