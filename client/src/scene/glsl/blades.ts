@@ -50,18 +50,18 @@ void main() {
   vec4 crown = crownAt(vec3(at.x, max(0.4, uCrownFrom.y + 2.6), at.y));
   vec2 within = abs(2.0 * (at - uCrownFrom.xz) / uCrownSize.xz - 1.0);
   float shelter = (1.0 - crown.w) * smoothstep(1.0, 0.45, max(max(within.x, within.y), 0.8 * length(within)));
-  float open = feet.x * (1.0 - 0.78 * shelter);
+  float open = mix(0.25, 1.0, feet.x) * (1.0 - 0.78 * shelter);
   open = mix(open, 1.0, 0.3 * t);
   // Where blades are about as thin as pixels they run together, as they do in the ground behind them.
   float apart = 1.0 - 0.65 * smoothstep(0.015, 0.07, away / max(uView.w, 1.0));
   float sun = groundSun(vec3(at.x, 0.0, at.y));
   vec3 albedo = (uGround == GRASS ? grassAt(at, cameraPosition.y / max(away, 1e-3)) : DRY[uGround]) * (1.0 + apart * 0.56 * (own.y - 0.5)) * mix(1.12, mix(0.55, 1.75, t), apart);
-  albedo = mix(albedo, (uGround == GRASS ? vec3(0.205, 0.175, 0.088) : DRY[uGround]) * mix(0.7, 1.35, t), max(stalk * 0.70, 0.20 * unmown * t));
-  if (uGround == GRASS) albedo = mix(albedo, vec3(0.19, 0.165, 0.085), 0.30 * t * smoothstep(0.55, 0.95, own.w * 0.5 + clump.y * 0.6));
+  albedo = mix(albedo, (uGround == GRASS ? vec3(0.205, 0.175, 0.088) : DRY[uGround]) * mix(0.7, 1.35, t), max(stalk * 0.55, 0.12 * unmown * t));
+  if (uGround == GRASS) albedo = mix(albedo, vec3(0.19, 0.165, 0.085), 0.22 * t * smoothstep(0.55, 0.95, own.w * 0.5 + clump.y * 0.6));
   // What shines through a blade that stands against the sun is yellower than what it reflects.
   float against = pow(max(0.0, -dot(eye, uSun)), 3.0);
   vec3 lit = albedo * (ambient(normal) * open * mix(0.8, 1.1, t) + SUN_COLOUR * mix(facingSun(UP), facingSun(normal), 0.45) * sun * mix(0.5, 1.0, open));
-  lit += albedo * vec3(1.5, 1.4, 0.5) * SUN_COLOUR * (0.10 + 0.6 * against) * t * sun * smoothstep(0.02, 0.3, uSun.y + 0.15);
+  lit += albedo * vec3(1.25, 1.4, 0.5) * SUN_COLOUR * (0.10 + 0.6 * against) * t * sun * smoothstep(0.02, 0.3, uSun.y + 0.15);
   float far = length(cameraPosition - world);
   vColour = finished(inAir(lit, far));
   gl_Position = projectionMatrix * viewMatrix * vec4(world, 1.0);

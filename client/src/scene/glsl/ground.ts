@@ -15,7 +15,7 @@ vec3 grassAt(vec2 at, float grazing) {
   // Lush and bluish where it is damp, dry here and there; what was not mown is straw on top.
   albedo = mix(albedo, vec3(0.058, 0.094, 0.042), 0.45 * smoothstep(0.5, 0.2, dry));
   albedo = mix(albedo, vec3(0.180, 0.164, 0.080), 0.45 * smoothstep(0.40, 0.95, dry));
-  return mix(albedo, vec3(0.158, 0.150, 0.068), 0.42 * unmownAt(at));
+  return mix(albedo, vec3(0.146, 0.147, 0.062), 0.36 * unmownAt(at));
 }
 `;
 
@@ -139,7 +139,8 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
     float grains = (noise(at * 9.0, 3.0) + noise(at * 23.0, 7.0) - 1.0) * (1.0 - smoothstep(0.03, 0.12, shorter));
     surface.albedo = mix(vec3(0.430, 0.330, 0.225), vec3(0.530, 0.430, 0.310), broad * 0.5 + patches * 0.5);
     surface.albedo *= 1.0 + near * (fine - 0.5) * 0.14 + 0.16 * grains - 0.05 * rippled * (crest - 0.4);
-    float dunes = noise(at * 0.03 + vec2(0.4, 0.0), 33.0) - noise(at * 0.03, 33.0);
+    // Where the view grazes them, hollows are hidden and would be smears.
+    float dunes = (noise(at * 0.03 + vec2(0.4, 0.0), 33.0) - noise(at * 0.03, 33.0)) * mix(0.25, 1.0, smoothstep(0.04, 0.25, eye.y / away));
     surface.normal = normalize(vec3(-0.9 * slope * rippled * 0.22 - 0.7 * dunes, 1.0, -0.4 * slope * rippled * 0.22 + (broad - 0.5) * 0.25));
   } else if (uGround == SNOW) {
     // Drifts, hollows that are blue with sky, a crust that sparkles near by, and wells around stems.
@@ -197,7 +198,7 @@ Surface surfaceAt(vec3 world, vec3 eye, float foot, inout float open) {
     surface.albedo *= max(0.35, 1.0 + 1.35 * (height - 0.5) - 0.9 * grazed * shaded);
     surface.albedo = mix(surface.albedo, vec3(0.128, 0.132, 0.052), 0.35 * smoothstep(0.55, 0.8, height));
     surface.albedo = flowered(surface.albedo, at, shorter, shelter + foot);
-    surface.albedo = mix(surface.albedo, soil, 0.8 * foot * (1.0 - 0.55 * smoothstep(0.4, 0.62, height)));
+    surface.albedo = mix(surface.albedo, soil * 0.8, 0.88 * foot * (1.0 - 0.55 * smoothstep(0.4, 0.62, height)));
   }
   if (uGround != SNOW && uLeafForm.y < 0.5) {
     // Under the crown and a little beyond it, thinning out; some of last year's are always left.
