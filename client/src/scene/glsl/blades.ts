@@ -13,6 +13,7 @@ export const BLADE_VERTEX = /* glsl */ `${HEAD}${itemsOf("sampler2D", 1)}${NOISE
 ${DISTANCE}${FEET}${CROWN_FIELD}${GRASS_COLOUR}
 /** What grows on earth, sand and snow is dry. */
 const vec3 DRY[5] = vec3[5](vec3(0), vec3(0.150, 0.140, 0.062), vec3(0.300, 0.235, 0.115), vec3(0.105, 0.084, 0.060), vec3(0));
+uniform vec4 uLeafSeason; // size, presence, fresh, turned
 in vec3 blade; // which one of its tuft, side −1 to 1, along 0 to 1
 out vec3 vColour;
 void main() {
@@ -30,6 +31,12 @@ void main() {
   // Around a trunk the ground is trodden, but against it tufts stand that nothing reaches, and they are taller.
   float hem = smoothstep(0.66, 0.94, feet.y) * smoothstep(0.22, 0.46, clump.x + 0.3 * (own.x - 0.5));
   float grows = tuft.w * mix(1.0 - smoothstep(0.35, 0.95, feet.y), 1.0, hem);
+  vec4 crown = crownAt(vec3(at.x, max(0.4, uCrownFrom.y + 2.6), at.y));
+  vec2 within = abs(2.0 * (at - uCrownFrom.xz) / uCrownSize.xz - 1.0);
+  float shelter = (1.0 - crown.w) * smoothstep(1.0, 0.45, max(max(within.x, within.y), 0.8 * length(within)));
+  // In the shade of a crown it is short and thin, and where leaves have fallen they lie over it.
+  grows *= 1.0 - (1.0 - hem) * smoothstep(0.15, 0.75, shelter) * mix(0.35, 0.88, uLeafSeason.w) * (0.7 + 0.6 * own.z);
+  grows = max(grows, 0.0);
   // In drifts it was never mown: there it is taller, and some of its stalks bear seeds.
   float unmown = uGround == GRASS ? unmownAt(at) : DRY_UNMOWN;
   float stalk = blade.x < 0.5 ? step(0.62, own.w) * unmown : 0.0;
@@ -47,10 +54,7 @@ void main() {
   vec3 side = normalize(cross(eye, vec3(0.0, 1.0, 0.0)) + 0.6 * vec3(cos(turn * 3.0), 0.0, sin(turn * 3.0)) * 0.5);
   world += side * blade.y * half_;
   vec3 normal = normalize(mix(cross(side, normalize(vec3(lean.x * t, 1.0, lean.y * t))), UP, 0.7) + 0.35 * blade.y * side);
-  vec4 crown = crownAt(vec3(at.x, max(0.4, uCrownFrom.y + 2.6), at.y));
-  vec2 within = abs(2.0 * (at - uCrownFrom.xz) / uCrownSize.xz - 1.0);
-  float shelter = (1.0 - crown.w) * smoothstep(1.0, 0.45, max(max(within.x, within.y), 0.8 * length(within)));
-  float open = mix(0.25, 1.0, feet.x) * (1.0 - 0.78 * shelter);
+  float open = mix(0.14, 1.0, feet.x) * (1.0 - 0.78 * shelter);
   open = mix(open, 1.0, 0.3 * t);
   // Where blades are about as thin as pixels they run together, as they do in the ground behind them.
   float apart = 1.0 - 0.65 * smoothstep(0.015, 0.07, away / max(uView.w, 1.0));
@@ -60,7 +64,7 @@ void main() {
   if (uGround == GRASS) albedo = mix(albedo, vec3(0.19, 0.165, 0.085), 0.22 * t * smoothstep(0.55, 0.95, own.w * 0.5 + clump.y * 0.6));
   // What shines through a blade that stands against the sun is yellower than what it reflects.
   float against = pow(max(0.0, -dot(eye, uSun)), 3.0);
-  vec3 lit = albedo * (ambient(normal) * open * mix(0.8, 1.1, t) + SUN_COLOUR * mix(facingSun(UP), facingSun(normal), 0.45) * sun * mix(0.5, 1.0, open));
+  vec3 lit = albedo * (ambient(normal) * open * mix(0.95, 1.2, t) + SUN_COLOUR * mix(facingSun(UP), facingSun(normal), 0.45) * sun * mix(0.38, 1.0, open));
   lit += albedo * vec3(1.25, 1.4, 0.5) * SUN_COLOUR * (0.10 + 0.6 * against) * t * sun * smoothstep(0.02, 0.3, uSun.y + 0.15);
   float far = length(cameraPosition - world);
   vColour = finished(inAir(lit, far));
