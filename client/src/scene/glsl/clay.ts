@@ -113,6 +113,8 @@ vec3 surfaced(float pixel, inout vec3 normal) {
     albedo *= 1.0 - mix(0.30, 0.16, wall) * steep * streak;
     float low = smoothstep(3.2, 0.0, vPlace.y + 2.4 * (stain - 0.5));
     albedo = mix(albedo, vec3(0.115, 0.120, 0.062), 0.62 * steep * low * smoothstep(0.3, 0.65, noise(vPlace * 1.3)));
+    // A wall is damp where it stands in the ground.
+    albedo *= mix(1.0, mix(0.62, 1.0, smoothstep(0.0, 3.6, vPlace.y + 3.0 * (stain - 0.5))), wall);
     float round_ = noise(vPlace * 0.9 + 7.0) * 0.6 + noise(vPlace * 2.9) * 0.4;
     albedo = mix(albedo, mix(vec3(0.42, 0.42, 0.36), vec3(0.40, 0.31, 0.13), step(0.6, stain)), mix(0.4, 0.14, wall) * steep * smoothstep(0.60, 0.66, round_));
   }
