@@ -54,7 +54,7 @@ void main() {
   vec3 side = normalize(cross(eye, vec3(0.0, 1.0, 0.0)) + 0.6 * vec3(cos(turn * 3.0), 0.0, sin(turn * 3.0)) * 0.5);
   world += side * blade.y * half_;
   vec3 normal = normalize(mix(cross(side, normalize(vec3(lean.x * t, 1.0, lean.y * t))), UP, 0.7) + 0.35 * blade.y * side);
-  float open = mix(0.14, 1.0, feet.x) * (1.0 - 0.78 * shelter);
+  float open = mix(0.20, 1.0, feet.x) * (1.0 - 0.58 * shelter);
   open = mix(open, 1.0, 0.3 * t);
   // Where blades are about as thin as pixels they run together, as they do in the ground behind them.
   float apart = 1.0 - 0.65 * smoothstep(0.015, 0.07, away / max(uView.w, 1.0));

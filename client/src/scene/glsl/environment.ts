@@ -128,7 +128,7 @@ vec2 aroundFeet(vec2 at, float wander) {
     // Roots spread: the wood meets the ground further out.
     float from = distance(at, uFeet[i].xz) - 1.35 * thick;
     // What is near a trunk sees half of the sky at most, and next to it hardly any; limbs and roots shade further around.
-    around.x *= 1.0 - 0.52 * exp(-max(0.0, from) / (thick * 1.7 + 0.15)) - 0.42 * exp(-max(0.0, from) / (thick * 0.40 + 0.05));
+    around.x *= 1.0 - 0.52 * exp(-max(0.0, from) / (thick * 1.7 + 0.15)) - 0.52 * exp(-max(0.0, from) / (thick * 0.65 + 0.06));
     around.x *= 1.0 - 0.26 * exp(-max(0.0, from) / (thick * 4.5 + 0.3));
     around.y = max(around.y, smoothstep(thick * 3.4 + 1.2, 0.0, from + wander * (thick * 2.5 + 0.6)));
   }
@@ -173,8 +173,8 @@ void main() {
   if (uShown.z < 0.5) surface = Surface(MEAN[uGround], UP);
   if (uShadowTaps == 0) open = 1.0;
   // Some light always comes from one piece of ground to another, and what is left in the shade is cool.
-  open = mix(0.16, 1.0, open);
-  vec3 lit = surface.albedo * (ambient(surface.normal) * open * mix(vec3(0.90, 0.97, 1.12), vec3(1.0), open) + SUN_COLOUR * facingSun(surface.normal) * sun * mix(0.40, 1.0, open));
+  open = mix(0.22, 1.0, open);
+  vec3 lit = surface.albedo * (ambient(surface.normal) * open * mix(vec3(0.90, 0.97, 1.12), vec3(1.0), open) + SUN_COLOUR * facingSun(surface.normal) * sun * mix(0.30, 1.0, open));
   vec3 seen = finished(studio ? hazed(lit, away) : inAir(mix(lit, farGround(), rim), away));
   if (uShown.x < 0.5) seen = mix(unlit(surface.albedo), seen, rim);
   colour = vec4(dithered(studio ? mix(seen, paper(-eye / away), rim) : seen), 1.0);
