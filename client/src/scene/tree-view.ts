@@ -64,6 +64,11 @@ export class TreeView {
     this.casters.add(...this.branches.casters, ...this.foliage.casters);
   }
 
+  /** What wood is drawn with. */
+  get wood(): readonly RawShaderMaterial[] {
+    return this.branches.materials;
+  }
+
   /** What the draw mode's colours mean. */
   get legend(): Legend | null {
     return this.traits.legend;

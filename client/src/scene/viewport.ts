@@ -489,12 +489,13 @@ export class Viewport {
     this.loading = true;
     const { renderer, table, world } = this;
     const { materials, uniforms, appearance } = world;
+    const { wood } = world.tree;
     const obstacles = world.obstacles.bodies;
     const told = () => this.loop.invalidate();
     const add = (mesh: Object3D) => world.scene.add(mesh);
     const made = await import("./finer/finer").catch(() => null);
     if (made && !this.gone)
-      world.finer = new made.Finer({ renderer, table, materials, uniforms, appearance, obstacles, add, told });
+      world.finer = new made.Finer({ renderer, table, materials, wood, uniforms, appearance, obstacles, add, told });
     this.loading = false;
     if (!this.gone) told();
   }

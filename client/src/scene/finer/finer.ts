@@ -47,6 +47,8 @@ export interface FinerStage {
   readonly renderer: WebGLRenderer;
   readonly table: TreeTable;
   readonly materials: Materials;
+  /** What wood is drawn with, all of it alike. */
+  readonly wood: readonly RawShaderMaterial[];
   readonly uniforms: Uniforms;
   readonly appearance: Appearance;
   /** What lies on the ground. */
@@ -96,8 +98,7 @@ export class Finer {
     this.changes = [
       [materials.sky, { fragmentShader: skyFragment(LANDSCAPE) }],
       [materials.ground, { fragmentShader: groundFragment(GROUND_SURFACE) }],
-      [materials.bark, wood],
-      [materials.twig, wood],
+      ...stage.wood.map((material) => [material, wood] as const),
       [materials.leaf, leaf],
       [materials.sprig, leaf],
       [materials.flower, ornament("Flower")],

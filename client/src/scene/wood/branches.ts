@@ -126,6 +126,11 @@ export class Branches {
     return [meshes[0]!, meshes[coarsest]!, casters[0]!];
   }
 
+  /** What it is drawn with: copies, one for each list of metamers. */
+  get materials(): readonly RawShaderMaterial[] {
+    return this.meshes.map(({ material }) => material as RawShaderMaterial);
+  }
+
   /** Gives all wood a bark. */
   setBark(look: BarkLook): void {
     this.bark?.setLook(look);
