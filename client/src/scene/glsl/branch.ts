@@ -7,6 +7,9 @@ import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";
 import { itemsOf } from "./items";
 import { ROOTS } from "./roots";
 
+/** How much wood differs from a round tube, at most, as a share of its radius. */
+const KNOTTY = 0.2;
+
 /** Where a trunk meets the ground. */
 const FOOT = /* glsl */ `${ROOTS}
 /** How much wider than its wood a trunk is, as it spreads into its roots; how that changes with the turn, and with the height. */
@@ -104,6 +107,22 @@ Junction junctionAt(vec3 place, vec3 outward, float radius, vec3 heading, Node b
 }
 `;
 
+/** Wood is not quite round, and swells here and there. */
+const KNOTS = /* glsl */ `
+float bulge(vec2 side, float along, float octave, float own) {
+  float lower = floor(octave);
+  vec2 at = 0.3 * along * exp2(-lower - vec2(0.0, 1.0)) + own + 7.0 * lower;
+  return mix(noise(vec3(side, at.x)), noise(vec3(side, at.y + 7.0)), octave - lower);
+}
+/** A factor of a radius; how it changes with the turn, and in a radius upwards. A limb's own number shifts it. */
+vec3 knotted(vec2 side, float along, float radius, float own) {
+  float octave = log2(max(radius, 0.01));
+  float here = bulge(side, along, octave, own);
+  vec2 rises = vec2(bulge(side + 0.3 * vec2(-side.y, side.x), along, octave, own), bulge(side, along + 0.3 * radius, octave, own)) - here;
+  return vec3(1, 0, 0) + ${KNOTTY.toFixed(2)} * min(uBarkShape.x, 1.5) * smoothstep(0.08, 0.4, radius) * vec3(here - 0.5, rises / 0.3);
+}
+`;
+
 /** Texels of the numbers of a metamer. */
 export const METAMER_TEXELS = 1;
 
@@ -128,7 +147,7 @@ out vec4 vBearing; // the same of the limb that bears this one, and how much of 
 out float vLight; // below 0 for what is marked
 out float vTrait;
 out vec3 vDye;
-${FOOT}${JUNCTION}
+${NOISE}${FOOT}${JUNCTION}${KNOTS}
 float slopeOf(uint code) { return (float(code & 255u) - ${NO_SLOPE.toFixed(1)}) / ${SLOPE_STEPS.toFixed(1)}; }
 /** How thick the wood is at a node: a tip is slim until its axis goes on, unless it has been cut. */
 float woodAt(Node node, bool cut) {
@@ -250,12 +269,16 @@ void main() {
   float wide = length(ring.xz);
   vec3 outward = (normal * ring.x + binormal * ring.z) / wide;
   float plain = radius;
-  vNormal = outward - tangent * slope;
+  vec3 knots = knotted(ring.xz / wide, along, radius, bearing.arc);
+  radius *= knots.x;
+  slope = slope * knots.x + knots.z;
+  vec3 askew = cross(outward, tangent) * knots.y;
+  vNormal = outward - askew - tangent * slope;
   if ((metamer.w & TRUNK) != 0u) {
     // A seed is as thick as its trunk.
     float foot = bearing.radius;
     vec3 spread = rootFlare(own, turnOf(outward, tangent), along, foot);
-    vNormal = outward - cross(outward, tangent) * (spread.y / spread.x) - tangent * (slope * spread.x + radius * spread.z);
+    vNormal = outward - askew - cross(outward, tangent) * (spread.y / spread.x) - tangent * (slope * spread.x + radius * spread.z);
     radius *= spread.x;
     // The foot goes on into what it stands on, however that slopes; deeper where it leans, for it is round.
     if (begins) {
