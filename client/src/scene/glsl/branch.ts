@@ -8,7 +8,7 @@ import { itemsOf } from "./items";
 import { ROOTS } from "./roots";
 
 /** How much wood differs from a round tube, at most, as a share of its radius. */
-const KNOTTY = 0.2;
+const KNOTTY = 0.16;
 
 /** Where a trunk meets the ground. */
 const FOOT = /* glsl */ `${ROOTS}
@@ -107,7 +107,7 @@ Junction junctionAt(vec3 place, vec3 outward, float radius, vec3 heading, Node b
 }
 `;
 
-/** Wood is not quite round, and swells here and there. */
+/** Wood is not quite round, and swells here and there; hardly anywhere does it shrink, or what ends within it would stick out. */
 const KNOTS = /* glsl */ `
 float bulge(vec2 side, float along, float octave, float own) {
   float lower = floor(octave);
@@ -119,7 +119,7 @@ vec3 knotted(vec2 side, float along, float radius, float own) {
   float octave = log2(max(radius, 0.01));
   float here = bulge(side, along, octave, own);
   vec2 rises = vec2(bulge(side + 0.3 * vec2(-side.y, side.x), along, octave, own), bulge(side, along + 0.3 * radius, octave, own)) - here;
-  return vec3(1, 0, 0) + ${KNOTTY.toFixed(2)} * min(uBarkShape.x, 1.5) * smoothstep(0.08, 0.4, radius) * vec3(here - 0.5, rises / 0.3);
+  return vec3(1, 0, 0) + ${KNOTTY.toFixed(2)} * min(uBarkShape.x, 1.5) * smoothstep(0.08, 0.4, radius) * vec3(here - 0.3, rises / 0.3);
 }
 `;
 
