@@ -16,8 +16,8 @@ vec3 overgrown(vec3 albedo, vec3 smoothed, float radius, float light, Bark bark)
   if (age <= 0.0) return albedo;
   // The weather bleaches ridges; furrows keep their colour.
   float grey = dot(albedo, vec3(0.35, 0.45, 0.20));
-  float bleached = (0.12 + 0.38 * smoothstep(0.3, 0.8, bark.height)) * smoothstep(0.25, 0.6, noise(vWorld * 1.7 / wide + 31.0) + 0.15 * patches);
-  albedo = mix(albedo, vec3(1.06, 1.04, 0.98) * grey, age * bleached);
+  float bleached = (0.2 + 0.35 * smoothstep(0.3, 0.8, bark.height)) * smoothstep(0.25, 0.6, noise(vWorld * 1.7 / wide + 31.0) + 0.15 * patches);
+  albedo = mix(albedo, vec3(1.06, 1.04, 0.98) * grey, smoothstep(0.05, 0.5, radius) * bleached);
   // Rain runs down where it always has, and leaves dark stains.
   float runs = noise(vWorld * vec3(6.0, 0.5, 6.0) / wide + 23.0) + 0.35 * (noise(vWorld * vec3(13.0, 1.1, 13.0) / wide + 41.0) - 0.5);
   albedo *= mix(1.0, mix(0.70, 1.0, smoothstep(0.20, 0.44, runs)), age);
@@ -82,8 +82,8 @@ vec3 gnarled(vec3 crosswise, vec3 upwards, vec3 smoothed, inout vec3 albedo) {
   vec2 place = vec2(vBark.x * 3.0, vBark.y / (6.5 * thick));
   vec2 cell = floor(place);
   vec2 own = chances(vec2(mod(cell.x, 3.0), cell.y) + 17.0 * floor(octave)).xy;
-  vec2 more = chances(vec2(mod(cell.x, 3.0), cell.y) + 91.0).xy;
-  if (more.x > 0.24) return lean * old;
+  vec2 more = chances(vec2(mod(cell.x, 3.0), cell.y) + 37.0).xy;
+  if (more.x > 0.2) return lean * old;
   float wide = mix(0.24, 0.5, more.y) * thick;
   vec2 from = (place - cell - mix(vec2(0.3), vec2(0.7), own)) * vec2(2.0944 * radius, 6.5 * thick) / (wide * vec2(1.35, 0.9));
   float far = length(from);
