@@ -251,73 +251,80 @@ function compound(random: Random): Parts {
   return { blades, veins, stalks: [rib([0, 0], [0, 0.74], 0.024, 0.01)], needles: [] };
 }
 
-/** A shoot with needles in bundles all around it, those towards the eye before the others; light passes between bundles. */
+/** A twig with shoots on both sides, each of them clothed in short thin needles that point ahead; the youngest are out on each shoot. */
 function needle(random: Random): Parts {
   const needles: (Rib & { out: number })[] = [];
-  const bundle = (out: number, lean: number, length: number) => {
-    const from: Point = [0.006 * Math.sign(lean), 0.04 + 0.66 * out];
-    for (const spread of [-0.07, 0.06]) {
-      const angle = lean + spread * (0.8 + 0.6 * random());
-      const far = length * (0.88 + 0.16 * random());
-      const to: Point = [from[0] + Math.sin(angle) * far, Math.min(0.99, from[1] + Math.cos(angle) * far)];
-      needles.push({ from, to, width: [0.0115, 0.006], out });
-    }
-  };
-  // How far those of each layer stand aside: seen from the side, the ones in the middle point at the eye and look short.
-  for (const [aside, reach] of [
-    [1, 1],
-    [0.9, 0.92],
-    [0.45, 0.66],
-  ] as const) {
-    const rows = 9;
+  const stalks: Rib[] = [];
+  const shoot = (from: Point, angle: number, length: number, wide: number) => {
+    const place = (t: number): Point => [
+      from[0] + Math.sin(angle) * length * t,
+      from[1] + Math.cos(angle) * length * t,
+    ];
+    stalks.push(rib(from, place(0.94), wide, wide * 0.5));
+    const rows = Math.round(length / 0.017);
     for (let row = 0; row < rows; row += 1) {
+      const t = (row + random()) / rows;
       for (const sign of [-1, 1]) {
-        const out = Math.min(1, (row + 0.25 * (sign + 1) + 0.6 * random()) / rows);
-        bundle(
-          out,
-          sign * aside * (1.02 - 0.56 * out) * (0.85 + 0.3 * random()),
-          0.36 * reach * (0.85 + 0.3 * random()),
-        );
+        // Seen from the side, needles that point at the eye look short and lie close.
+        const aside = 0.25 + 0.75 * random();
+        const lean = angle + sign * aside * (0.95 - 0.55 * t);
+        const far = (0.065 + 0.035 * aside) * (1.1 - 0.35 * t) * (0.75 + 0.5 * random());
+        const at = place(0.04 + 0.96 * t);
+        needles.push({
+          from: at,
+          to: [at[0] + Math.sin(lean) * far, Math.min(0.99, at[1] + Math.cos(lean) * far)],
+          width: [0.0085, 0.003],
+          out: t,
+        });
       }
     }
+  };
+  // Those below first: the shoots at the base lie under the others.
+  const pairs = 5;
+  for (let pair = 0; pair < pairs; pair += 1) {
+    for (const sign of [-1, 1]) {
+      const along = 0.06 + (0.56 * (pair + 0.22 * (sign + 1) + 0.3 * random())) / pairs;
+      const angle = sign * (0.98 - 0.62 * along) * (0.8 + 0.4 * random());
+      shoot([0, along], angle, (0.42 - 0.36 * along) * (0.7 + 0.4 * random()), 0.011);
+    }
   }
-  for (const lean of [-0.34, -0.1, 0.12, 0.33]) bundle(1, lean, 0.29);
-  return { blades: [], veins: [], stalks: [rib([0, 0], [0, 0.7], 0.028, 0.016)], needles };
+  shoot([0, 0], 0.04 * (random() - 0.5), 0.89, 0.018);
+  return { blades: [], veins: [], stalks, needles };
 }
 
 /** A plume that branches twice, hidden under scales that overlap; all its shoots point ahead. */
 function scale(random: Random): Parts {
   const needles: (Rib & { out: number })[] = [];
-  const shoot = (from: Point, angle: number, length: number, wide: number, out: number) => {
-    const scales = Math.max(2, Math.round(length / 0.03));
+  const shoot = (from: Point, angle: number, length: number, wide: number) => {
+    const scales = Math.max(3, Math.round(length / 0.018));
     const step = length / scales;
     for (let i = 0; i < scales; i += 1) {
       const t = i / scales;
       const at: Point = [from[0] + Math.sin(angle) * length * t, from[1] + Math.cos(angle) * length * t];
       // What would stick out beyond the tip is left away.
       if (at[1] > 0.96) return;
-      const width = wide * (1 - 0.5 * t);
+      const width = wide * (1 - 0.45 * t);
       for (const sign of [-1, 1]) {
-        const lean = angle + sign * 0.24;
-        const to: Point = [at[0] + Math.sin(lean) * step * 1.7, Math.min(0.99, at[1] + Math.cos(lean) * step * 1.7)];
-        needles.push({ from: at, to, width: [width, width * 0.3], out: Math.min(1, out + 0.5 * t) });
+        const lean = angle + sign * (0.2 + 0.3 * random());
+        const to: Point = [at[0] + Math.sin(lean) * step * 1.9, Math.min(0.99, at[1] + Math.cos(lean) * step * 1.9)];
+        needles.push({ from: at, to, width: [width, width * 0.25], out: t });
       }
     }
   };
-  const branch = (from: Point, angle: number, length: number, depth: number, out: number) => {
-    const laterals = [5, 3, 0][depth]!;
+  const branch = (from: Point, angle: number, length: number, depth: number) => {
+    const laterals = [7, 5, 0][depth]!;
     for (let i = 0; i < laterals; i += 1) {
       for (const sign of [-1, 1]) {
-        const t = (i + 0.45 + 0.25 * sign + 0.2 * (random() - 0.5)) / (laterals + 0.9);
+        const t = (i + 0.45 + 0.25 * sign + 0.3 * (random() - 0.5)) / (laterals + 0.9);
         const at: Point = [from[0] + Math.sin(angle) * length * t, from[1] + Math.cos(angle) * length * t];
-        const reach = length * (depth === 0 ? 0.46 : 0.42) * (1 - 0.55 * t) * (0.8 + 0.4 * random());
-        branch(at, angle + sign * (0.5 + 0.16 * random()), reach, depth + 1, 0.22 * (depth + 1));
+        const reach = length * (depth === 0 ? 0.46 : 0.4) * (1 - 0.55 * t) * (0.65 + 0.6 * random());
+        branch(at, angle + sign * (0.46 + 0.24 * random()), reach, depth + 1);
       }
     }
-    shoot(from, angle, length, depth === 0 ? 0.026 : 0.018, out);
+    shoot(from, angle, length, [0.018, 0.012, 0.0095][depth]!);
   };
-  branch([0, 0.01], 0.06 * (random() - 0.5), 0.95, 0, 0);
-  return { blades: [], veins: [], stalks: [rib([0, 0], [0, 0.3], 0.03, 0.02)], needles };
+  branch([0, 0.01], 0.06 * (random() - 0.5), 0.95, 0);
+  return { blades: [], veins: [], stalks: [rib([0, 0], [0, 0.3], 0.022, 0.014)], needles };
 }
 
 function rib(from: Point, to: Point, first: number, last: number): Rib {

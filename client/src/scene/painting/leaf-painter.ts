@@ -19,11 +19,12 @@ export function paintLeaf(lamina: Lamina, random: Random, side: number = TILE_SI
   const { needles, share } = fewer(lamina.needles, tile);
   needles.forEach((needle, i) => {
     // Those painted first lie deepest, in the shade of the others; where one stands for many, it is as dark as they are.
-    const shade = 0.62 + (0.5 * i) / needles.length + 0.24 * (random() - 0.5) * share;
+    const shade = 0.5 + (0.34 * i) / needles.length + 0.5 * (random() - 0.5) * share;
+    const young = needle.out ** 2;
     tile.stroke(needle, (along, aside) => ({
-      shade: shade * (0.86 + 0.3 * along) * (1.06 - 0.12 * Math.abs(aside)),
-      tone: needle.out ** 3 * 0.8,
-      sheer: 0.35,
+      shade: shade * (0.72 + 0.5 * along + 0.5 * young) * (1.06 - 0.12 * Math.abs(aside)),
+      tone: 0.85 * young,
+      sheer: 0.22,
       wood: 0,
       height: round(needle, along, aside),
     }));
