@@ -301,7 +301,9 @@ void main() {
     across *= which < 0.5 ? 1.0 : 1.0 - far;
     // Needles stand all around: the further out, the more they look to the side.
     n = cross(side, d);
-    n = normalize((dot(n, eye) < 0.0 ? -n : n) + side * card.x * 0.9);
+    // What is above in a spray sees more of the sky than what is below.
+    vec3 out_ = d * (along - 0.5) + side * across;
+    n = normalize((dot(n, eye) < 0.0 ? -n : n) + side * card.x * 0.9 + vec3(0.0, 0.3 + 1.2 * out_.y, 0.0));
     world += size * (d * along + side * across - vec3(0.0, 0.10 * uLeafForm.w * along * along, 0.0));
   } else {
     float roll = (more.y - 0.5) * 0.9;
@@ -337,8 +339,8 @@ void main() {
   vec3 dye = uDyes[${DYES} + node.dye];
   vMiddle = hues.middle * dye;
   vMargin = hues.margin * dye;
-  // The outer half of a leaf sees more of the sky than where it is hidden by its twig.
-  vLight = vec2(node.look == MARKED ? -1.0 : node.light, 0.72 + 0.28 * card.y);
+  // The outer half of a leaf sees more of the sky than where it is hidden by its twig, or by other needles.
+  vLight = vec2(node.look == MARKED ? -1.0 : node.light, mix(mix(0.72, 0.42, uLeafForm.y), 1.0, card.y));
 #ifdef SPRIG
   vLight.y = 0.86;
 #endif
@@ -432,6 +434,19 @@ void main() {
 #else
   float there = cut(painted.a);
 #endif
+  if (uLeafForm.y > 0.5) {
+    // Needles thinner than a pixel: lines that point ahead and out, each of its own brightness, some of them gaps.
+    float pixel = max(length(dFdx(vPicture)), length(dFdy(vPicture)));
+    float thin = smoothstep(0.003, 0.010, pixel);
+    vec2 tile = fract(2.0 * vPicture);
+    float off = abs(tile.x - 0.5);
+    vec2 line = vec2(off - 0.6 * tile.y, 0.28 * (tile.y + 0.6 * off));
+    vec2 cell = floor(line / (1.25 * exp2(ceil(log2(max(pixel, 1e-5)) - 0.5)))) + 16.0 * floor(2.0 * vPicture);
+    vec2 grain = fract(sin(vec2(dot(cell, vec2(12.9898, 78.233)), dot(cell, vec2(39.346, 11.135)))) * 43758.5453);
+    there = mix(there, clamp(1.5 * painted.a + grain.x - 0.65, 0.0, 1.0), thin);
+    painted.r *= 1.0 + thin * (grain.y - 0.4);
+    painted.g = mix(painted.g, 1.0, thin * 0.6 * smoothstep(0.75, 1.0, grain.y));
+  }
 #ifdef GHOST
   if (painted.a < 0.5) discard;
 #else
