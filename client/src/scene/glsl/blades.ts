@@ -59,7 +59,7 @@ void main() {
   // Where blades are about as thin as pixels they run together, as they do in the ground behind them.
   float apart = 1.0 - 0.65 * smoothstep(0.015, 0.07, away / max(uView.w, 1.0));
   float sun = groundSun(vec3(at.x, 0.0, at.y));
-  vec3 albedo = (uGround == GRASS ? grassAt(at, cameraPosition.y / max(away, 1e-3)) : DRY[uGround]) * (1.0 + apart * 0.56 * (own.y - 0.5)) * mix(1.12, mix(0.55, 1.75, t), apart);
+  vec3 albedo = (uGround == GRASS ? grassAt(at, cameraPosition.y / max(away, 1e-3)) : DRY[uGround]) * (1.0 + apart * 0.56 * (own.y - 0.5)) * mix(1.0, mix(0.52, 1.58, t), apart);
   albedo = mix(albedo, (uGround == GRASS ? vec3(0.205, 0.175, 0.088) : DRY[uGround]) * mix(0.7, 1.35, t), max(stalk * 0.55, 0.12 * unmown * t));
   if (uGround == GRASS) albedo = mix(albedo, vec3(0.19, 0.165, 0.085), 0.22 * t * smoothstep(0.55, 0.95, own.w * 0.5 + clump.y * 0.6));
   // What shines through a blade that stands against the sun is yellower than what it reflects.
