@@ -211,9 +211,10 @@ const WEATHER = /* glsl */ `
 uniform vec2 uWeather; // how far snow covers what it lies on, how wet it is
 /** How much of what looks up is white. */
 float snowCover() { return min(1.0, 1.3 * uWeather.x); }
-vec3 weathered(vec3 albedo, vec3 normal) {
+/** What is less steep than \`steep\` begins to be white. */
+vec3 weathered(vec3 albedo, vec3 normal, float steep) {
   albedo *= mix(1.0, 0.64, uWeather.y);
-  return mix(albedo, vec3(0.81, 0.87, 0.97), snowCover() * smoothstep(-0.05, 0.4, normal.y));
+  return mix(albedo, vec3(0.81, 0.87, 0.97), snowCover() * smoothstep(steep, steep + 0.45, normal.y));
 }
 `;
 /** Snow on leaves that look up is thicker than they are: it fills what is open between them. */
@@ -232,17 +233,19 @@ const HEAPED: Change = {
     painted.b *= 1.0 - heaped;
   }`,
 };
-const LIES_ON: readonly Change[] = ["vLight", "vLight.x"].map((light) => ({
-  from: line(`if (${light} < 0.0) albedo = condemned(albedo);`),
-  to: `albedo = weathered(albedo, normal); if (${light} < 0.0) albedo = condemned(albedo);`,
-}));
+const LIES_ON = ["vLight", "vLight.x"].map((light) => line(`if (${light} < 0.0) albedo = condemned(albedo);`));
+/** From wood snow falls here and there, and lies on its back alone. */
+const STEEP_WOOD = "0.7 * noise(vWorld * 1.3) + 0.3 * noise(vWorld * 6.0) - 0.2";
+const STEEP = "-0.05";
 const WEATHERED: Change = { from: line("void main()"), to: `${WEATHER}void main() ` };
 
 /** The same fragment shader for what stands in rain and snow; one that draws no colour of rows is left as it is. */
 export function weathering(shader: string): string {
-  const lies = LIES_ON.find(({ from }) => from.test(shader));
-  if (!lies) return shader;
-  const white = apply(apply(shader, lies), WEATHERED);
+  const from = LIES_ON.find((lies) => lies.test(shader));
+  if (!from) return shader;
+  const steep = /\bvBark\b/.test(shader) ? STEEP_WOOD : STEEP;
+  const lies = shader.replace(from, (rest) => `albedo = weathered(albedo, normal, ${steep}); ${rest}`);
+  const white = apply(lies, WEATHERED);
   return HEAPED.from.test(white) ? apply(white, HEAPED) : white;
 }
 
