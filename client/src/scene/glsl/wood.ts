@@ -160,10 +160,10 @@ ${FINE_BARK}
   // Light that has come into a furrow goes from side to side in it: its ground is dark, and never black.
   float within = mix(0.34, 1.0, bark.cavity);
   // Leaves and limbs keep the sky from what they stand around, and dye what comes through.
-  float sky = mix(0.33, 1.06, smoothstep(0.0, 0.85, crown.w));
+  float sky = mix(0.42, 1.1, smoothstep(0.0, 0.85, crown.w));
   vec3 deep = mix(vec3(0.90, 1.0, 0.74), vec3(1.0), smoothstep(0.0, 0.6, crown.w));
   // What bears a limb stands close to its lower side, and in a fork there is wood all around.
-  float under = mix(1.0, 0.62, smoothstep(0.25, -0.85, smoothed.y) * smoothstep(0.1, 0.5, vBark.z)) * (1.0 - 0.5 * nook);
+  float under = mix(1.0, 0.68, smoothstep(0.25, -0.85, smoothed.y) * smoothstep(0.1, 0.5, vBark.z)) * (1.0 - 0.5 * nook);
   vec3 around = ambient(normalize(mix(smoothed, normal, 0.75))) * deep * sky * under * exposure;
   vec3 lit = albedo * (around * within * grounded + SUN_COLOUR * max(facing, 0.0) * sun * open);
   vec3 between = normalize(sight + uSun);
