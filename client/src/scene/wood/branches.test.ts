@@ -26,6 +26,16 @@ function drawn(meshes: Mesh[]): Map<number, number> {
 const wood = (branches: Branches) =>
   branches.meshes.filter((mesh) => mesh !== branches.faces && mesh !== branches.roots);
 
+it("names every material that wood is drawn with, for shaders that come later", () => {
+  const materials = makeMaterials({});
+  const branches = new Branches(materials);
+  expect(branches.materials).toHaveLength(branches.meshes.length);
+  for (const { material } of branches.meshes) {
+    expect(branches.materials).toContain(material);
+    expect([materials.bark, materials.twig]).not.toContain(material);
+  }
+});
+
 it("exactly the living metamers and their leaves are drawn, whatever was changed", { timeout: 30_000 }, () => {
   const random = randoms(31);
   const table = new PlainTable(() => 0);
