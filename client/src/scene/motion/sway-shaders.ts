@@ -217,14 +217,17 @@ vec3 weathered(vec3 albedo, vec3 normal, float steep) {
   return mix(albedo, vec3(0.81, 0.87, 0.97), snowCover() * smoothstep(steep, steep + 0.45, normal.y));
 }
 `;
-/** Snow on leaves that look up is thicker than they are: it fills what is open between them. */
+/** Snow on leaves that look up is thicker than they are: it fills what is open between them. On needles it lies in small heaps. */
 const HEAPED: Change = {
   from: line("vec4 painted = paintedAt(vPicture);"),
   to: `vec4 painted = paintedAt(vPicture);
+  float heaped = 0.0;
   if (snowCover() > 0.0) {
     // Of a leaf that is seen from below the snow lies on the other side.
     bool seenFromAbove = dot(vNormal, cameraPosition - vWorld) * vNormal.y > 0.0;
-    float heaped = seenFromAbove ? snowCover() * smoothstep(0.15, 0.6, abs(normalize(vNormal).y)) : 0.0;
+    heaped = seenFromAbove ? snowCover() * smoothstep(0.15, 0.6, abs(normalize(vNormal).y)) : 0.0;
+    vec2 heaps = sin(vec2(37.0, 45.0) * vPicture + 9.0 * vSide.xy);
+    heaped *= mix(1.0, smoothstep(-0.35, 0.45, heaps.x * heaps.y), uLeafForm.y);
     // A heap is round: it ends before the leaf's picture, one of two by two, does.
     vec2 inward = 0.5 - abs(fract(2.0 * vPicture) - 0.5);
     heaped *= smoothstep(0.02, 0.16, min(inward.x, inward.y));
@@ -237,6 +240,15 @@ const LIES_ON = ["vLight", "vLight.x"].map((light) => line(`if (${light} < 0.0) 
 /** From wood snow falls here and there, and lies on its back alone. */
 const STEEP_WOOD = "0.7 * noise(vWorld * 1.3) + 0.3 * noise(vWorld * 6.0) - 0.2";
 const STEEP = "-0.05";
+/** Among leaves snow lies on what is open to the sky, is bluish as the sky is, and is lit from above whichever way its leaf looks. */
+const LIES_ON_LEAF: Change = {
+  from: line(`albedo = weathered(albedo, normal, ${STEEP});`),
+  to: `heaped = max(heaped, 0.8 * snowCover() * smoothstep(0.45, 0.8, normal.y)) * smoothstep(0.1, 0.5, abs(vLight.x));
+  heaped = smoothstep(0.2, 0.7, heaped);
+  albedo = mix(weathered(albedo, vec3(0.0, -1.0, 0.0), ${STEEP}), vec3(0.74, 0.84, 1.1), heaped);
+  painted.b *= 1.0 - heaped;
+  normal = normalize(mix(normal, vec3(0.0, 1.0, 0.0), 0.6 * heaped));`,
+};
 const WEATHERED: Change = { from: line("void main()"), to: `${WEATHER}void main() ` };
 
 /** The same fragment shader for what stands in rain and snow; one that draws no colour of rows is left as it is. */
@@ -246,7 +258,7 @@ export function weathering(shader: string): string {
   const steep = /\bvBark\b/.test(shader) ? STEEP_WOOD : STEEP;
   const lies = shader.replace(from, (rest) => `albedo = weathered(albedo, normal, ${steep}); ${rest}`);
   const white = apply(lies, WEATHERED);
-  return HEAPED.from.test(white) ? apply(white, HEAPED) : white;
+  return HEAPED.from.test(white) ? apply(apply(white, HEAPED), LIES_ON_LEAF) : white;
 }
 
 function apply(shader: string, { from, to }: Change): string {
