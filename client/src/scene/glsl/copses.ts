@@ -24,7 +24,7 @@ vec3 rowOfTrees(vec3 behind, vec3 sight, float times, float seed, float dense, v
   float tall = COPSE_TALL / times;
   if (up < -0.12 * tall || up > 1.25 * tall) return behind;
   float places = floor(6.2831853 / (0.52 * tall));
-  float place = fract(atan(sight.x, sight.z) / 6.2831853 + landTurn()) * places;
+  float place = fract(atan(sight.x, sight.z) / 6.2831853 + uLandTurn) * places;
   float wood = smoothstep(0.52, 0.66, noise(land * 4.3, seed) * 0.62 + noise(land * 11.0, seed + 3.0) * 0.38);
   vec3 colour = behind;
   // A hedge, which goes on as undergrowth where there are woods.

@@ -1,6 +1,5 @@
 import { CHANCES } from "./chances";
 import { COPSES } from "./copses";
-import { MOST_FEET } from "./environment";
 
 /** Fields and meadows of far land: how much lighter or darker, where they can still be told apart. After \`CHANCES\`. */
 export const FIELDS = /* glsl */ `
@@ -27,12 +26,10 @@ vec3 fieldsAt(vec2 at, float distance) {
 /** Clouds, stars, hills and far trees: what a sky has before it. */
 export const LANDSCAPE = /* glsl */ `${CHANCES}${FIELDS}
 uniform float uCloudDrift;
-uniform vec4 uFeet[${MOST_FEET}]; // where trunks stand (x and z), the numbers of their trees, and how thick they are
-/** Each tree has land of its own around it: the number of the first one says by what share of a circle it is turned. */
-float landTurn() { return fract(uFeet[0].y / 1024.0); }
+uniform float uLandTurn; // by what share of a circle the land is turned
 /** Where in that land one looks. */
 vec2 landwards(vec3 sight) {
-  float turn = 6.2831853 * landTurn();
+  float turn = 6.2831853 * uLandTurn;
   return mat2(cos(turn), sin(turn), -sin(turn), cos(turn)) * normalize(sight.xz);
 }
 /** Mist at the feet of what is far off, and how it is lit from one side. */

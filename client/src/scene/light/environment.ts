@@ -37,12 +37,14 @@ export class Environment {
     uExposure: { value: EXPOSURE },
     uVivid: { value: 1 },
     uAir: { value: new Vector2() },
+    uLandTurn: { value: 0 },
     uGroundReach: { value: GROUND_RADIUS },
     uGround: { value: 0 },
     uPaper: { value: new Vector3() },
   };
   private background: Background = DEFAULT_APPEARANCE.background;
   private neutral = false;
+  private isLandKnown = false;
 
   constructor(materials: Materials, uniforms: Uniforms) {
     Object.assign(uniforms, this.colours);
@@ -77,6 +79,11 @@ export class Environment {
 
   /** Passes the places of trunks and the extent of the crown to the ground. */
   update(table: TreeTable): void {
+    if (!this.isLandKnown && table.rows > 0) {
+      // The tree that a page is opened with has land of its own around it, which stays as it is while more grows.
+      this.colours.uLandTurn.value = (table.numberOf(0) / 1024) % 1;
+      this.isLandKnown = true;
+    }
     for (const foot of this.feet) foot.w = 0;
     for (const [i, { seed, radius }] of trunkFeet(table).slice(0, MOST_FEET).entries()) {
       this.feet[i]!.set(table.position[3 * seed]!, table.numberOf(seed), table.position[3 * seed + 2]!, radius);
