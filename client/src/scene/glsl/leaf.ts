@@ -135,6 +135,12 @@ uniform vec3 uLeafLast;
 uniform vec3 uLeafDead;
 const vec3 BRIGHTNESS = vec3(0.30, 0.59, 0.11);
 struct Hues { vec3 middle; vec3 margin; };
+/** Greens as they are seen outdoors: duller than the tint of a leaf, those of sprays somewhat bluer. */
+vec3 natural(vec3 hue) {
+  float green = clamp(2.0 * (hue.g - max(hue.r, hue.b)) / max(hue.g, 1e-3), 0.0, 1.0);
+  vec3 dull = dot(hue, BRIGHTNESS) * mix(vec3(1.08, 1.02, 0.74), vec3(1.0, 1.22, 1.2), uLeafForm.y);
+  return mix(hue, dull, 0.4 * green);
+}
 Hues leafHues(float vigor, float light, vec3 random) {
   // No two leaves are quite alike: lighter or darker, warmer or cooler; in the shade darker and bluer.
   // Sprays, which are many small leaves each, differ less.
@@ -158,18 +164,9 @@ Hues leafHues(float vigor, float light, vec3 random) {
   vec3 dead = uLeafDead * (0.7 + 0.5 * random.y);
   float died = clamp(uLeafTraits.z * 1.3 - 0.3 * random.z, 0.0, 1.0);
   Hues hues = Hues(mix(summer, autumn, middle), mix(summer, mix(autumn, uLeafLast, 0.3), margin));
-  return Hues(mix(hues.middle, dead, died), mix(hues.margin, dead, min(1.0, died * 1.4)));
-}
-`;
-
-/** Greens as they are seen outdoors: duller than the tint of a leaf, needles somewhat bluer, and no two shoots the same. */
-const NATURAL = /* glsl */ `
-vec3 natural(vec3 hue, vec4 shoot) {
-  float green = clamp(2.0 * (hue.g - max(hue.r, hue.b)) / max(hue.g, 1e-3), 0.0, 1.0);
-  vec3 dull = dot(hue, BRIGHTNESS) * mix(vec3(1.08, 1.02, 0.74), vec3(1.0, 1.22, 1.2), uLeafForm.y);
-  float warm = (shoot.y - 0.5) * (1.0 - 0.6 * uLeafForm.y);
-  return mix(hue, dull, 0.4 * green)
-    * vec3(1.0 + 0.22 * warm, 1.0, 1.0 - 0.2 * warm) * (0.84 + 0.32 * shoot.z);
+  vec3 inner = mix(hues.middle, dead, died);
+  vec3 outer = mix(hues.margin, dead, min(1.0, died * 1.4));
+  return Hues(natural(inner), natural(outer));
 }
 `;
 
@@ -226,7 +223,7 @@ out vec2 vLight; // below 0 for what is marked; how open to the sky it is
 out float vTrait;
 const float SECONDS = 0.35;
 const float BLADE_STEP = ${BLADE_STEP.toFixed(1)};
-${CARD}${LEAF_SHAPE}${LEAF_COLOUR}${NATURAL}${declared}
+${CARD}${LEAF_SHAPE}${LEAF_COLOUR}${declared}
 void main() {
   Borne own = borne();
   vec4 leaf = own.at;
@@ -346,11 +343,10 @@ void main() {
   // Several leaves in one picture differ less from the next several.
   own_ = mix(own_, vec3(0.5), 0.5 * vTwig);
 #endif
-  vec4 shoot = ownNumbers(own.shoot);
-  Hues hues = leafHues(vigor, node.light, mix(own_, shoot.xyz, 0.6));
+  Hues hues = leafHues(vigor, node.light, mix(own_, ownNumbers(own.shoot).xyz, 0.6));
   vec3 dye = uDyes[${DYES} + node.dye];
-  vMiddle = natural(hues.middle, shoot) * dye;
-  vMargin = natural(hues.margin, shoot) * dye;
+  vMiddle = hues.middle * dye;
+  vMargin = hues.margin * dye;
   // The outer half of a leaf sees more of the sky than where it is hidden by its twig, or by other needles.
   vLight = vec2(node.look == MARKED ? -1.0 : node.light, mix(mix(0.72, 0.42, uLeafForm.y), 1.0, card.y));
 #ifdef SPRIG

@@ -141,10 +141,16 @@ impl LeafPainter {
         let autumn = first.lerp(last, smooth(0.2, 0.9, depth)) * (0.82 + 0.36 * own.y);
         let dead = dead * (0.7 + 0.5 * own.y);
         let died = (self.withered * 1.3 - 0.3 * own.z).clamp(0.0, 1.0);
-        Hues {
-            middle: summer.lerp(autumn, middle).lerp(dead, died),
-            margin: summer.lerp(autumn.lerp(last, 0.3), margin).lerp(dead, (1.4 * died).min(1.0)),
-        }
+        let middle = summer.lerp(autumn, middle).lerp(dead, died);
+        let margin = summer.lerp(autumn.lerp(last, 0.3), margin).lerp(dead, (1.4 * died).min(1.0));
+        Hues { middle: self.natural(middle), margin: self.natural(margin) }
+    }
+
+    /// Greens as they are seen outdoors: duller than the tint of a leaf, those of sprays somewhat bluer.
+    fn natural(&self, hue: Vec3) -> Vec3 {
+        let green = (2.0 * (hue.y - hue.x.max(hue.z)) / hue.y.max(1e-3)).clamp(0.0, 1.0);
+        let dull = Vec3::new(1.08, 1.02, 0.74).lerp(Vec3::new(1.0, 1.22, 1.2), self.spray);
+        hue.lerp(dull * hue.dot(BRIGHTNESS), 0.4 * green)
     }
 }
 
