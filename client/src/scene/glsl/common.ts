@@ -183,7 +183,7 @@ vec3 finished(vec3 colour) {
   x = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
   // The film's own look is flat; a little more contrast brings it back to what the eye remembers.
   x = pow(max(x, 0.0), vec3(1.32));
-  x += 0.9 * x * (1.0 - x) * (x - 0.5);
+  x += 0.5 * x * (1.0 - x) * (x - 0.5);
   x = mix(vec3(dot(x, vec3(0.2126, 0.7152, 0.0722))), x, uVivid);
   return clamp(OUTSET * x, 0.0, 1.0);
 }

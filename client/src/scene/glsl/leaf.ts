@@ -348,7 +348,7 @@ void main() {
   vMiddle = hues.middle * dye;
   vMargin = hues.margin * dye;
   // The outer half of a leaf sees more of the sky than where it is hidden by its twig, or by other needles.
-  vLight = vec2(node.look == MARKED ? -1.0 : node.light, mix(mix(0.72, 0.42, uLeafForm.y), 1.0, card.y));
+  vLight = vec2(node.look == MARKED ? -1.0 : node.light, mix(mix(0.72, 0.58, uLeafForm.y), 1.0, card.y));
 #ifdef SPRIG
   vLight.y = 0.86;
 #endif
