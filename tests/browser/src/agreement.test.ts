@@ -20,11 +20,8 @@ interface Tolerance {
   readonly colour: number;
 }
 
-/**
- * That of what three.js makes of a file: the page's edges of leaves are soft, and its wood and needles are darker in the
- * shade of their crown, which no file holds.
- */
-const FILE: Tolerance = { overlap: 0.82, colour: 40 };
+/** That of what three.js makes of a file: the page's edges of leaves are soft. */
+const FILE: Tolerance = { overlap: 0.82, colour: 32 };
 /** That of the server's own picture, whose paper, seen through crowns, is lighter. */
 const DRAWN: Tolerance = { overlap: 0.94, colour: 40 };
 

@@ -348,7 +348,7 @@ void main() {
   vMiddle = hues.middle * dye;
   vMargin = hues.margin * dye;
   // The outer half of a leaf sees more of the sky than where it is hidden by its twig, or by other needles.
-  vLight = vec2(node.look == MARKED ? -1.0 : node.light, mix(mix(0.72, 0.58, uLeafForm.y), 1.0, card.y));
+  vLight = vec2(node.look == MARKED ? -1.0 : node.light, mix(mix(0.72, 0.8, uLeafForm.y), 1.0, card.y));
 #ifdef SPRIG
   vLight.y = 0.86;
 #endif
@@ -452,7 +452,7 @@ void main() {
     vec2 cell = floor(line / (1.25 * exp2(ceil(log2(max(pixel, 1e-5)) - 0.5)))) + 16.0 * floor(2.0 * vPicture);
     vec2 grain = fract(sin(vec2(dot(cell, vec2(12.9898, 78.233)), dot(cell, vec2(39.346, 11.135)))) * 43758.5453);
     there = mix(there, clamp(1.5 * painted.a + grain.x - 0.65, 0.0, 1.0), thin);
-    painted.r *= 1.0 + thin * (grain.y - 0.4);
+    painted.r *= 1.0 + thin * (grain.y - 0.15);
     painted.g = mix(painted.g, 1.0, thin * 0.6 * smoothstep(0.75, 1.0, grain.y));
   }
 #ifdef GHOST
